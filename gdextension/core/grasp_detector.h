@@ -1,0 +1,39 @@
+// Grasp angle -> open, grasped or over-closed, with hysteresis and dwell, so that noise does not chatter.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace spidar {
+
+inline constexpr double kDegree_rad = 0.017453292519943295;
+
+enum class GraspPhase : std::uint8_t { open = 0, grasped = 1, over_closed = 2 };
+
+// Paper: grasping between 20 and 50 degrees (its zero is not stated; here grasp_angle, 0 at rest).
+struct GraspSettings {
+    double enter_rad = 20.0 * kDegree_rad;
+    double leave_rad = 15.0 * kDegree_rad;
+    double over_closed_rad = 55.0 * kDegree_rad;
+    double over_closed_leave_rad = 50.0 * kDegree_rad;
+    double dwell_s = 0.030; // a new phase must last this long before it counts
+};
+
+class GraspDetector {
+public:
+    void configure(const GraspSettings &settings) noexcept { settings_ = settings; }
+    // A grasp angle that is not finite changes nothing. dt_s: time since the last call.
+    GraspPhase update(double grasp_angle_rad, double dt_s) noexcept;
+    [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
+    void reset() noexcept;
+
+private:
+    GraspSettings settings_{};
+    GraspPhase phase_ = GraspPhase::open;
+    GraspPhase candidate_ = GraspPhase::open;
+    double candidate_age_s_ = 0.0;
+};
+
+[[nodiscard]] std::string validate(const GraspSettings &settings);
+
+} // namespace spidar

@@ -1,0 +1,93 @@
+// Wrench -> eight tensions that only pull, within limits:
+//   min ||W (A tau - q)||^2 + ridge ||tau||^2 + reference_weight ||tau - tau_ref||^2
+//       + change_weight ||tau - tau_last||^2          subject to tau_min <= tau <= tau_max.
+// (research: moments and g weighted by 1/d, so that all rows are newtons at the pole ends.) The exact
+// optimum by a primal active-set method, warm from the last tick's active set.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/status.h"
+#include "core/types.h"
+#include "core/wrench_matrix.h"
+
+namespace spidar {
+
+// One bounded least-squares problem, spelled out.
+struct TensionProblem {
+    WrenchMatrix matrix;
+    DofArray wrench{};   // q, the paper's order and g
+    DofArray weights{};  // diagonal of W
+    // Sum of all quadratic terms in tau alone, as one weight and one target per string:
+    // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
+    double proximal_weight = 0.0;
+    StringArray proximal_target_n{};
+    StringArray lower_n{};
+    StringArray upper_n{};
+};
+
+enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
+using ActiveSet = std::array<StringBound, kStringCount>;
+
+struct TensionSolution {
+    StringArray tensions_n{};
+    ActiveSet active{};
+    double objective = 0.0;
+    int iterations = 0;      // factorisations
+    Status status = Status::ok;
+};
+
+// Exact optimum of `problem`. `warm` (may be null) is a guess of the active set and changes only the time.
+// Not finite input: status not_finite, tensions = lower bounds clamped to [0, upper]. Never NaN.
+[[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
+                                                    const ActiveSet *warm) noexcept;
+
+struct TensionSettings {
+    double min_tension_n = 0.3;
+    double max_tension_n = 10.0;
+    double reference_tension_n = 0.5; // tau_ref, the pretension
+    double weight_force = 1.0;
+    double weight_moment_per_m = 25.0; // 1/d
+    double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
+    double ridge = 1e-9;               // uniqueness only
+    double reference_weight = 1e-4;    // pull towards tau_ref
+    double change_weight = 1e-3;       // against jumps from tick to tick
+    std::uint8_t broken_mask = 0;      // bit i: string i is broken, its tension is 0
+};
+
+struct TensionResult {
+    StringArray tensions_n{};
+    DofArray achieved{};         // A tau
+    DofArray error{};            // A tau - q
+    DofArray bias{};             // what the ridge and reference terms alone cost at this pose, strings free
+    std::uint8_t at_min_mask = 0;
+    std::uint8_t at_max_mask = 0;
+    int iterations = 0;
+    Status status = Status::ok;  // wrench_limited when strings at a bound change the wrench noticeably
+};
+
+// The solver of the servo loop: settings, memory of the last tick, reports.
+class TensionSolver {
+public:
+    // On a negative status the old settings stand.
+    Status configure(const TensionSettings &settings) noexcept;
+    [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
+
+    // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
+    TensionResult update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
+    void set_last_tensions(const StringArray &tensions_n) noexcept { last_tensions_n_ = tensions_n; }
+    // Forget the last tick.
+    void reset() noexcept;
+
+private:
+    TensionSettings settings_{};
+    StringArray last_tensions_n_{};
+    ActiveSet last_active_{};
+    bool warm_ = false;
+};
+
+[[nodiscard]] std::string validate(const TensionSettings &settings);
+
+} // namespace spidar

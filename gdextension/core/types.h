@@ -1,0 +1,55 @@
+// Value types shared by the whole core. SI units; device frame unless a name says otherwise.
+//
+// Device frame: origin at the centre of the frame, axes X, Y, Z of the paper, right-handed.
+// Strings, corners and motors are numbered 1-8 in the paper and 0-7 here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace spidar {
+
+using Vec3 = glm::dvec3;
+using Mat3 = glm::dmat3; // column-major: Mat3(x_axis, y_axis, z_axis)
+
+inline constexpr int kStringCount = 8;
+inline constexpr int kDofCount = 7;
+
+// One value a string, index 0-7.
+using StringArray = std::array<double, kStringCount>;
+using CountArray = std::array<std::int32_t, kStringCount>;
+using StringVectors = std::array<Vec3, kStringCount>;
+
+// One value a degree of freedom, in the order of the paper's wrench q:
+// fx fy fz (N), mx my mz (N m), g (N m). The paper's g is conjugate to -psi/2, so g = 2 grasp_torque.
+using DofArray = std::array<double, kDofCount>;
+
+// What a game asks for and what the hand feels.
+struct Wrench {
+    Vec3 force_n{0.0};
+    Vec3 moment_nm{0.0};          // about the grip centre P0
+    double grasp_torque_nm = 0.0; // conjugate to grasp_angle: positive closes the poles
+};
+
+// Rate of change of the grip. Power given to the hand = dot(wrench, twist) over all seven DOF.
+struct Twist {
+    Vec3 linear_m_s{0.0};
+    Vec3 angular_rad_s{0.0};
+    double grasp_rate_rad_s = 0.0; // d(grasp_angle)/dt
+};
+
+// Game-level wrench -> the paper's q (g = 2 grasp_torque), and back.
+[[nodiscard]] inline DofArray to_paper(const Wrench &wrench) noexcept {
+    return {wrench.force_n.x,   wrench.force_n.y,   wrench.force_n.z,
+            wrench.moment_nm.x, wrench.moment_nm.y, wrench.moment_nm.z,
+            2.0 * wrench.grasp_torque_nm};
+}
+
+[[nodiscard]] inline Wrench from_paper(const DofArray &q) noexcept {
+    return {Vec3(q[0], q[1], q[2]), Vec3(q[3], q[4], q[5]), 0.5 * q[6]};
+}
+
+} // namespace spidar
