@@ -1,0 +1,57 @@
+// Owns a transport and drives ServoStep: by its own real-time thread, or stepped in simulated time.
+// One controlling thread (the game's) calls everything here.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#include "device/servo_step.h"
+#include "device/transport.h"
+
+namespace spidar {
+
+struct LoopStatistics {
+    double measured_rate_hz = 0.0;     // over the last second; the set rate when stepped
+    double lateness_p50_us = 0.0;      // wake-up after the deadline; 0 when stepped
+    double lateness_p99_us = 0.0;
+    double lateness_max_us = 0.0;
+    double step_p50_us = 0.0;          // read + compute + write
+    double step_p99_us = 0.0;
+    std::uint64_t missed_deadlines = 0;
+    bool real_time_priority = false;   // SCHED_FIFO granted
+};
+
+class ServoLoop {
+public:
+    explicit ServoLoop(std::unique_ptr<Transport> transport);
+    ~ServoLoop(); // stop()
+    ServoLoop(const ServoLoop &) = delete;
+    ServoLoop &operator=(const ServoLoop &) = delete;
+
+    // Opens the transport. On failure nothing runs.
+    Status start_threaded(const ServoSettings &settings);
+    Status start_stepped(const ServoSettings &settings);
+    // Motors to zero, thread joined, then the handle closed. Safe at any time, twice too.
+    void stop() noexcept;
+    [[nodiscard]] bool running() const noexcept;
+    [[nodiscard]] bool threaded() const noexcept;
+
+    // Stepped only: advance by numerator/denominator seconds of simulated time in whole servo cycles; the rest
+    // is carried (rational accumulator: 1/60 s at 1 kHz gives 16 or 17 cycles). Returns the cycles run.
+    int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
+
+    // Newest command wins. Wait-free.
+    void publish(const HapticCommand &command) noexcept;
+    // The newest snapshot. True when it is newer than at the last call. Wait-free.
+    bool latest(ServoSnapshot &snapshot) noexcept;
+    [[nodiscard]] LoopStatistics statistics() const noexcept;
+    [[nodiscard]] Transport &transport() noexcept;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace spidar

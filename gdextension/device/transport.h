@@ -1,0 +1,48 @@
+// The border to a device: encoder counts in, motor currents out. One thread owns a transport.
+#pragma once
+
+#include <cstdint>
+
+#include "core/status.h"
+#include "core/types.h"
+
+namespace spidar {
+
+struct DeviceReading {
+    CountArray counts{};
+    std::uint64_t device_time_us = 0; // the device's own clock; 0 when it has none
+    std::uint16_t sequence = 0;
+    std::uint8_t buttons = 0;
+};
+
+// What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and
+// the motor currents that MotorCalibration makes of them.
+struct DriveCommand {
+    StringArray tensions_n{};
+    StringArray currents_a{};
+    bool motors_on = false; // false: currents are zero and the device may cut power
+};
+
+class Transport {
+public:
+    Transport() = default;
+    Transport(const Transport &) = delete;
+    Transport &operator=(const Transport &) = delete;
+    virtual ~Transport() = default;
+
+    // Not from a servo step: may allocate and wait.
+    virtual Status open() noexcept = 0;
+    // Motors off first, then the handle. Safe when not open.
+    virtual void close() noexcept = 0;
+
+    // The newest reading. read_timeout: nothing new (reading untouched); read_failed: device lost.
+    virtual Status read(DeviceReading &reading) noexcept = 0;
+    virtual Status write(const DriveCommand &command) noexcept = 0;
+
+    // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
+    virtual void advance(double dt_s) noexcept { (void)dt_s; }
+    // A simulated device may arm itself when forces are enabled; a real one arms only on arm().
+    [[nodiscard]] virtual bool simulated() const noexcept { return false; }
+};
+
+} // namespace spidar
