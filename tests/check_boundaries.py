@@ -4,10 +4,12 @@
 Prints each complaint as FILE:LINE, then "N passed, N failed".
 """
 
+import io
 import os
 import re
 import subprocess
 import sys
+import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -122,6 +124,15 @@ def versions(files):
             yield path, 1, f"has no line {text} as version.py says"
 
 
+def archive():
+    """.gitattributes: an archive of the repository holds addons/ only."""
+    command = ["git", "archive", "--worktree-attributes", "--format=zip", "HEAD"]
+    done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    for name in zipfile.ZipFile(io.BytesIO(done.stdout)).namelist():
+        if not name.startswith("addons/"):
+            yield ".gitattributes", 1, f"an archive would hold {name}"
+
+
 def main():
     files = tracked_files()
     checks = {
@@ -134,6 +145,7 @@ def main():
         "machine paths and registries": machine_names(files),
         "length of sources": long_files(files),
         "one version": versions(files),
+        "archive": archive(),
     }
     failed = 0
     for folder in MAY_INCLUDE:  # a check that looks at nothing proves nothing
