@@ -25,7 +25,7 @@ MAY_INCLUDE = {
     ),
     "gdextension/godot": (
         r'"core/', r'"device/', r'"godot/', r'"spidar_version\.h"', r"<glm/", r"<godot_cpp/",
-        STANDARD,
+        r"<gdextension_interface\.h>", STANDARD,
     ),
 }
 # Where a committed file may send its reader. A script may fetch from none of them.
