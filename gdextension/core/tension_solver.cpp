@@ -41,7 +41,7 @@ bool finite(const WrenchMatrix &matrix) noexcept {
 }
 
 DofArray wrench_error(const TensionProblem &problem, const StringArray &tensions_n) noexcept {
-    DofArray error = apply(problem.matrix, tensions_n);
+    DofArray error = spidar::apply(problem.matrix, tensions_n);
     for (std::size_t k = 0; k < kDofs; ++k) {
         error[k] -= problem.wrench[k];
     }
@@ -224,7 +224,7 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
     result.tensions_n = solution.tensions_n;
     result.iterations = solution.iterations;
     result.status = solution.status;
-    result.achieved = apply(matrix, result.tensions_n);
+    result.achieved = spidar::apply(matrix, result.tensions_n);
     result.error = wrench_error(problem, result.tensions_n);
     for (std::size_t i = 0; i < kStrings; ++i) {
         if (!has_string(free, i)) {
