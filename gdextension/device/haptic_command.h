@@ -11,6 +11,8 @@
 namespace spidar {
 
 inline constexpr int kMaxContacts = 8;
+// A raw wrench is short-lived by nature: nothing local stops a grip that the hand lets go.
+inline constexpr double kMaxWrenchDuration_s = 60.0;
 
 // Which point of the grip a contact plane stops.
 enum class ContactTarget : std::uint8_t {
@@ -53,8 +55,11 @@ struct HapticCommand {
     std::array<ContactPlane, kMaxContacts> contacts{};
 };
 
-// ok, or invalid_request / not_finite: the command must then not be published.
+// ok, or invalid_request / not_finite: the command must then not be published. Over-large but finite values
+// are ok: the device brings them down to its limits. duration_s: 0 to kMaxWrenchDuration_s.
 [[nodiscard]] Status validate_wrench(const Wrench &wrench, double duration_s) noexcept;
 [[nodiscard]] Status validate_contact(const ContactPlane &contact) noexcept;
+// contact_count and every contact that it covers.
+[[nodiscard]] Status validate_contacts(const HapticCommand &command) noexcept;
 
 } // namespace spidar

@@ -2,20 +2,28 @@
 // (state, reading, command, time step). Same input, same bits: threaded, stepped, tests and replay all call it.
 #pragma once
 
-#include "core/forward_kinematics.h"
 #include "core/tension_solver.h"
+#include "device/contact_renderer.h"
+#include "device/device_state_machine.h"
+#include "device/grip_tracker.h"
 #include "device/haptic_command.h"
+#include "device/safety_gate.h"
+#include "device/sample_guard.h"
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
 #include "device/transport.h"
+#include "device/wrench_request.h"
 
 namespace spidar {
 
 // Everything that evolves from tick to tick lives in here.
 class ServoStep {
 public:
-    // On a failure the old settings stand. Not from the servo loop.
+    // On a failure the old settings stand; else everything starts afresh. Not from the servo loop.
     Status configure(const ServoSettings &settings) noexcept;
+
+    // Takes this command's edges and requests as already seen: what was asked before a start does not act after it.
+    void acknowledge(const HapticCommand &command) noexcept;
 
     // read_status: what Transport::read returned. may_arm_itself: simulated devices arm when forces are enabled.
     // Returns what to write; snapshot() holds the rest.
@@ -28,7 +36,42 @@ public:
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
 
 private:
-    // (the "servo" part: kinematics_, solver_, renderer_, safety_gate_, filters, ages)
+    struct Edges {
+        bool arm = false;
+        bool disarm = false;
+        bool clear_fault = false;
+    };
+    Edges take_edges(const HapticCommand &command) noexcept;
+    void take_requests(const HapticCommand &command, double dt_s) noexcept;
+    void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
+    void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
+    DriveCommand drive(double dt_s) noexcept;
+    void publish_state() noexcept;
+
+    ServoSettings settings_{};
+    double nominal_dt_s_ = 0.001;
+    SampleGuard guard_;
+    GripTracker tracker_;
+    GraspDetector grasp_;
+    WrenchRequest wrench_;
+    ContactRenderer contacts_;
+    DeviceStateMachine machine_;
+    TensionSolver solver_;
+    SafetyGate gate_;
+    WrenchMatrix matrix_{};
+    bool matrix_valid_ = false;  // of the present pose
+    bool motors_were_on_ = false;
+    bool limiting_ = false;      // the sum of all requests is being brought down
+    bool tracking_ = false;      // the newest sample gave a pose
+    bool answered_ = false;      // any reading yet
+    double since_report_s_ = 0.0;
+    int unsolved_in_row_ = 0;    // samples without a pose
+    double link_scale_ = 1.0;    // of the wrench, while reports fail to come
+    std::uint32_t arm_count_ = 0;
+    std::uint32_t disarm_count_ = 0;
+    std::uint32_t clear_fault_count_ = 0;
+    std::uint64_t wrench_sequence_ = 0;
+    std::uint64_t contacts_sequence_ = 0;
     ServoSnapshot snapshot_{};
 };
 

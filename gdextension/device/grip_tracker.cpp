@@ -1,0 +1,124 @@
+#include "device/grip_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "device/grip_points.h"
+
+namespace spidar {
+
+namespace {
+
+// Rotation vector of a rotation matrix (unit: rad), for turns below half a turn: one cycle is far less.
+Vec3 rotation_log(const Mat3 &turn) noexcept {
+    const Vec3 sine(0.5 * (turn[1][2] - turn[2][1]), 0.5 * (turn[2][0] - turn[0][2]),
+                    0.5 * (turn[0][1] - turn[1][0]));
+    const double s = glm::length(sine);
+    const double c = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
+    constexpr double kSmall = 1e-9; // angle / sine is 1 to double precision below this
+    return s > kSmall ? (std::atan2(s, c) / s) * sine : sine;
+}
+
+} // namespace
+
+Status GripTracker::configure(const ServoSettings &settings) noexcept {
+    ForwardKinematics kinematics;
+    const Status status = kinematics.configure(settings.frame, settings.grip);
+    if (!usable(status)) {
+        return status;
+    }
+    *this = GripTracker();
+    kinematics_ = kinematics;
+    strings_ = settings.strings;
+    cutoff_rad_s_ = 2.0 * std::numbers::pi * settings.velocity_cutoff_hz;
+    grip_.pose = rest_pose(settings.grip);
+    grip_.frame = frame_of(grip_.pose, Mat3(1.0));
+    return Status::ok;
+}
+
+void GripTracker::restart() noexcept {
+    kinematics_.reset();
+    has_pose_ = false;
+    solved_ = false;
+    since_pose_s_ = 0.0;
+    grip_.twist = Twist();
+    grip_.status = Status::held_last_pose;
+}
+
+void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
+    const double alpha = -std::expm1(-cutoff_rad_s_ * dt_s);
+    Twist &twist = grip_.twist;
+    twist.linear_m_s += alpha * (raw.linear_m_s - twist.linear_m_s);
+    twist.angular_rad_s += alpha * (raw.angular_rad_s - twist.angular_rad_s);
+    twist.grasp_rate_rad_s += alpha * (raw.grasp_rate_rad_s - twist.grasp_rate_rad_s);
+}
+
+GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged,
+                                        double dt_s) noexcept {
+    Update result;
+    if (unchanged && solved_) {
+        result.skipped = true;
+        since_pose_s_ = 0.0;
+        filter_twist(Twist(), dt_s);
+        return result;
+    }
+    const StringArray lengths_m = lengths_from_counts(strings_, counts);
+    const KinematicsResult solution = kinematics_.update(lengths_m);
+    result.status = solution.status;
+    result.cold_start = solution.cold_start;
+    grip_.residual_rms_m = solution.residual_rms_m;
+    grip_.conditioning = solution.conditioning;
+    if (!usable(solution.status) || solution.status == Status::held_last_pose) {
+        solved_ = false;
+        result.status = usable(solution.status) ? Status::impossible_lengths : solution.status;
+        return result;
+    }
+    lengths_m_ = lengths_m;
+    const double elapsed_s = since_pose_s_ + dt_s;
+    since_pose_s_ = 0.0;
+    const GripFrame frame = frame_of(solution.pose, grip_.frame.rotation);
+    if (!has_pose_) {
+        grip_.twist = Twist();
+    } else if (solution.cold_start) {
+        filter_twist(grip_.twist, dt_s); // found anew, not moved: a difference would be no velocity
+    } else {
+        Twist raw;
+        raw.linear_m_s = (solution.pose.position_m - grip_.pose.position_m) / elapsed_s;
+        raw.angular_rad_s =
+            rotation_log(frame.rotation * glm::transpose(grip_.frame.rotation)) / elapsed_s;
+        raw.grasp_rate_rad_s =
+            (frame.grasp_angle_rad - grip_.frame.grasp_angle_rad) / elapsed_s;
+        filter_twist(raw, dt_s);
+    }
+    grip_.pose = solution.pose;
+    grip_.frame = frame;
+    grip_.status = solution.status;
+    has_pose_ = true;
+    solved_ = true;
+    result.moved = true;
+    return result;
+}
+
+void GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
+    since_pose_s_ += dt_s;
+    grip_.status = why;
+    if (stale) {
+        filter_twist(Twist(), dt_s);
+    }
+}
+
+double GripTracker::fastest_point_m_s() const noexcept {
+    double fastest_m_s = 0.0;
+    for (const ContactTarget point :
+         {ContactTarget::centre, ContactTarget::pole1_plus, ContactTarget::pole1_minus,
+          ContactTarget::pole2_plus, ContactTarget::pole2_minus}) {
+        fastest_m_s = std::max(fastest_m_s, glm::length(grip_point_velocity(grip_, point)));
+    }
+    return fastest_m_s;
+}
+
+} // namespace spidar

@@ -1,0 +1,47 @@
+// Counts of each cycle -> GripState: pose by forward kinematics, twist by the difference of poses, filtered.
+#pragma once
+
+#include "core/forward_kinematics.h"
+#include "device/servo_settings.h"
+#include "device/servo_snapshot.h"
+
+namespace spidar {
+
+class GripTracker {
+public:
+    // On a negative status the old configuration stands.
+    Status configure(const ServoSettings &settings) noexcept;
+    // The next sample is solved from no memory; the twist starts again from zero.
+    void restart() noexcept;
+
+    struct Update {
+        Status status = Status::ok; // < 0: the pose is the last good one
+        bool skipped = false;       // counts unchanged: nothing to solve
+        bool cold_start = false;
+        bool moved = false;         // the pose changed
+    };
+    // A plausible sample. `unchanged`: the same counts as the last good one.
+    Update update(const CountArray &counts, bool unchanged, double dt_s) noexcept;
+    // No usable sample in this cycle: pose held. The twist is held too, until stale: then it falls to zero.
+    void hold(Status why, double dt_s, bool stale) noexcept;
+
+    [[nodiscard]] const GripState &grip() const noexcept { return grip_; }
+    [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
+    [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
+    // Speed of the fastest of P0 and the four pole ends (unit: m/s).
+    [[nodiscard]] double fastest_point_m_s() const noexcept;
+
+private:
+    void filter_twist(const Twist &raw, double dt_s) noexcept;
+
+    ForwardKinematics kinematics_;
+    StringCalibration strings_{};
+    double cutoff_rad_s_ = 0.0;
+    GripState grip_{};
+    StringArray lengths_m_{};
+    bool has_pose_ = false;
+    bool solved_ = false;      // the last sample gave a pose
+    double since_pose_s_ = 0.0; // since the pose the next difference is taken from
+};
+
+} // namespace spidar

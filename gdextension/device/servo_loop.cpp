@@ -1,0 +1,243 @@
+#include "device/servo_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "device/loop_histogram.h"
+#include "device/real_time_thread.h"
+#include "device/triple_buffer.h"
+
+namespace spidar {
+
+namespace {
+
+// An advance() asking for more than this (a quarter of an hour at 1 kHz) is a mistake: the rest is dropped.
+constexpr std::uint64_t kMostCyclesAtOnce = 1'000'000;
+// Measured time steps of real devices stay within these: a wake-up too early or a suspended computer.
+constexpr double kShortestStepPart = 0.25; // of the period
+constexpr double kLongestStep_s = 0.05;
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+} // namespace
+
+struct ServoLoop::Impl {
+    std::unique_ptr<Transport> transport;
+    ServoStep step;
+    HapticCommand command;
+    DeviceReading reading;
+    TripleBuffer<HapticCommand> commands;
+    TripleBuffer<ServoSnapshot> snapshots;
+
+    std::thread thread;
+    std::atomic<bool> stop_asked{false};
+    bool is_running = false; // the controlling thread's own
+    bool is_threaded = false;
+
+    double rate_hz = 1000.0;
+    double period_s = 0.001;
+    // Stepped: the part of a cycle not run yet, in units of 1 / carry_denominator cycles.
+    std::uint64_t carry = 0;
+    std::uint64_t carry_denominator = 1;
+
+    LoopHistogram lateness;
+    LoopHistogram step_time;
+    std::atomic<std::uint64_t> missed_deadlines{0};
+    std::atomic<double> measured_rate_hz{0.0};
+    std::atomic<bool> real_time_priority{false};
+
+    // Read, compute, write in one cycle; then simulated time moves on.
+    void cycle(double dt_s) noexcept {
+        const Status read = transport->read(reading);
+        commands.read(command);
+        const DriveCommand drive =
+            step.step(read, reading, command, dt_s, transport->simulated());
+        const bool lost = step.snapshot().state == DeviceState::closed;
+        const Status written = transport->write(drive);
+        if (!lost) {
+            step.report_write(written); // a lost device is not lost a second time
+        }
+        snapshots.write(step.snapshot());
+        transport->advance(dt_s);
+    }
+
+    Status prepare(const ServoSettings &settings) noexcept {
+        const HapticCommand before = command;
+        const Status configured = step.configure(settings);
+        if (!usable(configured)) {
+            return configured;
+        }
+        command = before;
+        commands.read(command);
+        step.acknowledge(command);
+        rate_hz = settings.rate_hz;
+        period_s = 1.0 / rate_hz;
+        reading = DeviceReading();
+        carry = 0;
+        carry_denominator = 1;
+        lateness.clear();
+        step_time.clear();
+        missed_deadlines.store(0, std::memory_order_relaxed);
+        measured_rate_hz.store(0.0, std::memory_order_relaxed);
+        real_time_priority.store(false, std::memory_order_relaxed);
+        stop_asked.store(false, std::memory_order_relaxed);
+        return transport->open();
+    }
+
+    void run() noexcept {
+        const FlushDenormals flush;
+        real_time_priority.store(request_real_time(), std::memory_order_relaxed);
+        const auto period_ns = static_cast<std::int64_t>(std::llround(period_s * 1e9));
+        const bool simulated = transport->simulated();
+        std::int64_t deadline_ns = monotonic_ns() + period_ns;
+        std::int64_t last_ns = deadline_ns - period_ns;
+        std::int64_t window_start_ns = last_ns;
+        std::int64_t window_cycles = 0;
+        while (!stop_asked.load(std::memory_order_acquire)) {
+            sleep_until_ns(deadline_ns);
+            const std::int64_t woken_ns = monotonic_ns();
+            lateness.add(woken_ns - deadline_ns);
+            const double measured_s = static_cast<double>(woken_ns - last_ns) * 1e-9;
+            last_ns = woken_ns;
+            cycle(simulated ? period_s
+                            : std::clamp(measured_s, kShortestStepPart * period_s, kLongestStep_s));
+            const std::int64_t done_ns = monotonic_ns();
+            step_time.add(done_ns - woken_ns);
+
+            deadline_ns += period_ns;
+            if (done_ns > deadline_ns) { // skip what is missed; catching up would only jerk
+                const std::int64_t missed = (done_ns - deadline_ns) / period_ns + 1;
+                missed_deadlines.fetch_add(static_cast<std::uint64_t>(missed),
+                                           std::memory_order_relaxed);
+                deadline_ns += missed * period_ns;
+            }
+            ++window_cycles;
+            const std::int64_t window_ns = done_ns - window_start_ns;
+            if (window_ns >= kNanosecondsPerSecond) {
+                measured_rate_hz.store(static_cast<double>(window_cycles) * 1e9 /
+                                           static_cast<double>(window_ns),
+                                       std::memory_order_relaxed);
+                window_start_ns = done_ns;
+                window_cycles = 0;
+            }
+        }
+        transport->write(DriveCommand()); // motors off, in the thread that owns the device
+    }
+};
+
+ServoLoop::ServoLoop(std::unique_ptr<Transport> transport) : impl_(std::make_unique<Impl>()) {
+    impl_->transport = std::move(transport);
+}
+
+ServoLoop::~ServoLoop() { stop(); }
+
+Status ServoLoop::start_stepped(const ServoSettings &settings) {
+    stop();
+    const Status status = impl_->prepare(settings);
+    if (!usable(status)) {
+        return status;
+    }
+    impl_->measured_rate_hz.store(settings.rate_hz, std::memory_order_relaxed);
+    impl_->is_running = true;
+    impl_->is_threaded = false;
+    return status;
+}
+
+Status ServoLoop::start_threaded(const ServoSettings &settings) {
+    stop();
+    const Status status = impl_->prepare(settings);
+    if (!usable(status)) {
+        return status;
+    }
+    try {
+        impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+    } catch (const std::system_error &) { // the system has no thread left
+        impl_->transport->close();
+        return Status::open_failed;
+    }
+    impl_->is_running = true;
+    impl_->is_threaded = true;
+    return status;
+}
+
+void ServoLoop::stop() noexcept {
+    if (!impl_->is_running) {
+        return;
+    }
+    if (impl_->is_threaded) {
+        impl_->stop_asked.store(true, std::memory_order_release);
+        impl_->thread.join();
+    } else {
+        impl_->transport->write(DriveCommand());
+    }
+    impl_->transport->close();
+    impl_->is_running = false;
+    impl_->is_threaded = false;
+    // What a reader sees from now on: no device, no force.
+    ServoSnapshot last = impl_->step.snapshot();
+    last.state = DeviceState::closed;
+    last.tensions_n = {};
+    last.requested = Wrench();
+    last.achieved = Wrench();
+    last.bias = Wrench();
+    last.force_scale = 0.0;
+    last.at_min_mask = 0;
+    last.at_max_mask = 0;
+    last.grip.twist = Twist();
+    last.grip.status = Status::not_open;
+    impl_->snapshots.write(last);
+}
+
+bool ServoLoop::running() const noexcept { return impl_->is_running; }
+
+bool ServoLoop::threaded() const noexcept { return impl_->is_threaded; }
+
+int ServoLoop::advance(std::uint32_t numerator, std::uint32_t denominator) noexcept {
+    Impl &impl = *impl_;
+    if (!impl.is_running || impl.is_threaded || denominator == 0) {
+        return 0;
+    }
+    // The rate as a fraction of whole millihertz keeps the sum exact: no drift in an hour of ticks.
+    constexpr std::uint64_t kMillihertz = 1000;
+    const auto rate_mhz =
+        static_cast<std::uint64_t>(std::llround(impl.rate_hz * static_cast<double>(kMillihertz)));
+    const std::uint64_t unit = denominator * kMillihertz;
+    if (unit != impl.carry_denominator) { // another tick length: the rest to the nearest new unit
+        const double part =
+            static_cast<double>(impl.carry) / static_cast<double>(impl.carry_denominator);
+        impl.carry = static_cast<std::uint64_t>(std::llround(part * static_cast<double>(unit)));
+        impl.carry_denominator = unit;
+    }
+    const std::uint64_t sum = impl.carry + numerator * rate_mhz;
+    impl.carry = sum % unit;
+    const std::uint64_t cycles = std::min(sum / unit, kMostCyclesAtOnce);
+    const FlushDenormals flush;
+    for (std::uint64_t i = 0; i < cycles; ++i) {
+        impl.cycle(impl.period_s);
+    }
+    return static_cast<int>(cycles);
+}
+
+void ServoLoop::publish(const HapticCommand &command) noexcept { impl_->commands.write(command); }
+
+bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept { return impl_->snapshots.read(snapshot); }
+
+LoopStatistics ServoLoop::statistics() const noexcept {
+    const Impl &impl = *impl_;
+    LoopStatistics statistics;
+    statistics.measured_rate_hz = impl.measured_rate_hz.load(std::memory_order_relaxed);
+    constexpr double kMedian = 0.5;
+    constexpr double kTail = 0.99;
+    statistics.lateness_p50_us = impl.lateness.quantile_us(kMedian);
+    statistics.lateness_p99_us = impl.lateness.quantile_us(kTail);
+    statistics.lateness_max_us = impl.lateness.max_us();
+    statistics.step_p50_us = impl.step_time.quantile_us(kMedian);
+    statistics.step_p99_us = impl.step_time.quantile_us(kTail);
+    statistics.missed_deadlines = impl.missed_deadlines.load(std::memory_order_relaxed);
+    statistics.real_time_priority = impl.real_time_priority.load(std::memory_order_relaxed);
+    return statistics;
+}
+
+Transport &ServoLoop::transport() noexcept { return *impl_->transport; }
+
+} // namespace spidar

@@ -1,0 +1,23 @@
+#include "device/servo_snapshot.h"
+
+namespace spidar {
+
+const char *describe(DeviceState state) noexcept {
+    switch (state) {
+    case DeviceState::closed:
+        return "Closed: no device is open.";
+    case DeviceState::connected:
+        return "Connected: the grip is read, the motors are off.";
+    case DeviceState::arming:
+        return "Arming: the forces are rising.";
+    case DeviceState::active:
+        return "Active: forces are rendered.";
+    case DeviceState::fading:
+        return "Fading: the forces are falling to zero.";
+    case DeviceState::fault:
+        return "Fault: the motors are off until clear_fault() and arm().";
+    }
+    return "Unknown device state.";
+}
+
+} // namespace spidar

@@ -1,0 +1,32 @@
+// The raw 7-D wrench: full for as long as it was asked for, then faded; and the limits that every wrench keeps.
+#pragma once
+
+#include "device/servo_settings.h"
+
+namespace spidar {
+
+[[nodiscard]] Wrench operator+(const Wrench &a, const Wrench &b) noexcept;
+[[nodiscard]] Wrench operator*(double factor, const Wrench &wrench) noexcept;
+
+// The factor (0..1] that brings force, moment and grasp torque inside their limits. One factor for all seven
+// DOF: the direction of the wrench is kept. Holds for every finite wrench, 1e308 too; 0 for one that is not.
+[[nodiscard]] double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept;
+
+class WrenchRequest {
+public:
+    void configure(const SafetySettings &safety) noexcept;
+    // A valid request (validate_wrench). True when it had to be brought down to a limit.
+    bool accept(const Wrench &wrench, double duration_s) noexcept;
+    // Once a cycle, before accept(). True in the cycle in which the request ends.
+    bool age(double dt_s) noexcept;
+    [[nodiscard]] Wrench value() const noexcept;
+
+private:
+    SafetySettings safety_{};
+    Wrench wrench_{};
+    double duration_s_ = 0.0;
+    double age_s_ = 0.0;
+    bool live_ = false;
+};
+
+} // namespace spidar
