@@ -4,36 +4,22 @@
 
 #include <memory>
 
+#include "device/fault_injection.h"
 #include "device/simulated_plant.h"
 #include "device/transport.h"
 
 namespace spidar {
 
-enum class SimulatedFault : std::uint8_t {
-    output_cut = 0,     // currents never reach the motors
-    frozen_counts = 1,  // the encoders stand still
-    count_jump = 2,     // every count of string `string` is off by 1000
-    read_timeout = 3,   // no reports
-    unplugged = 4,      // read and write fail
-    stuck_encoder = 5,  // one string's count stands still
-    broken_string = 6,  // one string pulls no more
-};
-
-// A fault that lasts for ever when duration_s <= 0. start_s counts from the call.
-struct FaultInjection {
-    SimulatedFault fault = SimulatedFault::output_cut;
-    int string = 0;
-    double start_s = 0.0;
-    double duration_s = 0.0;
-};
-
 class SimulatedTransport final : public Transport {
 public:
+    // Settings that do not validate() are kept out: open() then gives invalid_settings.
     explicit SimulatedTransport(const PlantSettings &settings);
     ~SimulatedTransport() override;
 
     Status open() noexcept override;
+    // Currents to zero. The hand and the grip live on while advance() is called.
     void close() noexcept override;
+    // One report at open() and one at each advance(): read_timeout when it has been read already.
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     void advance(double dt_s) noexcept override;
@@ -45,9 +31,11 @@ public:
     // From the controlling thread.
     void set_hand_target(const HandTarget &target) noexcept; // not finite: ignored
     void set_hand_firmness(HandFirmness firmness) noexcept;
-    void inject(const FaultInjection &fault) noexcept;       // up to 8 at a time
+    // False, and nothing happens: not usable, or kMaxFaults are pending or active already. Its time starts at
+    // the next advance(), open() or read().
+    bool inject(const FaultInjection &fault) noexcept;
     void clear_faults() noexcept;
-    // The plant at the end of the last finished cycle.
+    // The plant at the end of the last finished advance().
     [[nodiscard]] PlantTruth truth() noexcept;
 
 private:

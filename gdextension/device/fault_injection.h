@@ -1,0 +1,65 @@
+// Faults that a simulated device can be told to have, and when, in simulated time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace spidar {
+
+enum class SimulatedFault : std::uint8_t {
+    output_cut = 0,    // currents never reach the motors
+    frozen_counts = 1, // the encoders stand still
+    count_jump = 2,    // every count of string `string` is off by kCountJump
+    read_timeout = 3,  // no reports
+    unplugged = 4,     // open, read and write fail; motors without power
+    stuck_encoder = 5, // one string's count stands still
+    broken_string = 6, // one string pulls no more
+};
+
+inline constexpr std::int32_t kCountJump = 1000; // 25 mm with the paper's pulley
+inline constexpr int kMaxFaults = 8;
+
+// A fault that lasts for ever when duration_s <= 0. start_s counts from the call.
+struct FaultInjection {
+    SimulatedFault fault = SimulatedFault::output_cut;
+    int string = 0; // 0-7, where the fault has one
+    double start_s = 0.0;
+    double duration_s = 0.0;
+};
+
+// False: unknown fault, string outside 0-7, a time that is not finite, or a start before now.
+[[nodiscard]] bool is_usable(const FaultInjection &fault) noexcept;
+
+// A fault with a number that no other has; 0 is an empty place.
+struct NumberedFault {
+    std::uint32_t number = 0;
+    FaultInjection injection;
+};
+using FaultList = std::array<NumberedFault, kMaxFaults>;
+
+struct ActiveFaults {
+    bool output_cut = false;
+    bool frozen_counts = false;
+    bool read_timeout = false;
+    bool unplugged = false;
+    std::uint8_t jumped_mask = 0; // bit i: string i
+    std::uint8_t stuck_mask = 0;
+    std::uint8_t broken_mask = 0;
+};
+
+// Runs faults on the simulated clock.
+class FaultSchedule {
+public:
+    // The faults that there are now; a number not seen before starts counting from now_s.
+    void set(const FaultList &faults, double now_s) noexcept;
+    [[nodiscard]] ActiveFaults at(double now_s) const noexcept;
+    // Numbers of faults that are over; 0 elsewhere.
+    [[nodiscard]] std::array<std::uint32_t, kMaxFaults> finished(double now_s) const noexcept;
+
+private:
+    FaultList faults_{};
+    std::array<double, kMaxFaults> begin_s_{};
+    [[nodiscard]] double end_s(std::size_t place) const noexcept;
+};
+
+} // namespace spidar
