@@ -77,15 +77,17 @@ public:
     // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
     TensionResult update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
     // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
-    void set_last_tensions(const StringArray &tensions_n) noexcept { last_tensions_n_ = tensions_n; }
-    // Forget the last tick.
+    // Ignored when not finite.
+    void set_last_tensions(const StringArray &tensions_n) noexcept;
+    // Forget the last tick: the next update() starts cold and has no change term.
     void reset() noexcept;
 
 private:
     TensionSettings settings_{};
     StringArray last_tensions_n_{};
     ActiveSet last_active_{};
-    bool warm_ = false;
+    bool warm_ = false;     // last_active_ is worth starting from
+    bool has_last_ = false; // last_tensions_n_ is known: the change term counts
 };
 
 [[nodiscard]] std::string validate(const TensionSettings &settings);

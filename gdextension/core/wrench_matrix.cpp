@@ -1,0 +1,62 @@
+#include "core/wrench_matrix.h"
+
+#include <glm/geometric.hpp>
+
+namespace spidar {
+
+namespace {
+
+// Sine of the crossing angle below which n = unit(r1 x r2) is rounding noise and the seventh row is set
+// to zero (design.md: at psi = 0 or pi the seventh row of A vanishes).
+constexpr double kSmallestCrossingSine = 1e-9;
+
+// A string shorter than this has no direction: its column is zero (unit: m).
+constexpr double kShortestString_m = 1e-9;
+
+} // namespace
+
+WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
+                           const GripPose &pose) noexcept {
+    WrenchMatrix matrix;
+    const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
+    const double area = glm::length(cross);
+    const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
+    matrix.grasp_row_vanishes = !(area > kSmallestCrossingSine * scale);
+    const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
+
+    for (int i = 0; i < kStringCount; ++i) {
+        const auto s = static_cast<std::size_t>(i);
+        const Attachment &tie = grip.attachments[s];
+        const Vec3 lever = tie.sign * (tie.pole == 0 ? pose.r1_m : pose.r2_m);
+        const Vec3 line = frame.motors_m[s] - (pose.position_m + lever);
+        const double length = glm::length(line);
+        // A NaN length takes the division and shows in the column: the solver refuses it by status.
+        const Vec3 pull = length <= kShortestString_m ? Vec3(0.0) : line / length;
+        const Vec3 moment = glm::cross(lever, pull);
+        const double grasp = (tie.pole == 0 ? 1.0 : -1.0) * glm::dot(normal, moment);
+        matrix.columns[s] = {pull.x, pull.y, pull.z, moment.x, moment.y, moment.z, grasp};
+    }
+    return matrix;
+}
+
+DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept {
+    DofArray wrench{};
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+        for (std::size_t k = 0; k < wrench.size(); ++k) {
+            wrench[k] += matrix.columns[i][k] * tensions_n[i];
+        }
+    }
+    return wrench;
+}
+
+StringArray apply_transposed(const WrenchMatrix &matrix, const DofArray &rates) noexcept {
+    StringArray shortening{};
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+        for (std::size_t k = 0; k < rates.size(); ++k) {
+            shortening[i] += matrix.columns[i][k] * rates[k];
+        }
+    }
+    return shortening;
+}
+
+} // namespace spidar
