@@ -1,0 +1,39 @@
+// Entry point of the library: registers the classes with Godot.
+#include <gdextension_interface.h>
+
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/godot.hpp>
+
+#include "godot/class_documentation.h"
+#include "godot/spidar_g.h"
+#include "godot/spidar_g_calibration.h"
+#include "godot/spidar_g_config.h"
+
+namespace {
+
+void initialize(godot::ModuleInitializationLevel level) {
+    if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        GDREGISTER_CLASS(SpidarGConfig);
+        GDREGISTER_CLASS(SpidarGCalibration);
+        GDREGISTER_CLASS(SpidarG);
+    }
+    if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {
+        spidar::load_class_documentation();
+    }
+}
+
+void terminate(godot::ModuleInitializationLevel /*level*/) {}
+
+} // namespace
+
+extern "C" GDE_EXPORT GDExtensionBool
+spidar_g_library_init(GDExtensionInterfaceGetProcAddress get_proc_address,
+                      GDExtensionClassLibraryPtr library, GDExtensionInitialization *result) {
+    spidar::prepare_class_documentation(get_proc_address);
+    godot::GDExtensionBinding::InitObject init_object(get_proc_address, library, result);
+    init_object.register_initializer(initialize);
+    init_object.register_terminator(terminate);
+    init_object.set_minimum_library_initialization_level(
+        godot::MODULE_INITIALIZATION_LEVEL_SCENE);
+    return init_object.init();
+}

@@ -1,0 +1,171 @@
+// SpidarG: the node that owns a device. Opens it when it enters a running tree, drives the servo loop
+// (own thread, or stepped by the physics tick), hands requests down and the newest snapshot up.
+// The class reference is gdextension/doc_classes/SpidarG.xml.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+
+#include "device/device_claims.h"
+#include "device/servo_loop.h"
+#include "device/simulated_transport.h"
+#include "godot/spidar_g_calibration.h"
+#include "godot/spidar_g_config.h"
+#include "godot/world_frame.h"
+
+class SpidarG : public godot::Node3D {
+    GDCLASS(SpidarG, godot::Node3D)
+
+public:
+    enum DriveMode { DRIVE_THREADED, DRIVE_STEPPED };
+    enum State {
+        STATE_CLOSED,
+        STATE_CONNECTED,
+        STATE_ARMING,
+        STATE_ACTIVE,
+        STATE_FADING,
+        STATE_FAULT
+    };
+    enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
+    enum ContactTarget {
+        CONTACT_CENTRE,
+        CONTACT_POLE1_PLUS,
+        CONTACT_POLE1_MINUS,
+        CONTACT_POLE2_PLUS,
+        CONTACT_POLE2_MINUS,
+        CONTACT_GRASP_STOP
+    };
+    enum HandFirmness { HAND_LIGHT, HAND_NORMAL, HAND_FIRM };
+    enum SimulatedFault {
+        FAULT_OUTPUT_CUT,
+        FAULT_FROZEN_COUNTS,
+        FAULT_COUNT_JUMP,
+        FAULT_READ_TIMEOUT,
+        FAULT_UNPLUGGED,
+        FAULT_STUCK_ENCODER,
+        FAULT_BROKEN_STRING
+    };
+    enum { CONTACT_STRIDE = 12 };
+
+    SpidarG();
+    ~SpidarG() override;
+
+    // Set-up.
+    void set_config(const godot::Ref<SpidarGConfig> &config);
+    [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
+    void set_calibration(const godot::Ref<SpidarGCalibration> &calibration);
+    [[nodiscard]] godot::Ref<SpidarGCalibration> get_calibration() const { return calibration_; }
+    void set_enabled(bool enabled);
+    [[nodiscard]] bool is_enabled() const { return enabled_; }
+    void set_forces_enabled(bool enabled);
+    [[nodiscard]] bool are_forces_enabled() const { return command_.forces_enabled; }
+    void set_drive_mode(DriveMode mode);
+    [[nodiscard]] DriveMode get_drive_mode() const { return drive_mode_; }
+    void set_workspace_scale(double scale);
+    [[nodiscard]] double get_workspace_scale() const { return workspace_scale_; }
+    [[nodiscard]] godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // Device (spidar_g.cpp).
+    void arm();
+    void disarm();
+    void clear_fault();
+    int advance_cycles(int cycles);
+
+    // Requests (spidar_g_requests.cpp).
+    bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
+                        double grasp_torque, double duration_s);
+    bool set_contacts(const godot::PackedFloat64Array &contacts);
+    void clear_contacts();
+
+    // State (spidar_g_state.cpp). World coordinates.
+    [[nodiscard]] State get_state() const;
+    [[nodiscard]] godot::String get_state_text() const;
+    [[nodiscard]] godot::String get_fault_text() const;
+    [[nodiscard]] godot::Transform3D get_grip_transform() const;
+    [[nodiscard]] godot::Transform3D get_pole_transform(int pole) const;
+    [[nodiscard]] godot::Vector3 get_pole_end(ContactTarget target) const;
+    [[nodiscard]] godot::Vector3 get_string_start(int string) const;
+    [[nodiscard]] godot::Vector3 get_string_end(int string) const;
+    [[nodiscard]] double get_grasp_angle() const;
+    [[nodiscard]] double get_grasp_rate() const;
+    [[nodiscard]] GraspPhase get_grasp_phase() const;
+    [[nodiscard]] double get_jaw_gap() const;
+    [[nodiscard]] double get_grasp_angle_for_gap(double gap_m) const;
+    [[nodiscard]] godot::Vector3 get_linear_velocity() const;
+    [[nodiscard]] godot::Vector3 get_angular_velocity() const;
+    [[nodiscard]] godot::PackedFloat64Array get_string_lengths() const;
+    [[nodiscard]] godot::PackedFloat64Array get_string_tensions() const;
+    [[nodiscard]] godot::PackedInt32Array get_encoder_counts() const;
+    [[nodiscard]] godot::PackedFloat64Array get_requested_wrench() const;
+    [[nodiscard]] godot::PackedFloat64Array get_achieved_wrench() const;
+    [[nodiscard]] godot::PackedFloat64Array get_wrench_bias() const;
+    [[nodiscard]] godot::Dictionary get_contact_impulses() const;
+    [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
+    [[nodiscard]] godot::Dictionary get_statistics() const;
+
+    // Simulated device (spidar_g_simulated.cpp).
+    bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
+    void set_simulated_hand_firmness(HandFirmness firmness);
+    [[nodiscard]] godot::Dictionary get_simulated_truth() const;
+    void inject_simulated_fault(SimulatedFault fault, int string, double start_s, double duration_s);
+    void clear_simulated_faults();
+
+    void _notification(int what);
+
+protected:
+    static void _bind_methods();
+
+private:
+    static void bind_setup();
+    static void bind_state();
+    static void bind_requests();
+    static void bind_simulated();
+    static void bind_enums();
+
+    void resource_changed();
+    // Reads config and calibration into settings_. Empty: fine; else the problem, and settings_ keep their values.
+    std::string read_resources();
+    [[nodiscard]] const SpidarGConfig &config_or_default() const;
+    [[nodiscard]] bool may_run() const;
+    void open_device();
+    void close_device();
+    void refuse_to_open(spidar::Status status, const std::string &message);
+    void physics_tick();
+    // Takes the newest snapshot and emits the signals of the edges it shows.
+    void pull_snapshot();
+    void emit_edges(const spidar::ServoSnapshot &before);
+    bool reject(const std::string &message);
+    [[nodiscard]] spidar::WorldFrame world() const;
+    [[nodiscard]] std::string fault_message() const;
+    [[nodiscard]] std::string name_for_messages() const;
+
+    godot::Ref<SpidarGConfig> config_;
+    godot::Ref<SpidarGConfig> default_config_; // stands in when there is none
+    godot::Ref<SpidarGCalibration> calibration_;
+    bool enabled_ = true;
+    DriveMode drive_mode_ = DRIVE_THREADED;
+    double workspace_scale_ = 1.0;
+
+    spidar::ServoSettings settings_;
+    spidar::PlantSettings plant_;
+    std::string problem_; // why the device is not open
+    bool restart_pending_ = false;
+    spidar::DeviceClaim claim_;
+    std::unique_ptr<spidar::ServoLoop> loop_;
+    spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
+    spidar::HapticCommand command_;
+    spidar::ServoSnapshot snapshot_;
+};
+
+VARIANT_ENUM_CAST(SpidarG::DriveMode);
+VARIANT_ENUM_CAST(SpidarG::State);
+VARIANT_ENUM_CAST(SpidarG::GraspPhase);
+VARIANT_ENUM_CAST(SpidarG::ContactTarget);
+VARIANT_ENUM_CAST(SpidarG::HandFirmness);
+VARIANT_ENUM_CAST(SpidarG::SimulatedFault);

@@ -1,0 +1,74 @@
+#include "godot/spidar_g_calibration.h"
+
+#include "godot/type_conversions.h"
+
+namespace {
+
+// Copies 8 values, or none when the array is empty. The problem, or an empty string.
+template <typename Packed, typename Value>
+std::string copy_eight(const char *field, const Packed &from,
+                       std::array<Value, spidar::kStringCount> &to) {
+    if (from.size() == 0) {
+        return {};
+    }
+    if (from.size() != spidar::kStringCount) {
+        return std::string("SpidarGCalibration.") + field + " has " + std::to_string(from.size()) +
+               " values: give 8, one a string, or none for the ideal device.";
+    }
+    const auto *values = from.ptr();
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i] = values[i];
+    }
+    return {};
+}
+
+} // namespace
+
+std::string SpidarGCalibration::apply_to(spidar::ServoSettings &settings) const {
+    spidar::ServoSettings changed = settings;
+    std::string problem = copy_eight("string_offsets", string_offsets_, changed.strings.offset_m);
+    const auto also = [&problem](const std::string &next) {
+        if (problem.empty()) {
+            problem = next;
+        }
+    };
+    also(copy_eight("string_scales", string_scales_, changed.strings.scale_m_per_count));
+    also(copy_eight("zero_counts", zero_counts_, changed.strings.zero_count));
+    also(copy_eight("effective_radii", effective_radii_, changed.motors.effective_radius_m));
+    also(copy_eight("torque_constants", torque_constants_, changed.motors.torque_constant_nm_a));
+    also(copy_eight("tension_gains", tension_gains_, changed.motors.tension_gain));
+    also(copy_eight("max_currents", max_currents_, changed.motors.max_current_a));
+    also(spidar::validate(changed.strings));
+    also(spidar::validate(changed.motors));
+    if (problem.empty()) {
+        settings = changed;
+    }
+    return problem;
+}
+
+godot::String SpidarGCalibration::get_problem() const {
+    // Any valid settings serve: only the calibration's own arrays can be wrong.
+    spidar::ServoSettings settings;
+    settings.strings = spidar::calibrate_at_home(
+        spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},
+        spidar::kPaperMetresPerCount);
+    return spidar::to_godot(apply_to(settings));
+}
+
+void SpidarGCalibration::_bind_methods() {
+    using Self = SpidarGCalibration;
+    using godot::PROPERTY_HINT_NONE;
+    const godot::Variant::Type reals = godot::Variant::PACKED_FLOAT64_ARRAY;
+    ADD_GROUP("Strings", "");
+    SPIDAR_G_BIND_FIELD(Self, reals, string_offsets, PROPERTY_HINT_NONE, "suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, reals, string_scales, PROPERTY_HINT_NONE, "suffix:m/count");
+    SPIDAR_G_BIND_FIELD(Self, godot::Variant::PACKED_INT32_ARRAY, zero_counts, PROPERTY_HINT_NONE,
+                        "");
+    ADD_GROUP("Motors", "");
+    SPIDAR_G_BIND_FIELD(Self, reals, effective_radii, PROPERTY_HINT_NONE, "suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, reals, torque_constants, PROPERTY_HINT_NONE, "suffix:N m/A");
+    SPIDAR_G_BIND_FIELD(Self, reals, tension_gains, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, reals, max_currents, PROPERTY_HINT_NONE, "suffix:A");
+
+    godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGCalibration::get_problem);
+}

@@ -1,0 +1,36 @@
+// SpidarGCalibration: what makes one device of many: string offsets and scales, motor gains.
+#pragma once
+
+#include <string>
+
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/packed_float64_array.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/string.hpp>
+
+#include "device/servo_settings.h"
+#include "godot/resource_field.h"
+
+// Each array holds 8 values, string 0-7; an empty one means: as the ideal device.
+class SpidarGCalibration : public godot::Resource {
+    GDCLASS(SpidarGCalibration, godot::Resource)
+
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_offsets); // m, at the zero count
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
+    SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii); // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants); // N m / A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);   // real / commanded
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);    // A
+
+public:
+    [[nodiscard]] godot::String get_problem() const;
+
+    // Writes the arrays that are given over `settings`. Empty: done; else the sentence that says why not, and
+    // `settings` is unchanged.
+    [[nodiscard]] std::string apply_to(spidar::ServoSettings &settings) const;
+
+protected:
+    static void _bind_methods();
+};

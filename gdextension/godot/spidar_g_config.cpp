@@ -1,0 +1,162 @@
+#include "godot/spidar_g_config.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "godot/type_conversions.h"
+
+using godot::PROPERTY_HINT_NONE;
+using godot::PROPERTY_HINT_RANGE;
+using godot::Variant;
+
+namespace {
+
+// "name = value unit: remedy", the one form of message this resource gives.
+std::string complaint(const char *field, double value, const char *unit, const char *remedy) {
+    return std::string("SpidarGConfig.") + field + " = " + std::to_string(value) + " " + unit + ": " +
+           remedy;
+}
+
+} // namespace
+
+std::string SpidarGConfig::own_problem() const {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = static_cast<double>(frame_size_[axis]);
+        if (!(size > 0.0 && std::isfinite(size))) {
+            const char *const fields[] = {"frame_size.x", "frame_size.y", "frame_size.z"};
+            return complaint(fields[axis], size, "m",
+                             "give the frame's outer size along this axis, above zero.");
+        }
+    }
+    if (rate_hz_ < 100 || rate_hz_ > 4000) {
+        return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000.");
+    }
+    if (!(jaw_open_ > 0.0 && jaw_open_ < 1.0)) {
+        return complaint("jaw_open", jaw_open_, "m", "choose the opening of the open jaws, 0 to 1.");
+    }
+    if (!(jaw_closed_angle_ > 0.0 && jaw_closed_angle_ < 90.0 * spidar::kDegree_rad)) {
+        return complaint("jaw_closed_angle", jaw_closed_angle_, "rad",
+                         "choose the angle of the closed jaws, above 0 and below pi/2.");
+    }
+    return {};
+}
+
+godot::String SpidarGConfig::get_problem() const {
+    std::string problem = own_problem();
+    if (problem.empty()) {
+        problem = spidar::validate(servo_settings());
+    }
+    if (problem.empty()) {
+        problem = spidar::validate(plant_settings());
+    }
+    return spidar::to_godot(problem);
+}
+
+spidar::ServoSettings SpidarGConfig::servo_settings() const {
+    spidar::ServoSettings settings;
+    settings.rate_hz = rate_hz_;
+    settings.velocity_cutoff_hz = velocity_cutoff_hz_;
+    settings.frame = spidar::make_box_frame(0.5 * spidar::to_core(frame_size_));
+    settings.grip.pole_half_length_m = pole_half_length_;
+    settings.strings = spidar::calibrate_at_home(
+        spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},
+        spidar::kPaperMetresPerCount);
+    settings.tension.min_tension_n = tension_min_;
+    settings.tension.reference_tension_n = tension_reference_;
+    settings.tension.max_tension_n = tension_max_;
+    settings.tension.weight_moment_per_m = moment_weight_;
+    settings.tension.weight_grasp_per_m = moment_weight_;
+    settings.tension.ridge = ridge_;
+    settings.tension.reference_weight = reference_weight_;
+    settings.tension.change_weight = change_weight_;
+    settings.safety.tension_slew_n_per_ms = tension_slew_;
+    settings.safety.arming_time_s = arming_time_;
+    settings.safety.max_force_n = max_force_;
+    settings.safety.max_moment_nm = max_moment_;
+    settings.safety.max_grasp_torque_nm = max_grasp_torque_;
+    settings.grasp.enter_rad = grasp_enter_angle_;
+    settings.grasp.leave_rad = grasp_leave_angle_;
+    settings.grasp.over_closed_rad = over_closed_angle_;
+    settings.grasp.over_closed_leave_rad = over_closed_leave_angle_;
+    settings.grasp.dwell_s = grasp_dwell_;
+    return settings;
+}
+
+spidar::PlantSettings SpidarGConfig::plant_settings() const {
+    const spidar::ServoSettings servo = servo_settings();
+    spidar::PlantSettings plant;
+    plant.frame = servo.frame;
+    plant.grip = servo.grip;
+    plant.elastic = simulated_elastic_;
+    plant.string_stiffness_ea_n = simulated_string_stiffness_;
+    plant.coulomb_friction_n = simulated_friction_;
+    // "Friction off" means frictionless: the rotors' viscous drag goes too.
+    if (simulated_friction_ == 0.0) {
+        plant.viscous_friction_n_s_m = 0.0;
+    }
+    const int firmest = static_cast<int>(spidar::HandFirmness::firm);
+    plant.firmness =
+        static_cast<spidar::HandFirmness>(std::clamp(simulated_hand_firmness_, 0, firmest));
+    return plant;
+}
+
+double SpidarGConfig::jaw_gap(double grasp_angle_rad) const {
+    return std::max(0.0, jaw_open_ * (1.0 - grasp_angle_rad / jaw_closed_angle_));
+}
+
+double SpidarGConfig::grasp_angle_for_gap(double gap_m) const {
+    return jaw_closed_angle_ * (1.0 - gap_m / jaw_open_);
+}
+
+void SpidarGConfig::_bind_methods() {
+    using Self = SpidarGConfig;
+    const Variant::Type real = Variant::FLOAT;
+
+    ADD_GROUP("Device", "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_name, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::VECTOR3, frame_size, PROPERTY_HINT_NONE, "suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
+                        "0.005,0.2,0.0001,or_greater,suffix:m");
+    ADD_GROUP("Servo Loop", "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
+    SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE,
+                        "5,500,1,suffix:Hz");
+    ADD_GROUP("Tensions", "");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_min, PROPERTY_HINT_RANGE, "0,5,0.01,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_reference, PROPERTY_HINT_RANGE, "0,10,0.01,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_max, PROPERTY_HINT_RANGE, "0.5,30,0.1,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, moment_weight, PROPERTY_HINT_RANGE,
+                        "0.1,200,0.1,suffix:1/m");
+    SPIDAR_G_BIND_FIELD(Self, real, ridge, PROPERTY_HINT_RANGE, "1e-12,0.1,1e-12,exp");
+    SPIDAR_G_BIND_FIELD(Self, real, reference_weight, PROPERTY_HINT_RANGE, "0,0.1,1e-7,exp");
+    SPIDAR_G_BIND_FIELD(Self, real, change_weight, PROPERTY_HINT_RANGE, "0,1,1e-7,exp");
+    ADD_GROUP("Safety", "");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_slew, PROPERTY_HINT_RANGE, "0.05,10,0.05,suffix:N/ms");
+    SPIDAR_G_BIND_FIELD(Self, real, arming_time, PROPERTY_HINT_RANGE, "0.1,10,0.1,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, max_force, PROPERTY_HINT_RANGE, "0.1,40,0.1,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, max_moment, PROPERTY_HINT_RANGE, "0.01,2,0.01,suffix:N m");
+    SPIDAR_G_BIND_FIELD(Self, real, max_grasp_torque, PROPERTY_HINT_RANGE,
+                        "0.01,2,0.01,suffix:N m");
+    ADD_GROUP("Grasp", "");
+    SPIDAR_G_BIND_FIELD(Self, real, grasp_enter_angle, PROPERTY_HINT_RANGE,
+                        "0,90,0.1,radians_as_degrees");
+    SPIDAR_G_BIND_FIELD(Self, real, grasp_leave_angle, PROPERTY_HINT_RANGE,
+                        "0,90,0.1,radians_as_degrees");
+    SPIDAR_G_BIND_FIELD(Self, real, over_closed_angle, PROPERTY_HINT_RANGE,
+                        "0,90,0.1,radians_as_degrees");
+    SPIDAR_G_BIND_FIELD(Self, real, over_closed_leave_angle, PROPERTY_HINT_RANGE,
+                        "0,90,0.1,radians_as_degrees");
+    SPIDAR_G_BIND_FIELD(Self, real, grasp_dwell, PROPERTY_HINT_RANGE, "0,0.5,0.001,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, jaw_open, PROPERTY_HINT_RANGE, "0.005,0.5,0.001,suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, real, jaw_closed_angle, PROPERTY_HINT_RANGE,
+                        "5,85,0.1,radians_as_degrees");
+    ADD_GROUP("Simulated Device", "simulated_");
+    SPIDAR_G_BIND_FIELD(Self, Variant::BOOL, simulated_elastic, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, real, simulated_string_stiffness, PROPERTY_HINT_RANGE,
+                        "500,30000,100,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, simulated_friction, PROPERTY_HINT_RANGE, "0,0.5,0.01,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, simulated_hand_firmness, godot::PROPERTY_HINT_ENUM,
+                        "Light,Normal,Firm");
+
+    godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
+}

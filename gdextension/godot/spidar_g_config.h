@@ -1,0 +1,75 @@
+// SpidarGConfig: what a device is and how it is driven, as a resource shared between scenes.
+#pragma once
+
+#include <string>
+
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/string.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "device/servo_settings.h"
+#include "device/simulated_plant.h"
+#include "godot/resource_field.h"
+
+class SpidarGConfig : public godot::Resource {
+    GDCLASS(SpidarGConfig, godot::Resource)
+
+    // Frame and grip.
+    SPIDAR_G_FIELD(godot::Vector3, frame_size, godot::Vector3(0.48F, 0.48F, 0.48F));
+    SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
+    SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
+
+    // Servo loop.
+    SPIDAR_G_FIELD(int, rate_hz, 1000);
+    SPIDAR_G_FIELD(double, velocity_cutoff_hz, 60.0);
+
+    // Tensions.
+    SPIDAR_G_FIELD(double, tension_min, spidar::TensionSettings{}.min_tension_n);
+    SPIDAR_G_FIELD(double, tension_reference, spidar::TensionSettings{}.reference_tension_n);
+    SPIDAR_G_FIELD(double, tension_max, spidar::TensionSettings{}.max_tension_n);
+    SPIDAR_G_FIELD(double, moment_weight, spidar::TensionSettings{}.weight_moment_per_m);
+    SPIDAR_G_FIELD(double, ridge, spidar::TensionSettings{}.ridge);
+    SPIDAR_G_FIELD(double, reference_weight, spidar::TensionSettings{}.reference_weight);
+    SPIDAR_G_FIELD(double, change_weight, spidar::TensionSettings{}.change_weight);
+
+    // Safety.
+    SPIDAR_G_FIELD(double, tension_slew, spidar::SafetySettings{}.tension_slew_n_per_ms);
+    SPIDAR_G_FIELD(double, arming_time, spidar::SafetySettings{}.arming_time_s);
+    SPIDAR_G_FIELD(double, max_force, spidar::SafetySettings{}.max_force_n);
+    SPIDAR_G_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
+    SPIDAR_G_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
+
+    // Grasp (radians inside, degrees in the inspector).
+    SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
+    SPIDAR_G_FIELD(double, grasp_leave_angle, spidar::GraspSettings{}.leave_rad);
+    SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
+    SPIDAR_G_FIELD(double, over_closed_leave_angle, spidar::GraspSettings{}.over_closed_leave_rad);
+    SPIDAR_G_FIELD(double, grasp_dwell, spidar::GraspSettings{}.dwell_s);
+    SPIDAR_G_FIELD(double, jaw_open, 0.08);
+    SPIDAR_G_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
+
+    // Simulated device.
+    SPIDAR_G_FIELD(bool, simulated_elastic, true);
+    SPIDAR_G_FIELD(double, simulated_string_stiffness,
+                   spidar::PlantSettings{}.string_stiffness_ea_n);
+    SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
+    SPIDAR_G_FIELD(int, simulated_hand_firmness, static_cast<int>(spidar::HandFirmness::normal));
+
+public:
+    // Empty when usable; else one sentence with field, value, unit and remedy.
+    [[nodiscard]] godot::String get_problem() const;
+
+    // The settings of the servo loop, all but the calibration.
+    [[nodiscard]] spidar::ServoSettings servo_settings() const;
+    [[nodiscard]] spidar::PlantSettings plant_settings() const;
+    // What this resource checks on its own (the rest is checked with the whole ServoSettings).
+    [[nodiscard]] std::string own_problem() const;
+
+    // Opening of the jaws (unit: device m): linear, jaw_open at 0, nothing at jaw_closed_angle.
+    [[nodiscard]] double jaw_gap(double grasp_angle_rad) const;
+    [[nodiscard]] double grasp_angle_for_gap(double gap_m) const;
+
+protected:
+    static void _bind_methods();
+};

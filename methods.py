@@ -1,0 +1,259 @@
+"""Helpers of SConstruct: sources, options, the Godot API dump, real godot-cpp, the release zip."""
+
+import hashlib
+import os
+import platform
+import re
+import shutil
+import subprocess
+import tempfile
+import zipfile
+
+SANITIZERS = ("address", "undefined", "thread")
+MINIMUM_GODOT = (4, 4)  # classdb_register_extension_class4 and construct_object2
+
+
+class BuildError(Exception):
+    """Something the user can put right; SConstruct prints it and stops."""
+
+
+# --- Options -------------------------------------------------------------------------------------
+
+
+def architecture():
+    machine = platform.machine().lower()
+    return {"amd64": "x86_64", "aarch64": "arm64"}.get(machine, machine)
+
+
+def sanitizers(value):
+    """The names in `sanitize=a,b`, in a fixed order so that one set has one build folder."""
+    names = [name for name in value.split(",") if name]
+    unknown = [name for name in names if name not in SANITIZERS]
+    if unknown:
+        raise BuildError(f"sanitize={value}: unknown {unknown[0]}; use {', '.join(SANITIZERS)}")
+    if "thread" in names and len(names) > 1:
+        raise BuildError(f"sanitize={value}: thread cannot be combined with another sanitizer")
+    return [name for name in SANITIZERS if name in names]
+
+
+# --- Sources -------------------------------------------------------------------------------------
+
+
+def find_sources(root, suffix=".cpp"):
+    """Every source under `root`, in a fixed order; an absent folder has none."""
+    found = []
+    for folder, _, names in os.walk(root):
+        found += [os.path.join(folder, name) for name in names if name.endswith(suffix)]
+    return sorted(found)
+
+
+def objects(env, root, folder):
+    """Compile all sources under `root` into `folder`, keeping their paths. Returns the nodes."""
+    nodes = []
+    for source in find_sources(root):
+        nodes += env.SharedObject(os.path.join(folder, os.path.splitext(source)[0]), source)
+    return nodes
+
+
+def system_include(env, *folders):
+    """Headers of others: no warnings from them. -isystem silences, CPPPATH lets SCons see changes
+    (the compiler ignores -I for a folder that is also given by -isystem)."""
+    for folder in folders:
+        env.Append(CPPPATH=[folder], CCFLAGS=[("-isystem", env.Dir(folder))])
+
+
+def write_if_changed(path, text):
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            if file.read() == text:
+                return
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def version_header(version):
+    return (
+        "// Written by the build from version.py.\n"
+        "#pragma once\n\n"
+        "namespace spidar {\n\n"
+        f'inline constexpr char kVersion[] = "{version}";\n\n'
+        "} // namespace spidar\n"
+    )
+
+
+# --- Godot API -----------------------------------------------------------------------------------
+
+
+class GodotApi:
+    """What the in-tree binding is generated from."""
+
+    def __init__(self, json_path, header_path):
+        for path in (json_path, header_path):
+            if not os.path.isfile(path):
+                raise BuildError(
+                    f"{path}: no such file. api=FILE needs extension_api.json and, beside it or "
+                    "by interface=FILE, gdextension_interface.h; both come from "
+                    "godot --headless --dump-extension-api --dump-gdextension-interface"
+                )
+        self.json_path = json_path
+        self.header_path = header_path
+        with open(json_path, encoding="utf-8") as file:
+            head = file.read(2000)
+        parts = [re.search(rf'"version_{name}":\s*(\d+)', head) for name in ("major", "minor")]
+        if not all(parts):
+            raise BuildError(f"{json_path}: holds no version; it is no Godot extension API dump")
+        self.version = tuple(int(part.group(1)) for part in parts)
+        if self.version < MINIMUM_GODOT:
+            raise BuildError(
+                f"{json_path}: API of Godot {dotted(self.version)}; "
+                f"{dotted(MINIMUM_GODOT)} or later is needed"
+            )
+
+
+def dotted(version):
+    return ".".join(str(part) for part in version)
+
+
+def find_godot(option):
+    """The Godot program: `godot=`, then $GODOT, then PATH. None when there is none."""
+    for name in (option, os.environ.get("GODOT")):
+        if name:
+            found = shutil.which(name)
+            if not found:
+                raise BuildError(f"godot={name}: no such program")
+            return os.path.abspath(found)
+    return shutil.which("godot") or shutil.which("godot4")
+
+
+def run_godot(godot, *arguments, cwd=None):
+    """The output of Godot; a Godot that fails or hangs is a BuildError."""
+    command = [godot, "--headless", *arguments]
+    try:
+        done = subprocess.run(
+            command, cwd=cwd, timeout=120, check=True, text=True, capture_output=True
+        )
+    except (OSError, subprocess.SubprocessError) as error:
+        detail = (getattr(error, "stderr", "") or str(error)).strip()
+        raise BuildError(f"{' '.join(command)} failed: {detail}") from error
+    return done.stdout
+
+
+def dump_api(godot, cache):
+    """The API of `godot`, dumped once and kept in `cache`/VERSION/."""
+    if not godot:
+        raise BuildError(
+            f"no Godot {dotted(MINIMUM_GODOT)} or later found for its API: put godot on PATH, set "
+            "$GODOT or godot=PROGRAM, give api=FILE, or run ./dev build, which brings its own"
+        )
+    lines = run_godot(godot, "--version").strip().splitlines()
+    if not lines:
+        raise BuildError(f"{godot} --version printed nothing")
+    folder = os.path.join(cache, lines[-1].strip())
+    if not os.path.isdir(folder):
+        os.makedirs(cache, exist_ok=True)
+        temporary = tempfile.mkdtemp(dir=cache)
+        try:
+            run_godot(
+                godot, "--dump-extension-api", "--dump-gdextension-interface", cwd=temporary
+            )
+            os.chmod(temporary, 0o755)
+            os.rename(temporary, folder)  # whole or not at all
+        finally:
+            shutil.rmtree(temporary, ignore_errors=True)
+    return GodotApi(
+        os.path.join(folder, "extension_api.json"),
+        os.path.join(folder, "gdextension_interface.h"),
+    )
+
+
+# --- Real godot-cpp ------------------------------------------------------------------------------
+
+
+class GodotCpp:
+    """A godot-cpp that the user has: a built checkout, or a prefix with include/ and lib/."""
+
+    def __init__(self, root, library):
+        self.includes = [
+            os.path.join(root, *parts)
+            for parts in (("include",), ("gen", "include"), ("gdextension",))
+            if os.path.isdir(os.path.join(root, *parts))
+        ]
+        if not self.header("godot_cpp/godot.hpp"):
+            raise BuildError(f"{root}: no include/godot_cpp/godot.hpp; it is no godot-cpp")
+        if not self.header("godot_cpp/classes/node.hpp"):
+            raise BuildError(
+                f"{root}: godot-cpp is not built: no gen/include/godot_cpp/classes/node.hpp. "
+                "Build it by its own instructions, or leave it out to use the in-tree binding"
+            )
+        names = [os.path.join(root, part, library) for part in ("bin", "lib", "lib64")]
+        self.library = next((name for name in names if os.path.isfile(name)), None)
+        if not self.library:
+            raise BuildError(f"{root}: no {library} in bin/ or lib/; build godot-cpp for it")
+        self.version = self.read_version()
+
+    def header(self, name):
+        paths = (os.path.join(folder, name) for folder in self.includes)
+        return next((path for path in paths if os.path.isfile(path)), None)
+
+    def read_version(self):
+        path = self.header("godot_cpp/core/version.hpp")
+        text = open(path, encoding="utf-8").read() if path else ""
+        parts = [
+            re.search(rf"#define\s+GODOT_VERSION_{name}\s+(\d+)", text)
+            for name in ("MAJOR", "MINOR")
+        ]
+        return tuple(int(part.group(1)) for part in parts) if all(parts) else None
+
+
+def find_godot_cpp(option, library):
+    """`godot_cpp=`, then $GODOT_CPP, then a folder godot-cpp/ here. None: the in-tree binding."""
+    for root in (option, os.environ.get("GODOT_CPP")):
+        if root:
+            return GodotCpp(root, library)
+    return GodotCpp("godot-cpp", library) if os.path.isdir("godot-cpp") else None
+
+
+# --- The add-on's files --------------------------------------------------------------------------
+
+
+def stamp_manifest(path, version):
+    """compatibility_minimum must name the API that the library was built from."""
+    if not os.path.isfile(path):
+        return
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    line = f'compatibility_minimum = "{dotted(version)}"'
+    stamped, count = re.subn(r"(?m)^compatibility_minimum\s*=.*$", line, text)
+    if count != 1:
+        raise BuildError(f"{path}: needs exactly one line compatibility_minimum, has {count}")
+    if stamped != text:
+        print(f"{path}: {line}, the Godot API of this build")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(stamped)
+
+
+def write_package(target, source, env):
+    """A zip that unpacks as addons/spidar_g/, the same bytes for the same files."""
+    addon = env["ADDON"]
+    libraries = {os.path.normpath(str(node)) for node in env["PACKAGE_LIBRARIES"]}
+    entries = {}
+    for folder, folders, names in os.walk(addon):
+        folders[:] = [name for name in folders if name not in (".godot", "__pycache__")]
+        for name in names:
+            path = os.path.normpath(os.path.join(folder, name))
+            if os.path.dirname(path) == os.path.join(addon, "bin") and path not in libraries:
+                continue  # a leftover of another build
+            entries[path] = path
+    for name in ("LICENSE", "THIRDPARTY.md", "README.md"):
+        entries.setdefault(os.path.join(addon, name), name)
+    with zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(entries):
+            info = zipfile.ZipInfo(name.replace(os.sep, "/"), (1980, 1, 1, 0, 0, 0))
+            info.compress_type = zipfile.ZIP_DEFLATED
+            info.external_attr = (0o755 if name in libraries else 0o644) << 16
+            with open(entries[name], "rb") as file:
+                archive.writestr(info, file.read())
+    with open(str(target[0]), "rb") as file:
+        digest = hashlib.sha256(file.read()).hexdigest()
+    print(f"{target[0]}: {len(entries)} files, sha256 {digest}")

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Headless tests on the loaded extension: run_godot_tests.py GODOT [PART_OF_NAME].
+
+Fails on a failed check, a script error, a test that never ends, or an object left behind. The last line is
+"N passed, N failed".
+"""
+
+import os
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from godot_project import prepare_project  # noqa: E402
+
+PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "project")
+TIME_LIMIT_S = 600
+LEAKS = re.compile(r"^(Leaked instance|WARNING: ObjectDB instances leaked|Orphan StringName"
+                   r"|ERROR: \d+ resources still in use).*", re.M)
+SCRIPT_ERRORS = re.compile(r"^SCRIPT ERROR.*(?:\n   .*)*", re.M)
+TOTALS = re.compile(r"^(\d+) passed, (\d+) failed$", re.M)
+
+
+def main(arguments):
+    godot, *names = arguments
+    prepare_project(PROJECT)
+    command = [godot, "--headless", "--verbose", "--path", PROJECT, "--fixed-fps", "60",
+               "-s", "res://run_tests.gd", "--", *names]
+    try:
+        done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace",
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        output, code = done.stdout, done.returncode
+    except subprocess.TimeoutExpired as error:
+        output = (error.stdout or b"").decode(errors="replace")
+        code = f"none: not finished after {TIME_LIMIT_S} s"
+    for line in output.splitlines():
+        if line.startswith(("RUN ", "PASS", "FAIL", "     ", "INFO ")):
+            print(line)
+    totals = TOTALS.findall(output)
+    passed, failed = (int(n) for n in totals[-1]) if totals else (0, 1)
+    problems = SCRIPT_ERRORS.findall(output) + [m.group(0) for m in LEAKS.finditer(output)]
+    if not totals or (code != 0 and failed == 0):
+        problems.append(f"Godot ended with code {code}; the end of its output:\n" + output[-3000:])
+    for problem in problems:
+        print("FAIL", problem)
+    print(f"{passed} passed, {failed + len(problems)} failed")
+    return 0 if passed and not failed and not problems else 1
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1:]))
