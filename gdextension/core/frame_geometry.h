@@ -24,6 +24,9 @@ struct FrameGeometry {
 // closed-form kinematics exist for boxes only; Gauss-Newton serves every frame.
 [[nodiscard]] std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept;
 
+// The same judgement as validate() without its sentence: no allocation, for the servo side.
+[[nodiscard]] bool is_usable(const FrameGeometry &frame) noexcept;
+
 // Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
 // Allocates: not for the servo loop.
 [[nodiscard]] std::string validate(const FrameGeometry &frame);

@@ -58,6 +58,9 @@ struct GripFrame {
 [[nodiscard]] StringArray string_lengths(const FrameGeometry &frame, const GripGeometry &grip,
                                          const GripPose &pose) noexcept;
 
+// The same judgement as validate() without its sentence: no allocation, for the servo side.
+[[nodiscard]] bool is_usable(const GripGeometry &grip, const FrameGeometry &frame) noexcept;
+
 // Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
 [[nodiscard]] std::string validate(const GripGeometry &grip, const FrameGeometry &frame);
 

@@ -19,11 +19,12 @@ constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
 // A Newton step that moves no string by more than this ends the refinement: the next one would be at least
 // 1e6 times smaller (see kCancelledPivot).
 constexpr double kStepTolerance_n = 1e-10;
-// A bounded string is released when that would move some string by more than this (unit: N).
-constexpr double kReleaseMove_n = 1e-11;
+// A bounded string is released when that would move some string by more than this (unit: N). Fifty
+// roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
+constexpr double kReleaseMove_n = 1e-13;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
-// Where that rounding would move a tension by more than this, gradients are taken in double-double.
+// Where that rounding moves a free string by more than this, gradients are taken in double-double.
 constexpr double kRoundingMove_n = 1e-11;
 // Rounds of the guess. 98 % of problems need one or two.
 constexpr int kGuessRounds = 6;
@@ -207,7 +208,7 @@ private:
                 for (double value : release.direction) {
                     reach = std::max(reach, std::abs(value));
                 }
-                if (!precise_ && noise * reach > kRoundingMove_n * release.stiffness) {
+                if (!precise_ && noise * reach > kReleaseMove_n * release.stiffness) {
                     precise_ = true; // take this look again, exactly
                     return true;
                 }

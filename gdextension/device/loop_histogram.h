@@ -62,7 +62,7 @@ public:
         if (time_ns < 2) {
             return 0;
         }
-        const int octave = std::bit_width(time_ns) - 1;
+        const int octave = static_cast<int>(std::bit_width(time_ns)) - 1;
         if (octave >= kBuckets / 2) {
             return kBuckets - 1;
         }

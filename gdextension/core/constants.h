@@ -1,0 +1,55 @@
+// Tolerances of the core, each with its reason. Physical defaults live beside the type they belong to.
+#pragma once
+
+namespace spidar {
+
+// A motor this close to the corner of a box counts as on it: a hundredth of an encoder count, so that
+// a frame typed in with rounded numbers still gets the closed form, and no measurable error follows.
+inline constexpr double kBoxTolerance_m = 2.5e-7;
+
+// Poles nearer to parallel than this have no grip plane: their ends are 4 um apart, a sixth of an
+// encoder count, so the rotation about them is noise. The rotation is held there.
+inline constexpr double kParallelAngle_rad = 1e-4;
+
+// Largest frame and pole that validate() accepts; catches millimetres typed as metres.
+inline constexpr double kMaxFrameExtent_m = 10.0;
+inline constexpr double kMinPoleHalfLength_m = 1e-3;
+
+// Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
+inline constexpr double kImpossibleResidual_m = 0.020;
+
+// After the two steps of a warm tick a residual above this asks for a cold start. Calibrated strings
+// err by less, and the redundant eighth length shows only a third of the error of one string.
+inline constexpr double kWarmResidualGate_m = 1e-3;
+
+// Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
+inline constexpr double kMaxWarmStep_m = 5e-3;
+// The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
+inline constexpr double kMaxSecondStep_m = 5e-4;
+// Motion within one tick after which the last pose says nothing (device restarted, samples lost).
+inline constexpr double kForgetStep_m = 0.05;
+
+// Residual at which a pose explains the lengths to double precision (eight lengths near 0.5 m).
+inline constexpr double kResidualFloor_m = 1e-14;
+// Another root pair is taken over the upright one (or the remembered pose) when it fits better by these
+// factors. Only one length is redundant, so noise alone often halves a residual: the plain factor
+// counts only where the first pose fits worse than calibrated strings err.
+inline constexpr double kSuspiciousResidual_m = 2e-3;
+inline constexpr double kClearlyBetter = 0.5;
+inline constexpr double kBeyondChance = 0.02;
+
+// Smallest scaled pivot of the normal equations, about sigma7 squared. Below the first the lengths
+// leave a direction open to 1 % (flag); below the second, to the square root of rounding (refuse).
+inline constexpr double kNearSingularPivot = 1e-4;
+inline constexpr double kRankDeficientPivot = 1e-12;
+
+// Newton to convergence: bound, and the step at which double precision ends. Quadratic convergence
+// takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.
+inline constexpr int kMaxPolishSteps = 50;
+inline constexpr double kConvergedStep_m = 1e-15;
+// Below this a step that no longer shrinks is rounding, not progress.
+inline constexpr double kStagnantStep_m = 1e-9;
+// No trial step may exceed this: the linear model holds over about one pole length.
+inline constexpr double kMaxTrialStep_m = 0.04;
+
+} // namespace spidar

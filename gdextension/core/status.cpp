@@ -1,0 +1,67 @@
+#include "core/status.h"
+
+namespace spidar {
+
+const char *describe(Status status) noexcept {
+    switch (status) {
+    case Status::ok:
+        return "All is well.";
+    case Status::ambiguous_pose:
+        return "Another pose fits the string lengths as well; the remembered or upright one was taken.";
+    case Status::near_singular:
+        return "The string lengths barely determine one direction at this pose; move towards the "
+               "centre.";
+    case Status::held_last_pose:
+        return "This sample was refused; the last good pose stands.";
+    case Status::wrench_limited:
+        return "Strings are at a tension bound; the wrench given differs from the one asked for.";
+    case Status::request_clamped:
+        return "A request exceeded its limit and was brought down to it, direction kept.";
+    case Status::request_expired:
+        return "The request was not renewed in time and has faded out.";
+    case Status::not_finite:
+        return "An input is NaN or infinite; nothing was changed.";
+    case Status::invalid_geometry:
+        return "The frame or grip geometry is impossible; see validate() for the field and remedy.";
+    case Status::invalid_calibration:
+        return "The string or motor calibration is out of range; see validate() for the field and "
+               "remedy.";
+    case Status::invalid_settings:
+        return "A setting is out of range; see validate() for the field and remedy.";
+    case Status::impossible_lengths:
+        return "No grip pose has these string lengths; check the strings and the calibration.";
+    case Status::outside_frame:
+        return "The string lengths put the grip at or beyond the z faces of the frame; bring it "
+               "back inside.";
+    case Status::rank_deficient:
+        return "The string lengths do not determine the pose here; turn the grip back towards "
+               "rest.";
+    case Status::not_converged:
+        return "The solver reached its iteration bound; the last good value stands.";
+    case Status::count_jump:
+        return "An encoder moved faster than a string can; check the cable and the counts.";
+    case Status::invalid_request:
+        return "The wrench or contact data is malformed; the request was ignored.";
+    case Status::not_open:
+        return "The device is not open; open it first.";
+    case Status::open_failed:
+        return "The device could not be opened; check the cable and the access rights.";
+    case Status::device_in_use:
+        return "Another node of this process owns the device.";
+    case Status::read_timeout:
+        return "The device sent nothing in time.";
+    case Status::read_failed:
+        return "Reading the device failed; check the cable.";
+    case Status::write_failed:
+        return "Writing to the device failed; check the cable.";
+    case Status::over_speed:
+        return "The grip moved faster than the safety limit; the motors are off.";
+    case Status::fault_latched:
+        return "A fault is latched; clear it, then arm again.";
+    case Status::not_armed:
+        return "The device is not armed; arm it to feel forces.";
+    }
+    return "Unknown status value.";
+}
+
+} // namespace spidar
