@@ -1,5 +1,6 @@
 #pragma once
 
+#include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/internal/method_binder.hpp>
 
 namespace godot {

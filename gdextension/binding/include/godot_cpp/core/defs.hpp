@@ -22,3 +22,6 @@ using real_t = float;
 using GodotObject = void;
 
 } // namespace godot
+
+// godot-cpp has it outside of the namespace too.
+using real_t = godot::real_t;

@@ -26,6 +26,14 @@
                        "Condition \"" #m_condition "\" is true. Returning: " #m_value,          \
                        m_message, return m_value)
 
+#define ERR_FAIL() ERR_FAIL_MSG("")
+#define ERR_FAIL_MSG(m_message)                                                                 \
+    GODOT_BINDING_FAIL(true, "Method/function failed.", m_message, return)
+#define ERR_FAIL_V(m_value) ERR_FAIL_V_MSG(m_value, "")
+#define ERR_FAIL_V_MSG(m_value, m_message)                                                      \
+    GODOT_BINDING_FAIL(true, "Method/function failed. Returning: " #m_value, m_message,         \
+                       return m_value)
+
 #define ERR_FAIL_NULL(m_pointer) ERR_FAIL_NULL_MSG(m_pointer, "")
 #define ERR_FAIL_NULL_MSG(m_pointer, m_message)                                                 \
     GODOT_BINDING_FAIL((m_pointer) == nullptr, "Parameter \"" #m_pointer "\" is null.",         \
