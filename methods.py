@@ -214,6 +214,27 @@ def find_godot_cpp(option, library):
     return GodotCpp("godot-cpp", library) if os.path.isdir("godot-cpp") else None
 
 
+# --- Class documentation ---------------------------------------------------------------------------
+
+
+def write_class_documentation(target, source, env):
+    """The XML files as one C++ source, for gdextension/godot/class_documentation.h."""
+    texts = []
+    for node in source:
+        with open(str(node), encoding="utf-8") as file:
+            texts.append(f'R"xml({file.read()})xml",\n')
+    with open(str(target[0]), "w", encoding="utf-8") as file:
+        file.write(
+            "// Written by the build from gdextension/doc_classes/.\n"
+            '#include "godot/class_documentation.h"\n\n'
+            "namespace spidar {\n\n"
+            f"const int kClassDocumentationCount = {len(texts)};\n"
+            "const char *const kClassDocumentation[] = {\n"
+            f"{''.join(texts)}nullptr}};\n\n"
+            "} // namespace spidar\n"
+        )
+
+
 # --- The add-on's files --------------------------------------------------------------------------
 
 

@@ -1,21 +1,91 @@
-"""What a Godot project of this repository needs before its first run: the add-on, and Godot told of it."""
+#!/usr/bin/env python3
+"""Makes a Godot project ready for use from the command line: python3 godot_project.py GODOT PROJECT
+
+The add-on's link, the list of extensions and the import. The list is written before Godot sees the
+project: a headless Godot that meets an extension for the first time crashes when it ends.
+"""
 
 import os
+import subprocess
+import sys
 
-REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ADDONS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "addons")
 EXTENSION = "res://addons/spidar_g/spidar_g.gdextension"
+IMPORT_LIMIT_S = 300  # an import takes seconds; a hung Godot must not hold a test for ever
+
+
+class ProjectError(Exception):
+    """The project cannot be made ready; the text says why."""
+
+
+def link_addons(project):
+    """PROJECT/addons: a link to the repository's addons folder."""
+    link = os.path.join(project, "addons")
+    target = os.path.relpath(ADDONS, project)
+    if os.path.islink(link):
+        if os.readlink(link) == target:
+            return
+        os.remove(link)
+    elif os.path.exists(link):
+        raise ProjectError(f"{link} is a folder of its own; move it away, a link belongs there")
+    os.symlink(target, link, target_is_directory=True)
+
+
+def list_extensions(project, extensions=(EXTENSION,)):
+    """PROJECT/.godot/extension_list.cfg: what Godot loads at start."""
+    path = os.path.join(project, ".godot", "extension_list.cfg")
+    text = "\n".join(extensions) + "\n"
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    if not os.path.exists(path) or open(path, encoding="utf-8").read() != text:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def newest_change(*folders):
+    """The latest time of change of any file or folder that an import looks at (unit: ns)."""
+    newest = 0
+    for root in folders:
+        for folder, folders_below, names in os.walk(root):
+            folders_below[:] = [name for name in folders_below if name not in (".godot", "bin")]
+            paths = [folder] + [os.path.join(folder, name) for name in names]
+            newest = max([newest] + [os.lstat(path).st_mtime_ns for path in paths])
+    return newest
+
+
+def import_assets(godot, project):
+    """Godot's import, when something changed since the last one."""
+    stamp = os.path.join(project, ".godot", "spidar_g_import")
+    if os.path.exists(stamp):
+        by = open(stamp, encoding="utf-8").read()
+        if by == godot and os.lstat(stamp).st_mtime_ns >= newest_change(project, ADDONS):
+            return
+    command = [godot, "--headless", "--path", project, "--import"]
+    try:
+        done = subprocess.run(
+            command, timeout=IMPORT_LIMIT_S, text=True, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise ProjectError(f"import of {project} failed: {error}") from error
+    if done.returncode != 0:
+        raise ProjectError(f"import of {project} ended with {done.returncode}:\n{done.stdout}")
+    with open(stamp, "w", encoding="utf-8") as file:
+        file.write(godot)
 
 
 def prepare_project(project):
-    """Links the add-on into `project` and lists the extension, so that it loads without an import first."""
-    link = os.path.join(project, "addons")
-    if not os.path.exists(link):
-        if os.path.islink(link):
-            os.unlink(link)
-        os.symlink(os.path.relpath(os.path.join(REPOSITORY, "addons"), project), link)
-    cache = os.path.join(project, ".godot")
-    os.makedirs(cache, exist_ok=True)
-    listing = os.path.join(cache, "extension_list.cfg")
-    if not os.path.exists(listing):
-        with open(listing, "w", encoding="utf-8") as file:
-            file.write(EXTENSION + "\n")
+    """All that a run without imported assets needs. Raises ProjectError."""
+    if not os.path.isfile(os.path.join(project, "project.godot")):
+        raise ProjectError(f"{project} holds no project.godot")
+    link_addons(project)
+    list_extensions(project)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__.splitlines()[0])
+    try:
+        prepare_project(sys.argv[2])
+        import_assets(*sys.argv[1:])
+    except ProjectError as problem:
+        sys.exit(f"godot_project: {problem}")

@@ -38,6 +38,9 @@ inline constexpr double kSuspiciousResidual_m = 2e-3;
 inline constexpr double kClearlyBetter = 0.5;
 inline constexpr double kBeyondChance = 0.02;
 
+// Two poses further apart than this (grip centre or pole end) are different answers, not rounding.
+inline constexpr double kDistinctPose_m = 1e-5;
+
 // Smallest scaled pivot of the normal equations, about sigma7 squared. Below the first the lengths
 // leave a direction open to 1 % (flag); below the second, to the square root of rounding (refuse).
 inline constexpr double kNearSingularPivot = 1e-4;

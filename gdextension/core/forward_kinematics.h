@@ -13,11 +13,13 @@ namespace spidar {
 
 struct KinematicsResult {
     GripPose pose;
-    double residual_rms_m = 0.0;    // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
-    double conditioning = 0.0;      // smallest pivot of the scaled normal equations, 0..1; small = near singular
-    int steps = 0;                  // Gauss-Newton steps taken
-    bool cold_start = false;        // the closed form was used
-    Status status = Status::ok;     // >= 0: pose is new; < 0: pose is the last good one
+    double residual_rms_m =
+        0.0; // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
+    double conditioning =
+        0.0;       // smallest pivot of the scaled normal equations, 0..1; small = near singular
+    int steps = 0; // Gauss-Newton steps taken
+    bool cold_start = false;    // the closed form was used
+    Status status = Status::ok; // >= 0: pose is new; < 0: pose is the last good one
 };
 
 class ForwardKinematics {
@@ -39,6 +41,10 @@ public:
     void reset() noexcept { warm_ = false; }
 
 private:
+    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered) noexcept;
+    KinematicsResult accept(KinematicsResult result) noexcept;
+    [[nodiscard]] KinematicsResult hold(KinematicsResult result, Status status) const noexcept;
+
     FrameGeometry frame_{};
     GripGeometry grip_{};
     Vec3 half_extents_m_{0.0}; // valid when is_box_

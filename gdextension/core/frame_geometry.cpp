@@ -11,7 +11,7 @@ namespace spidar {
 
 namespace {
 
-constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),  Vec3(-1, 1, 1),  Vec3(1, -1, 1),
+constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),   Vec3(-1, 1, 1),  Vec3(1, -1, 1),
                                      Vec3(-1, -1, 1), Vec3(1, 1, -1),  Vec3(-1, 1, -1),
                                      Vec3(1, -1, -1), Vec3(-1, -1, -1)};
 

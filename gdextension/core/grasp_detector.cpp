@@ -76,8 +76,9 @@ std::string validate(const GraspSettings &settings) {
         }
     }
     if (!(settings.leave_rad <= settings.enter_rad)) {
-        return angle_message("leave_rad", settings.leave_rad,
-                             "it must not exceed enter_rad: a grasp is left below where it begins.");
+        return angle_message(
+            "leave_rad", settings.leave_rad,
+            "it must not exceed enter_rad: a grasp is left below where it begins.");
     }
     if (!(settings.over_closed_leave_rad <= settings.over_closed_rad)) {
         return angle_message("over_closed_leave_rad", settings.over_closed_leave_rad,

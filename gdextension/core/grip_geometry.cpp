@@ -111,7 +111,8 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
                    " (index); use 0 for pole 1 or 1 for pole 2.";
         }
         if (attachment.sign != 1.0 && attachment.sign != -1.0) {
-            return element_name("attachments", i) + ".sign is " + with_unit(attachment.sign, "(end)") +
+            return element_name("attachments", i) + ".sign is " +
+                   with_unit(attachment.sign, "(end)") +
                    "; use +1 or -1 for the two ends of the pole.";
         }
     }

@@ -26,9 +26,9 @@ struct GripGeometry {
 
 // Where the grip is: a point of R3 x S2 x S2. Everything else is derived from it.
 struct GripPose {
-    Vec3 position_m{0.0};                             // P0
-    Vec3 r1_m{0.0, kPaperPoleHalfLength_m, 0.0};      // half pole 1, |r1| = d
-    Vec3 r2_m{kPaperPoleHalfLength_m, 0.0, 0.0};      // half pole 2, |r2| = d
+    Vec3 position_m{0.0};                        // P0
+    Vec3 r1_m{0.0, kPaperPoleHalfLength_m, 0.0}; // half pole 1, |r1| = d
+    Vec3 r2_m{kPaperPoleHalfLength_m, 0.0, 0.0}; // half pole 2, |r2| = d
 };
 
 // Orientation and crossing angle of a pose.

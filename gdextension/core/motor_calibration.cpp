@@ -32,8 +32,8 @@ double current_limit(const MotorCalibration &calibration, std::size_t i) noexcep
 
 std::string range_message(const char *field, std::size_t i, double value, const char *unit,
                           double highest, const char *what) {
-    return element_name(field, i) + " is " + with_unit(value, unit) + "; give " + what + " between " +
-           with_unit(kSmallest, unit) + " and " + with_unit(highest, unit) + ".";
+    return element_name(field, i) + " is " + with_unit(value, unit) + "; give " + what +
+           " between " + with_unit(kSmallest, unit) + " and " + with_unit(highest, unit) + ".";
 }
 
 bool in_range(double value, double highest) {
@@ -92,11 +92,12 @@ std::string validate(const MotorCalibration &calibration) {
         }
         if (!in_range(calibration.tension_gain[i], kMaxTensionGain)) {
             return range_message("tension_gain", i, calibration.tension_gain[i], "N/N",
-                                 kMaxTensionGain, "real over commanded tension (1 if not measured),");
+                                 kMaxTensionGain,
+                                 "real over commanded tension (1 if not measured),");
         }
         if (!in_range(calibration.max_current_a[i], kMaxCurrent_a)) {
-            return range_message("max_current_a", i, calibration.max_current_a[i], "A", kMaxCurrent_a,
-                                 "the amplifier's limit in amperes,");
+            return range_message("max_current_a", i, calibration.max_current_a[i], "A",
+                                 kMaxCurrent_a, "the amplifier's limit in amperes,");
         }
     }
     return {};

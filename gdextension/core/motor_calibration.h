@@ -12,7 +12,8 @@ struct MotorCalibration {
     // (scale_m_per_count * counts a turn / 2 pi) corrects the tension too.
     StringArray effective_radius_m{0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008};
     // Motor torque constant (unit: N m / A). Maxon RE 25 class.
-    StringArray torque_constant_nm_a{0.0438, 0.0438, 0.0438, 0.0438, 0.0438, 0.0438, 0.0438, 0.0438};
+    StringArray torque_constant_nm_a{0.0438, 0.0438, 0.0438, 0.0438,
+                                     0.0438, 0.0438, 0.0438, 0.0438};
     // Gain found by hanging a known weight on the string: real tension / commanded tension.
     StringArray tension_gain{1, 1, 1, 1, 1, 1, 1, 1};
     StringArray max_current_a{4, 4, 4, 4, 4, 4, 4, 4};

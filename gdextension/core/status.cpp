@@ -7,7 +7,8 @@ const char *describe(Status status) noexcept {
     case Status::ok:
         return "All is well.";
     case Status::ambiguous_pose:
-        return "Another pose fits the string lengths as well; the remembered or upright one was taken.";
+        return "Another pose fits the string lengths as well; the remembered or upright one was "
+               "taken.";
     case Status::near_singular:
         return "The string lengths barely determine one direction at this pose; move towards the "
                "centre.";

@@ -33,7 +33,8 @@ StringArray lengths_from_counts(const StringCalibration &calibration,
     return lengths;
 }
 
-StringCalibration calibrate_at_home(const StringArray &home_lengths_m, const CountArray &home_counts,
+StringCalibration calibrate_at_home(const StringArray &home_lengths_m,
+                                    const CountArray &home_counts,
                                     double scale_m_per_count) noexcept {
     StringCalibration calibration;
     calibration.offset_m = home_lengths_m;
@@ -53,9 +54,10 @@ std::string validate(const StringCalibration &calibration) {
         const double size = std::fabs(scale);
         if (!(size >= kMinScale_m) || !(size <= kMaxScale_m)) {
             return element_name("scale_m_per_count", i) + " is " + with_unit(scale, "m/count") +
-                   "; give the string length a count, " + with_unit(kMinScale_m, "m/count") + " to " +
-                   with_unit(kMaxScale_m, "m/count") + " (paper: " +
-                   with_unit(kPaperMetresPerCount, "m/count") + "), negative if wound the other way.";
+                   "; give the string length a count, " + with_unit(kMinScale_m, "m/count") +
+                   " to " + with_unit(kMaxScale_m, "m/count") +
+                   " (paper: " + with_unit(kPaperMetresPerCount, "m/count") +
+                   "), negative if wound the other way.";
         }
     }
     return {};

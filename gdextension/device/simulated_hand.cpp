@@ -21,15 +21,17 @@ bool is_finite(const Vec3 &v) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// New velocity of a critically damped approach that never exceeds `limit`.
-Vec3 approach(const Vec3 &error, const Vec3 &velocity, double limit, double dt_s) noexcept {
+Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
+    const double squared = glm::dot(v, v);
+    return squared > limit * limit ? v * (limit / std::sqrt(squared)) : v;
+}
+
+// New velocity of a critically damped approach within limits of acceleration and speed.
+Vec3 approach(const Vec3 &error, const Vec3 &velocity, double max_speed, double max_acceleration,
+              double dt_s) noexcept {
     constexpr double w = kHandPathRate_rad_s;
-    Vec3 next = velocity + dt_s * (w * w * error - 2.0 * w * velocity);
-    const double speed_squared = glm::dot(next, next);
-    if (speed_squared > limit * limit) {
-        next *= limit / std::sqrt(speed_squared);
-    }
-    return next;
+    const Vec3 acceleration = no_longer_than(w * w * error - 2.0 * w * velocity, max_acceleration);
+    return no_longer_than(velocity + dt_s * acceleration, max_speed);
 }
 
 bool below(const Vec3 &v, double limit) noexcept {
@@ -134,10 +136,13 @@ void SimulatedHand::advance(double dt_s) noexcept {
         return;
     }
     Twist next;
-    next.linear_m_s = approach(position_error, old.linear_m_s, kHandMaxSpeed_m_s, dt_s);
-    next.angular_rad_s = approach(rotation_error, old.angular_rad_s, kHandMaxTurnRate_rad_s, dt_s);
-    next.grasp_rate_rad_s =
-        approach(grasp_error, Vec3(old.grasp_rate_rad_s, 0.0, 0.0), kHandMaxTurnRate_rad_s, dt_s).x;
+    next.linear_m_s = approach(position_error, old.linear_m_s, kHandMaxSpeed_m_s,
+                               kHandMaxAcceleration_m_s2, dt_s);
+    next.angular_rad_s = approach(rotation_error, old.angular_rad_s, kHandMaxTurnRate_rad_s,
+                                  kHandMaxTurnAcceleration_rad_s2, dt_s);
+    next.grasp_rate_rad_s = approach(grasp_error, Vec3(old.grasp_rate_rad_s, 0.0, 0.0),
+                                     kHandMaxTurnRate_rad_s, kHandMaxTurnAcceleration_rad_s2, dt_s)
+                                .x;
     path_.acceleration_m_s2 = (next.linear_m_s - old.linear_m_s) / dt_s;
     path_.angular_acceleration_rad_s2 = (next.angular_rad_s - old.angular_rad_s) / dt_s;
     path_.grasp_acceleration_rad_s2 = (next.grasp_rate_rad_s - old.grasp_rate_rad_s) / dt_s;

@@ -54,6 +54,10 @@ inline constexpr HandImpedance kFirmHand{0.8,    700.0,  12.0, 1.28e-3, 1.12,
 // The fastest that a hand follows a target, so that one that jumps does not launch the grip.
 inline constexpr double kHandMaxSpeed_m_s = 1.0;
 inline constexpr double kHandMaxTurnRate_rad_s = 6.0; // rotation and grasp angle
+// How fast it gets there; just above what stopping from full speed takes (speed * path rate / e), so that the
+// limit never makes the path overshoot.
+inline constexpr double kHandMaxAcceleration_m_s2 = 30.0;
+inline constexpr double kHandMaxTurnAcceleration_rad_s2 = 180.0;
 // Bandwidth of the path (critically damped, unit: rad/s): a target that comes in 60 Hz steps is followed
 // smoothly, 2 / 60 s behind.
 inline constexpr double kHandPathRate_rad_s = 60.0;

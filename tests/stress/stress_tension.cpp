@@ -103,7 +103,8 @@ int main(int argc, char **argv) {
                     static_cast<double>(w.iteration_sum) / static_cast<double>(w.cases),
                     w.iterations, w.iterations_seed);
     }
-    std::printf("stress_tension: %llu problems from seed %llu, cold and from a wrong guess: %ld failures\n",
-                cases, seed, failures);
+    std::printf(
+        "stress_tension: %llu problems from seed %llu, cold and from a wrong guess: %ld failures\n",
+        cases, seed, failures);
     return failures == 0 ? 0 : 1;
 }

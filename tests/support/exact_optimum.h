@@ -18,7 +18,7 @@ using Quad = long double;
 #endif
 
 struct Certificate {
-    bool certified = false;  // an active set whose KKT conditions hold was found
+    bool certified = false;         // an active set whose KKT conditions hold was found
     double tension_error_n = 0.0;   // max |tau - exact|
     double objective_error = 0.0;   // relative to the exact objective, beyond rounding_cost()
     double bound_violation_n = 0.0; // 0 when every tension is within its bounds, exactly
@@ -33,7 +33,9 @@ inline constexpr std::size_t kDofs = 7;
 using QuadStrings = std::array<Quad, kStrings>;
 using QuadMatrix = std::array<QuadStrings, kStrings>;
 
-inline Quad magnitude(Quad value) { return value < 0 ? -value : value; }
+inline Quad magnitude(Quad value) {
+    return value < 0 ? -value : value;
+}
 
 struct Quadratic { // half gradient = h x - g
     QuadMatrix h{};
@@ -185,10 +187,9 @@ inline Certificate certify(const TensionProblem &p, const StringArray &tensions_
         const Quad error = magnitude(x[i] - tensions_n[i]);
         // NaN compares false: count it as infinitely wrong.
         result.tension_error_n = error <= result.tension_error_n ? result.tension_error_n
-                                 : error >= 0 ? static_cast<double>(error)
-                                              : HUGE_VAL;
-        const double outside =
-            std::max(p.lower_n[i] - tensions_n[i], tensions_n[i] - p.upper_n[i]);
+                                 : error >= 0                    ? static_cast<double>(error)
+                                                                 : HUGE_VAL;
+        const double outside = std::max(p.lower_n[i] - tensions_n[i], tensions_n[i] - p.upper_n[i]);
         result.bound_violation_n =
             outside <= result.bound_violation_n ? result.bound_violation_n : outside;
     }

@@ -53,10 +53,9 @@ struct NamedProblem {
     TensionProblem problem;
 };
 
-inline constexpr const char *kProblemKinds[] = {"central", "wide",       "far",
-                                                "strong",  "zero",       "near_parallel",
-                                                "aligned", "rank_lost",  "degenerate",
-                                                "broken",  "rank_lost_broken"};
+inline constexpr const char *kProblemKinds[] = {
+    "central",   "wide",       "far",    "strong",          "zero", "near_parallel", "aligned",
+    "rank_lost", "degenerate", "broken", "rank_lost_broken"};
 
 inline NamedProblem random_problem(std::uint64_t seed) {
     Random random(seed);
@@ -100,8 +99,8 @@ inline NamedProblem random_problem(std::uint64_t seed) {
     }
     p.matrix = wrench_matrix(frame, grip, pose);
 
-    const double size = kind == "strong" ? std::pow(10.0, random.uniform(1.0, 2.3))
-                                         : random.uniform(0.0, 6.0);
+    const double size =
+        kind == "strong" ? std::pow(10.0, random.uniform(1.0, 2.3)) : random.uniform(0.0, 6.0);
     for (std::size_t k = 0; k < p.wrench.size(); ++k) {
         const bool off = kind == "zero" || random.chance(0.2);
         p.wrench[k] = off ? 0.0 : random.uniform(-size, size) * (k < 3 ? 1.0 : 0.04);

@@ -1,0 +1,201 @@
+#include "bench/bench_step.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "bench/allocation_count.h"
+#include "bench/sample_times.h"
+#include "core/forward_kinematics.h"
+#include "core/tension_solver.h"
+#include "core/wrench_matrix.h"
+#include "device/servo_loop.h"
+#include "device/servo_step.h"
+#include "device/simulated_transport.h"
+
+namespace spidar::bench {
+
+namespace {
+
+constexpr int kTicks = 20000;
+constexpr double kPeriod_s = 1e-3;
+// Long enough for arming and every ramp.
+constexpr int kWarmUpTicks = 3000;
+// A step that allocates even once has broken its promise.
+constexpr std::size_t kAllocationsAllowed = 0;
+
+Mat3 turn(double x, double y, double z) {
+    const Mat3 rx(1, 0, 0, 0, std::cos(x), std::sin(x), 0, -std::sin(x), std::cos(x));
+    const Mat3 ry(std::cos(y), 0, -std::sin(y), 0, 1, 0, std::sin(y), 0, std::cos(y));
+    const Mat3 rz(std::cos(z), std::sin(z), 0, -std::sin(z), std::cos(z), 0, 0, 0, 1);
+    return rz * ry * rx;
+}
+
+// A hand that moves everywhere at up to 0.7 m/s and 2.5 rad/s.
+GripPose moving_pose(const GripGeometry &grip, double t) {
+    const Vec3 position(0.15 * std::sin(3.1 * t), 0.15 * std::sin(2.3 * t + 1.0),
+                        0.12 * std::sin(2.9 * t + 2.0));
+    return make_pose(grip, position,
+                     turn(0.6 * std::sin(4.1 * t), 0.6 * std::sin(3.7 * t + 1.0),
+                          0.5 * std::sin(3.3 * t + 2.0)),
+                     -0.5 * std::sin(2.1 * t));
+}
+
+CountArray counts_of(const ServoSettings &settings, const GripPose &pose) {
+    const StringArray lengths = string_lengths(settings.frame, settings.grip, pose);
+    const StringArray home = string_lengths(settings.frame, settings.grip, rest_pose(settings.grip));
+    CountArray counts{};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        counts[i] =
+            static_cast<std::int32_t>(std::lround((lengths[i] - home[i]) / kPaperMetresPerCount));
+    }
+    return counts;
+}
+
+ServoSettings ideal_settings() {
+    ServoSettings settings;
+    settings.strings = calibrate_at_home(
+        string_lengths(settings.frame, settings.grip, rest_pose(settings.grip)), {},
+        kPaperMetresPerCount);
+    return settings;
+}
+
+void print_row(const char *name, SampleTimes &times) {
+    std::printf("%-46s %9.0f %9.0f %9.0f %9.0f\n", name, times.quantile_ns(0.5),
+                times.quantile_ns(0.99), times.quantile_ns(0.999), times.quantile_ns(1.0));
+}
+
+struct StepCase {
+    const char *name;
+    bool moving;
+    bool forces;
+    int contacts;
+};
+
+bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
+    auto step = std::make_unique<ServoStep>();
+    if (!usable(step->configure(settings))) {
+        return false;
+    }
+    HapticCommand command;
+    command.forces_enabled = step_case.forces;
+    command.contact_count = step_case.contacts;
+    for (int i = 0; i < step_case.contacts; ++i) {
+        ContactPlane &plane = command.contacts[static_cast<std::size_t>(i)];
+        const double angle = 0.7 * i;
+        plane.normal = Vec3(std::sin(angle), std::cos(angle), 0.0);
+        plane.offset_m = -0.02;
+        plane.id = i;
+    }
+    SampleTimes times(kTicks);
+    DeviceReading reading;
+    std::size_t allocated = 0;
+    for (int tick = 0; tick < kWarmUpTicks + kTicks; ++tick) {
+        reading.counts =
+            counts_of(settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
+        if (tick % 16 == 0 && step_case.forces) {
+            ++command.wrench_sequence;
+            command.wrench = {Vec3(std::sin(0.01 * tick), 1.0, 0.0), Vec3(0.0, 0.02, 0.0), 0.01};
+            command.wrench_duration_s = 0.1;
+            ++command.contacts_sequence;
+        }
+        const auto call = [&] {
+            step->step(Status::ok, reading, command, kPeriod_s, true);
+        };
+        if (tick < kWarmUpTicks) {
+            call();
+            continue;
+        }
+        const std::size_t before = allocations().count;
+        times.time(call);
+        allocated += allocations().count - before;
+    }
+    print_row(step_case.name, times);
+    if (allocated > kAllocationsAllowed) {
+        std::printf("  FAILED: %zu allocations inside the steps\n", allocated);
+        return false;
+    }
+    const DeviceState wanted = step_case.forces ? DeviceState::active : DeviceState::connected;
+    if (step->snapshot().state != wanted) {
+        std::printf("  FAILED: state %s\n", describe(step->snapshot().state));
+        return false;
+    }
+    return true;
+}
+
+void run_computations(const ServoSettings &settings) {
+    ForwardKinematics kinematics;
+    TensionSolver solver;
+    kinematics.configure(settings.frame, settings.grip);
+    solver.configure(settings.tension);
+    SampleTimes warm(kTicks);
+    SampleTimes cold(kTicks);
+    SampleTimes matrix_times(kTicks);
+    SampleTimes tension(kTicks);
+    for (int tick = 0; tick < kTicks; ++tick) {
+        const double t = kPeriod_s * tick;
+        const StringArray lengths =
+            lengths_from_counts(settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
+        KinematicsResult result;
+        warm.time([&] { result = kinematics.update(lengths); });
+        ForwardKinematics fresh = kinematics;
+        cold.time([&] { fresh.solve_cold(lengths); });
+        WrenchMatrix matrix;
+        matrix_times.time(
+            [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
+        const DofArray wrench = {2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
+        tension.time([&] { solver.update(matrix, wrench); });
+    }
+    print_row("forward kinematics, warm", warm);
+    print_row("forward kinematics, cold (closed form)", cold);
+    print_row("wrench matrix", matrix_times);
+    print_row("tension solver, warm", tension);
+}
+
+bool report_memory(const ServoSettings &settings) {
+    const std::size_t before = allocations().bytes;
+    auto transport = std::make_unique<SimulatedTransport>(PlantSettings{});
+    auto loop = std::make_unique<ServoLoop>(std::move(transport));
+    if (!usable(loop->start_stepped(settings))) {
+        return false;
+    }
+    const std::size_t after_start = allocations().bytes;
+    loop->advance(1, 1); // 1000 cycles
+    const std::size_t after_run = allocations().bytes;
+    std::printf("\nmemory of one open device: %.1f KiB at start, %zu B more in 1000 cycles "
+                "(ServoStep %zu B, HapticCommand %zu B, ServoSnapshot %zu B)\n",
+                static_cast<double>(after_start - before) / 1024.0, after_run - after_start,
+                sizeof(ServoStep), sizeof(HapticCommand), sizeof(ServoSnapshot));
+    loop->stop();
+    return after_run == after_start;
+}
+
+} // namespace
+
+int bench_step() {
+    const ServoSettings settings = ideal_settings();
+    std::printf("%-46s %9s %9s %9s %9s   (ns, %d calls each)\n", "one servo step", "median", "p99",
+                "p99.9", "max", kTicks);
+    bool good = true;
+    for (const StepCase &step_case :
+         {StepCase{"hand at rest, forces off", false, false, 0},
+          StepCase{"hand moving, forces off", true, false, 0},
+          StepCase{"hand at rest, wrench", false, true, 0},
+          StepCase{"hand moving, wrench", true, true, 0},
+          StepCase{"hand moving, wrench and 8 contacts", true, true, kMaxContacts}}) {
+        good = run_step_case(settings, step_case) && good;
+    }
+    run_computations(settings);
+    SampleTimes empty(kTicks);
+    for (int i = 0; i < kTicks; ++i) {
+        empty.time([] {});
+    }
+    print_row("(an empty call: the clock itself)", empty);
+    good = report_memory(settings) && good;
+    return good ? 0 : 1;
+}
+
+} // namespace spidar::bench

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""What no compiler checks: which folder may include what, and what no committed file may name.
+
+Prints each complaint as FILE:LINE, then "N passed, N failed".
+"""
+
+import io
+import os
+import re
+import subprocess
+import sys
+import zipfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+# Headers of the standard library have no folder and no suffix: <vector>, <cmath>.
+STANDARD = r"<[a-z_0-9]+>"
+MAY_INCLUDE = {
+    "gdextension/core": (r'"core/', r"<glm/", STANDARD),
+    # The device layer talks to the operating system (threads, clocks) and to hidapi.
+    "gdextension/device": (
+        r'"core/', r'"device/', r"<glm/", r"<hidapi", STANDARD,
+        r"<(pthread|sched|time|unistd|fcntl|errno|windows)\.h>", r"<sys/[a-z]+\.h>",
+        r"<[a-z]+intrin\.h>",
+    ),
+    "gdextension/godot": (
+        r'"core/', r'"device/', r'"godot/', r'"spidar_version\.h"', r"<glm/", r"<godot_cpp/",
+        r"<gdextension_interface\.h>", STANDARD,
+    ),
+}
+# Where a committed file may send its reader. A script may fetch from none of them.
+LINKS = (
+    "github.com", "raw.githubusercontent.com", "godotengine.org", "docs.godotengine.org",
+    "keepachangelog.com", "semver.org", "www.w3.org", "doi.org",
+)
+LINE_LIMIT = 400  # "one idea a file": a source longer than this holds two
+
+
+def tracked_files():
+    """Paths of all committed (or about to be committed) files."""
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "-z"]
+    done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
+    paths = [path for path in done.stdout.split("\0") if path]
+    return [path for path in paths if os.path.isfile(os.path.join(ROOT, path))]
+
+
+def lines_of(path):
+    """(number, line) of a text file; nothing for a binary one."""
+    with open(os.path.join(ROOT, path), "rb") as file:
+        content = file.read()
+    if b"\0" in content[:8000]:
+        return []
+    return list(enumerate(content.decode("utf-8", "replace").splitlines(), 1))
+
+
+def sources_of(files, folder):
+    found = [path for path in files if path.startswith(folder + "/")]
+    return [path for path in found if path.endswith((".cpp", ".h"))]
+
+
+def includes(files, folder):
+    """Includes that the folder may not have."""
+    for path in sources_of(files, folder):
+        for number, line in lines_of(path):
+            found = re.match(r'\s*#\s*include\s+(["<].*)', line)
+            if found and not any(re.match(rule, found.group(1)) for rule in MAY_INCLUDE[folder]):
+                yield path, number, f"{folder} may not include {found.group(1)}"
+
+
+def engine_names(files, folder):
+    """Any word of the engine in code (comments may speak of it)."""
+    for path in sources_of(files, folder):
+        for number, line in lines_of(path):
+            if re.search(r"godot|gdextension_", line.split("//")[0], re.IGNORECASE):
+                yield path, number, f"{folder} names the engine: {line.strip()}"
+
+
+def links(files):
+    """Addresses outside the list above, and any address in a script of the build."""
+    for path in files:
+        script = path.endswith((".py", "SConstruct", "SConscript")) or path in ("dev", ".ci/run")
+        for number, line in lines_of(path):
+            for host in re.findall(r"\b(?:https?|ftp|git|ssh)://([\w.-]+)", line):
+                if script or host not in LINKS:
+                    yield path, number, f"address of {host}"
+
+
+def machine_names(files):
+    """Absolute paths of somebody's machine, and package registries by name."""
+    folders = re.compile(r"(?<![\w.$}/-])/(?:work|root|home/\w+|tmp/\w+/\w+|Users/\w+)/")
+    hosts = re.compile(
+        r"\b(?:deb|security|snapshot|registry|pypi|files|proxy|mirrors?|crates|static)"
+        r"\.(?:[a-z0-9-]+\.)*(?:org|com|net|io|dev)\b"
+    )
+    for path in files:
+        for number, line in lines_of(path):
+            for pattern, what in ((folders, "path of a machine"), (hosts, "package registry")):
+                found = pattern.search(line)
+                if found:
+                    yield path, number, f"{what}: {found.group(0)}"
+
+
+def long_files(files):
+    for folder in ("gdextension", "addons", "demo_project"):
+        for path in files:
+            if path.startswith(folder + "/") and path.endswith((".cpp", ".h", ".hpp", ".gd")):
+                count = len(lines_of(path))
+                if count > LINE_LIMIT:
+                    yield path, count, f"{count} lines, the limit is {LINE_LIMIT}"
+
+
+def versions(files):
+    """version.py, plugin.cfg and CHANGELOG.md agree."""
+    namespace = {}
+    exec(open(os.path.join(ROOT, "version.py"), encoding="utf-8").read(), namespace)
+    version = namespace["version"]
+    wanted = {
+        "addons/spidar_g/plugin.cfg": f'version="{version}"',
+        "CHANGELOG.md": f"## [{version}]",
+    }
+    for path, text in wanted.items():
+        lines = [line for _, line in lines_of(path)] if path in files else []
+        if not any(line.startswith(text) for line in lines):
+            yield path, 1, f"has no line {text} as version.py says"
+
+
+def archive():
+    """.gitattributes: an archive of the repository holds addons/ only."""
+    command = ["git", "archive", "--worktree-attributes", "--format=zip", "HEAD"]
+    done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    for name in zipfile.ZipFile(io.BytesIO(done.stdout)).namelist():
+        if not name.startswith("addons/"):
+            yield ".gitattributes", 1, f"an archive would hold {name}"
+
+
+def main():
+    files = tracked_files()
+    checks = {
+        "core includes GLM and the standard library": includes(files, "gdextension/core"),
+        "device includes core and the system": includes(files, "gdextension/device"),
+        "nodes include the allowed headers": includes(files, "gdextension/godot"),
+        "core does not know the engine": engine_names(files, "gdextension/core"),
+        "device does not know the engine": engine_names(files, "gdextension/device"),
+        "addresses": links(files),
+        "machine paths and registries": machine_names(files),
+        "length of sources": long_files(files),
+        "one version": versions(files),
+        "archive": archive(),
+    }
+    failed = 0
+    for folder in MAY_INCLUDE:  # a check that looks at nothing proves nothing
+        if not sources_of(files, folder):
+            print(f"FAIL {folder}: no sources")
+            failed += 1
+    for name, complaints in checks.items():
+        complaints = list(complaints)
+        failed += bool(complaints)
+        print(f"{'FAIL' if complaints else 'ok  '} {name}")
+        for path, number, text in complaints:
+            print(f"     {path}:{number}: {text}")
+    print(f"{len(checks) + len(MAY_INCLUDE) - failed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
