@@ -94,21 +94,24 @@ bool ContactRenderer::accept(const HapticCommand &command) noexcept {
         tracks_[i] = track;
     }
     age_s_ = 0.0;
+    if (count_ == 0) {
+        strength_ = 1.0; // the game goes on and touches nothing: nothing to recover from
+    }
     return was_capped;
 }
 
 bool ContactRenderer::age(double dt_s) noexcept {
     age_s_ += dt_s;
+    if (count_ == 0) {
+        return false; // an empty set never grows old
+    }
     const double left = std::clamp(1.0 - (age_s_ - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
     strength_ = std::min(left, strength_ + dt_s / kRecovery_s);
-    if (count_ > 0 && !(left > 0.0)) {
-        count_ = 0;
-        return true;
+    if (left > 0.0) {
+        return false;
     }
-    if (count_ == 0 && left > 0.0) {
-        strength_ = 1.0; // an empty set that is kept up to date: nothing to recover from
-    }
-    return false;
+    count_ = 0;
+    return true;
 }
 
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {

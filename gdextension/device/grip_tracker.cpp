@@ -63,6 +63,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     if (unchanged && solved_) {
         result.skipped = true;
         since_pose_s_ = 0.0;
+        grip_.status = solved_status_;
         filter_twist(Twist(), dt_s);
         return result;
     }
@@ -96,6 +97,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     grip_.pose = solution.pose;
     grip_.frame = frame;
     grip_.status = solution.status;
+    solved_status_ = solution.status;
     has_pose_ = true;
     solved_ = true;
     result.moved = true;

@@ -39,6 +39,7 @@ private:
     double cutoff_rad_s_ = 0.0;
     GripState grip_{};
     StringArray lengths_m_{};
+    Status solved_status_ = Status::ok; // of the pose held
     bool has_pose_ = false;
     bool solved_ = false;       // the last sample gave a pose
     double since_pose_s_ = 0.0; // since the pose the next difference is taken from
