@@ -23,17 +23,3 @@ const BLUE := Color("4f83d1")
 const PLUM := Color("9a6bb8")
 const SAGE := Color("93b86a")
 const BONE := Color("e6dcc6")
-
-## Tension colour scale, the same idea as the strings in the scene: slack, low, mid, at the limit.
-const SLACK := Color("7d8694")
-
-
-static func tension(fraction: float) -> Color:
-	if fraction < 0.005:
-		return SLACK
-	var low := Color("4f9bf0")
-	var middle := Color("f2d24b")
-	var high := Color("f0503c")
-	if fraction < 0.5:
-		return low.lerp(middle, fraction * 2.0)
-	return middle.lerp(high, clampf(fraction * 2.0 - 1.0, 0.0, 1.0))

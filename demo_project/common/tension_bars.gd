@@ -34,7 +34,8 @@ func _draw() -> void:
 		draw_rect(Rect2(left, HEAD, BAR_WIDTH, height), DemoPalette.TRACK)
 		var filled := height * fraction
 		draw_rect(
-			Rect2(left, HEAD + height - filled, BAR_WIDTH, filled), DemoPalette.tension(fraction)
+			Rect2(left, HEAD + height - filled, BAR_WIDTH, filled),
+			SpidarGView.tension_colour(tensions_n[index], limit_n)
 		)
 		draw_string(
 			font, Vector2(left, size.y - 2), str(index), HORIZONTAL_ALIGNMENT_CENTER, BAR_WIDTH,

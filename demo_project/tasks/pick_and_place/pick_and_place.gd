@@ -120,14 +120,21 @@ func _restart() -> void:
 
 func _start_script() -> void:
 	_mouse_hand.process_mode = Node.PROCESS_MODE_DISABLED
+	var error := DirAccess.make_dir_recursive_absolute(arguments.out_dir)
+	if error != OK:
+		printerr("--out %s: cannot be made: %s" % [arguments.out_dir, error_string(error)])
+		get_tree().quit(PlayArguments.EXIT_BAD_ARGUMENTS)
+		return
 	if arguments.pictures:
 		_pictures.start(arguments.out_dir)
+	_hud.show_result("Played by script, layout %d" % arguments.seed_number)
 	_spidar.forces_enabled = true
 	_player.spidar = _spidar
 	_player.tool_hand = _tool_hand
 	_player.hand = _scripted_hand
 	_player.objects = objects
 	_player.pictures = _pictures
+	_player.camera_rig = $CameraRig
 	_player.table_height_m = _items.global_position.y
 	var reason := await _wait_until_ready()
 	if reason == "":
@@ -179,16 +186,19 @@ func _on_closed() -> void:
 		logger.grasp_attempts += 1
 
 
-func _on_body_grasped(_body: Node3D) -> void:
+func _on_body_grasped(body: RigidBody3D) -> void:
 	_on_closed()
 	logger.note_grasp()
+	if body is TaskObject:
+		(body as TaskObject).show_held(true)
 
 
-func _on_body_released(body: Node3D) -> void:
+func _on_body_released(body: RigidBody3D) -> void:
 	_attempt_open = false
 	var object := body as TaskObject
 	if object == null:
 		return
+	object.show_held(false)
 	var above := object.global_position.y - object.target.goal().origin.y
 	if above > DROP_HEIGHT_M:
 		logger.drops += 1

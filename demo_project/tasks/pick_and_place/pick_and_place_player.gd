@@ -30,6 +30,7 @@ var objects: Array[TaskObject] = []
 var table_height_m := 0.0
 var records: Dictionary[TaskObject, FeltRecord] = {}
 var pictures: PictureTaker
+var camera_rig: CameraRig
 
 var _hover_force_n := 0.0
 
@@ -70,6 +71,9 @@ func _pick(object: TaskObject) -> bool:
 		return false
 	if object == objects[0]:
 		await pictures.take("grasp")
+		camera_rig.look_closely(spidar.get_grip_transform().origin)
+		await pictures.take("grasp_close")
+		camera_rig.look_at_all()
 	await hand.move_to(_at_travel_height(hand.wanted), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if tool_hand.get_held_body() != object:
@@ -122,6 +126,9 @@ func _place(object: TaskObject) -> void:
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if object == objects[1]:
 		await pictures.take("carry")
+		camera_rig.look_closely(spidar.get_grip_transform().origin)
+		await pictures.take("carry_close")
+		camera_rig.look_at_all()
 	await hand.move_to(goal, LOWER_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	await hand.turn_grasp_to(_angle_for(object.spec.size_m.x + CLEARANCE_M), 0.4)

@@ -6,6 +6,10 @@ extends Node3D
 const LINE_M := 0.0022
 const LIFT_M := 0.0004
 const CORNER_POINTS := 10
+const FILL_ALPHA := 0.30
+const PLACED_ALPHA := 0.65
+const BAND_ALPHA := 0.24
+const GHOST_ALPHA := 0.12
 
 var _spec: ObjectSpec
 var _ghost: MeshInstance3D
@@ -19,14 +23,14 @@ func setup(spec: ObjectSpec, pose: Transform3D) -> void:
 	transform = Transform3D(pose.basis, pose.origin - pose.basis.y * spec.rest_height_m())
 	var half := spec.footprint_m()
 	var corner := half.x if spec.is_round() else 0.002
-	_line_material = _flat(Color(spec.colour, 0.95))
-	_fill_material = _flat(Color(spec.colour, 0.20))
+	_line_material = _flat(spec.colour)
+	_fill_material = _flat(Color(spec.colour, FILL_ALPHA))
 	var tolerance := PlacementJudge.POSITION_TOLERANCE_M
 	_add_band(half, Vector2.ZERO, corner, _fill_material)
 	_add_band(half + Vector2.ONE * LINE_M, half, corner, _line_material)
 	_add_band(
 		half + Vector2.ONE * tolerance, half + Vector2.ONE * LINE_M, corner,
-		_flat(Color(spec.colour, 0.16))
+		_flat(Color(spec.colour, BAND_ALPHA))
 	)
 	var stand := StandBuilder.build(spec, DemoPalette.STAND)
 	if stand != null:
@@ -34,7 +38,7 @@ func setup(spec: ObjectSpec, pose: Transform3D) -> void:
 	_ghost = MeshInstance3D.new()
 	_ghost.mesh = spec.mesh()
 	_ghost.position.y = spec.rest_height_m()
-	_ghost.material_override = _flat(Color(spec.colour, 0.10))
+	_ghost.material_override = _flat(Color(spec.colour, GHOST_ALPHA))
 	_ghost.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 	add_child(_ghost)
 
@@ -46,7 +50,7 @@ func goal() -> Transform3D:
 
 func show_placed(placed: bool) -> void:
 	_ghost.visible = not placed
-	_fill_material.albedo_color.a = 0.55 if placed else 0.20
+	_fill_material.albedo_color.a = PLACED_ALPHA if placed else FILL_ALPHA
 
 
 func _flat(colour: Color) -> StandardMaterial3D:

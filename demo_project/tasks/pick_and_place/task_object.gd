@@ -2,17 +2,21 @@ class_name TaskObject
 extends RigidBody3D
 ## A thing to pick up, and its story in this trial.
 
-const FRICTION := 0.6
+## This object struck another one.
+signal struck(other: TaskObject)
+
+const FRICTION := 0.8
 ## Slows a rolling ball so that it comes to rest.
 const ANGULAR_DAMP_1_S := 2.0
+const HELD_ALPHA := 0.62
 
 var spec: ObjectSpec
 var start := Transform3D.IDENTITY
 var target: TargetOutline
 var attempts := 0
 var placed := false
-## This object struck another one.
-signal struck(other: TaskObject)
+
+var _material := StandardMaterial3D.new()
 
 
 func setup(spec_: ObjectSpec, start_: Transform3D, target_: TargetOutline) -> void:
@@ -31,15 +35,20 @@ func setup(spec_: ObjectSpec, start_: Transform3D, target_: TargetOutline) -> vo
 	add_child(collision)
 	var instance := MeshInstance3D.new()
 	instance.mesh = spec.mesh()
-	var material := StandardMaterial3D.new()
-	material.albedo_color = spec.colour
-	material.roughness = 0.55
-	material.rim_enabled = true
-	material.rim = 0.25
-	instance.material_override = material
+	_material.albedo_color = spec.colour
+	_material.roughness = 0.55
+	instance.material_override = _material
 	add_child(instance)
 	body_entered.connect(_on_body_entered)
 	transform = start
+
+
+## Held things are shown as glass, so that the grip's poles stay in sight inside them.
+func show_held(held: bool) -> void:
+	_material.transparency = (
+		BaseMaterial3D.TRANSPARENCY_ALPHA if held else BaseMaterial3D.TRANSPARENCY_DISABLED
+	)
+	_material.albedo_color.a = HELD_ALPHA if held else 1.0
 
 
 func position_error_m() -> float:
