@@ -37,7 +37,9 @@ bool is_stop(const ContactPlane &plane) noexcept {
     return plane.target == ContactTarget::grasp_stop;
 }
 
-double blend(double from, double to, double s) noexcept { return from + s * (to - from); }
+double blend(double from, double to, double s) noexcept {
+    return from + s * (to - from);
+}
 
 } // namespace
 
@@ -82,7 +84,9 @@ bool ContactRenderer::accept(const HapticCommand &command) noexcept {
                 used[j] = true;
                 track = old[j];
                 track.from = old[j].now;
-                track.fading_in = true;
+                // Turned by more than a right angle it is another surface: nothing lies in between.
+                track.fading_in = glm::dot(old[j].now.normal, plane.normal) > 0.0;
+                track.anchored = track.anchored && track.fading_in;
                 break;
             }
         }
@@ -90,21 +94,24 @@ bool ContactRenderer::accept(const HapticCommand &command) noexcept {
         tracks_[i] = track;
     }
     age_s_ = 0.0;
+    if (count_ == 0) {
+        strength_ = 1.0; // the game goes on and touches nothing: nothing to recover from
+    }
     return was_capped;
 }
 
 bool ContactRenderer::age(double dt_s) noexcept {
     age_s_ += dt_s;
+    if (count_ == 0) {
+        return false; // an empty set never grows old
+    }
     const double left = std::clamp(1.0 - (age_s_ - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
     strength_ = std::min(left, strength_ + dt_s / kRecovery_s);
-    if (count_ > 0 && !(left > 0.0)) {
-        count_ = 0;
-        return true;
+    if (left > 0.0) {
+        return false;
     }
-    if (count_ == 0 && left > 0.0) {
-        strength_ = 1.0; // an empty set that is kept up to date: nothing to recover from
-    }
-    return false;
+    count_ = 0;
+    return true;
 }
 
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {
@@ -128,11 +135,8 @@ void ContactRenderer::place(Track &track, double dt_s) const noexcept {
         const Surface &from = track.from;
         const Vec3 normal = from.normal + s * (to.normal - from.normal);
         const double length = glm::length(normal);
-        constexpr double kTurnedAround = 0.1; // normals almost opposite: there is no plane in between
-        if (length > kTurnedAround) {
-            now.normal = normal / length;
-            now.offset_m = blend(from.offset_m + shift_m, to.offset_m, s) / length;
-        }
+        now.normal = normal / length; // at least sqrt(1/2): accept() saw to it
+        now.offset_m = blend(from.offset_m + shift_m, to.offset_m, s) / length;
         now.stiffness_n_m = blend(from.stiffness_n_m, to.stiffness_n_m, s);
         now.damping_n_s_m = blend(from.damping_n_s_m, to.damping_n_s_m, s);
         now.friction = blend(from.friction, to.friction, s);
@@ -154,9 +158,8 @@ double ContactRenderer::share_of(std::size_t index) const noexcept {
             continue;
         }
         const double cosine = glm::dot(track.now.normal, other.now.normal);
-        const double alike = std::clamp((cosine - kOtherSurfaceCosine) /
-                                            (kSameSurfaceCosine - kOtherSurfaceCosine),
-                                        0.0, 1.0);
+        const double alike = std::clamp(
+            (cosine - kOtherSurfaceCosine) / (kSameSurfaceCosine - kOtherSurfaceCosine), 0.0, 1.0);
         sum_m += (j == index ? 1.0 : alike) * other.depth_m;
     }
     return sum_m > 0.0 ? track.depth_m / sum_m : 1.0;

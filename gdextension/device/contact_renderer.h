@@ -49,14 +49,14 @@ private:
         double friction = 0.0;
     };
     struct Track {
-        ContactPlane plane;   // as last given, capped
-        Surface from;         // where the cross-fade starts
+        ContactPlane plane; // as last given, capped
+        Surface from;       // where the cross-fade starts
         bool fading_in = false;
         Surface now;
         double depth_m = 0.0; // or rad
         bool touching = false;
         bool anchored = false;
-        Vec3 anchor_m{0.0};   // the friction spring's other end, device frame
+        Vec3 anchor_m{0.0}; // the friction spring's other end, device frame
         Vec3 force_n{0.0};
         double grasp_torque_nm = 0.0;
         Vec3 impulse_ns{0.0};
@@ -65,8 +65,10 @@ private:
 
     void place(Track &track, double dt_s) const noexcept;
     [[nodiscard]] double share_of(std::size_t index) const noexcept;
-    void push_point(Track &track, const GripState &grip, double share, double damping_scale) const noexcept;
-    void push_grasp(Track &track, const GripState &grip, double share, double damping_scale) const noexcept;
+    void push_point(Track &track, const GripState &grip, double share,
+                    double damping_scale) const noexcept;
+    void push_grasp(Track &track, const GripState &grip, double share,
+                    double damping_scale) const noexcept;
 
     double full_s_ = 0.1;
     double gone_s_ = 0.3;

@@ -21,7 +21,9 @@ Claims &claims() {
 
 } // namespace
 
-DeviceClaim::~DeviceClaim() { release(); }
+DeviceClaim::~DeviceClaim() {
+    release();
+}
 
 DeviceClaim::DeviceClaim(DeviceClaim &&other) noexcept : name_(std::exchange(other.name_, {})) {}
 

@@ -10,10 +10,10 @@ class DeviceStateMachine {
 public:
     struct Inputs {
         bool forces_enabled = false;
-        bool arm = false;             // edges
+        bool arm = false; // edges
         bool disarm = false;
-        bool tracking = false;        // the newest sample gave a pose
-        bool may_arm_itself = false;  // simulated device
+        bool tracking = false;       // the newest sample gave a pose
+        bool may_arm_itself = false; // simulated device
     };
 
     // Closed, no fault, no edge pending.

@@ -63,6 +63,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     if (unchanged && solved_) {
         result.skipped = true;
         since_pose_s_ = 0.0;
+        grip_.status = solved_status_;
         filter_twist(Twist(), dt_s);
         return result;
     }
@@ -90,13 +91,13 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
         raw.linear_m_s = (solution.pose.position_m - grip_.pose.position_m) / elapsed_s;
         raw.angular_rad_s =
             rotation_log(frame.rotation * glm::transpose(grip_.frame.rotation)) / elapsed_s;
-        raw.grasp_rate_rad_s =
-            (frame.grasp_angle_rad - grip_.frame.grasp_angle_rad) / elapsed_s;
+        raw.grasp_rate_rad_s = (frame.grasp_angle_rad - grip_.frame.grasp_angle_rad) / elapsed_s;
         filter_twist(raw, dt_s);
     }
     grip_.pose = solution.pose;
     grip_.frame = frame;
     grip_.status = solution.status;
+    solved_status_ = solution.status;
     has_pose_ = true;
     solved_ = true;
     result.moved = true;

@@ -18,7 +18,7 @@ public:
         Status status = Status::ok; // < 0: the pose is the last good one
         bool skipped = false;       // counts unchanged: nothing to solve
         bool cold_start = false;
-        bool moved = false;         // the pose changed
+        bool moved = false; // the pose changed
     };
     // A plausible sample. `unchanged`: the same counts as the last good one.
     Update update(const CountArray &counts, bool unchanged, double dt_s) noexcept;
@@ -39,8 +39,9 @@ private:
     double cutoff_rad_s_ = 0.0;
     GripState grip_{};
     StringArray lengths_m_{};
+    Status solved_status_ = Status::ok; // of the pose held
     bool has_pose_ = false;
-    bool solved_ = false;      // the last sample gave a pose
+    bool solved_ = false;       // the last sample gave a pose
     double since_pose_s_ = 0.0; // since the pose the next difference is taken from
 };
 

@@ -28,14 +28,14 @@ enum class ContactTarget : std::uint8_t {
 // grasp_stop: normal.x is +1 (stops opening below offset_rad) or -1: keeps normal.x * grasp_angle >= offset;
 // stiffness is then in N m/rad, damping in N m s/rad. A stop at a width of angle w: normal.x = -1, offset = -w.
 struct ContactPlane {
-    Vec3 normal{0.0, 1.0, 0.0};   // unit
-    double offset_m = 0.0;        // or rad
-    Vec3 velocity_m_s{0.0};       // the plane's own: it moves on between updates (at most 30 ms)
+    Vec3 normal{0.0, 1.0, 0.0}; // unit
+    double offset_m = 0.0;      // or rad
+    Vec3 velocity_m_s{0.0};     // the plane's own: it moves on between updates (at most 30 ms)
     double stiffness_n_m = 350.0;
     double damping_n_s_m = 2.0;
-    double friction = 0.0;        // Coulomb coefficient
+    double friction = 0.0; // Coulomb coefficient
     ContactTarget target = ContactTarget::centre;
-    std::int32_t id = 0;          // persistent; impulses come back by it
+    std::int32_t id = 0; // persistent; impulses come back by it
 };
 
 struct HapticCommand {

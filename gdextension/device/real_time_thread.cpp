@@ -54,7 +54,9 @@ void sleep_until_ns(std::int64_t deadline_ns) noexcept {
         std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns)));
 }
 
-bool request_real_time() noexcept { return false; }
+bool request_real_time() noexcept {
+    return false;
+}
 
 #endif
 
@@ -66,7 +68,9 @@ FlushDenormals::FlushDenormals() noexcept : saved_(_mm_getcsr()) {
     _mm_setcsr(static_cast<unsigned int>(saved_) | kFlushToZero | kDenormalsAreZero);
 }
 
-FlushDenormals::~FlushDenormals() { _mm_setcsr(static_cast<unsigned int>(saved_)); }
+FlushDenormals::~FlushDenormals() {
+    _mm_setcsr(static_cast<unsigned int>(saved_));
+}
 
 #elif defined(__aarch64__) && defined(__GNUC__)
 
@@ -76,12 +80,16 @@ FlushDenormals::FlushDenormals() noexcept {
     asm volatile("msr fpcr, %0" : : "r"(saved_ | kFlushToZero));
 }
 
-FlushDenormals::~FlushDenormals() { asm volatile("msr fpcr, %0" : : "r"(saved_)); }
+FlushDenormals::~FlushDenormals() {
+    asm volatile("msr fpcr, %0" : : "r"(saved_));
+}
 
 #else
 
 FlushDenormals::FlushDenormals() noexcept = default;
-FlushDenormals::~FlushDenormals() { (void)saved_; }
+FlushDenormals::~FlushDenormals() {
+    (void)saved_;
+}
 
 #endif
 

@@ -50,8 +50,7 @@ struct ServoLoop::Impl {
     void cycle(double dt_s) noexcept {
         const Status read = transport->read(reading);
         commands.read(command);
-        const DriveCommand drive =
-            step.step(read, reading, command, dt_s, transport->simulated());
+        const DriveCommand drive = step.step(read, reading, command, dt_s, transport->simulated());
         const bool lost = step.snapshot().state == DeviceState::closed;
         const Status written = transport->write(drive);
         if (!lost) {
@@ -129,7 +128,9 @@ ServoLoop::ServoLoop(std::unique_ptr<Transport> transport) : impl_(std::make_uni
     impl_->transport = std::move(transport);
 }
 
-ServoLoop::~ServoLoop() { stop(); }
+ServoLoop::~ServoLoop() {
+    stop();
+}
 
 Status ServoLoop::start_stepped(const ServoSettings &settings) {
     stop();
@@ -188,9 +189,13 @@ void ServoLoop::stop() noexcept {
     impl_->snapshots.write(last);
 }
 
-bool ServoLoop::running() const noexcept { return impl_->is_running; }
+bool ServoLoop::running() const noexcept {
+    return impl_->is_running;
+}
 
-bool ServoLoop::threaded() const noexcept { return impl_->is_threaded; }
+bool ServoLoop::threaded() const noexcept {
+    return impl_->is_threaded;
+}
 
 int ServoLoop::advance(std::uint32_t numerator, std::uint32_t denominator) noexcept {
     Impl &impl = *impl_;
@@ -218,9 +223,13 @@ int ServoLoop::advance(std::uint32_t numerator, std::uint32_t denominator) noexc
     return static_cast<int>(cycles);
 }
 
-void ServoLoop::publish(const HapticCommand &command) noexcept { impl_->commands.write(command); }
+void ServoLoop::publish(const HapticCommand &command) noexcept {
+    impl_->commands.write(command);
+}
 
-bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept { return impl_->snapshots.read(snapshot); }
+bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept {
+    return impl_->snapshots.read(snapshot);
+}
 
 LoopStatistics ServoLoop::statistics() const noexcept {
     const Impl &impl = *impl_;
@@ -238,6 +247,8 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     return statistics;
 }
 
-Transport &ServoLoop::transport() noexcept { return *impl_->transport; }
+Transport &ServoLoop::transport() noexcept {
+    return *impl_->transport;
+}
 
 } // namespace spidar

@@ -13,14 +13,14 @@
 namespace spidar {
 
 struct LoopStatistics {
-    double measured_rate_hz = 0.0;     // over the last second; the set rate when stepped
-    double lateness_p50_us = 0.0;      // wake-up after the deadline; 0 when stepped
+    double measured_rate_hz = 0.0; // over the last second; the set rate when stepped
+    double lateness_p50_us = 0.0;  // wake-up after the deadline; 0 when stepped
     double lateness_p99_us = 0.0;
     double lateness_max_us = 0.0;
-    double step_p50_us = 0.0;          // read + compute + write
+    double step_p50_us = 0.0; // read + compute + write
     double step_p99_us = 0.0;
     std::uint64_t missed_deadlines = 0;
-    bool real_time_priority = false;   // SCHED_FIFO granted
+    bool real_time_priority = false; // SCHED_FIFO granted
 };
 
 class ServoLoop {

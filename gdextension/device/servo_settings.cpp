@@ -35,7 +35,8 @@ std::string validate_safety(const SafetySettings &safety) {
         {"safety.max_moment_nm", safety.max_moment_nm, "N m", 0.0, 10.0},
         {"safety.max_grasp_torque_nm", safety.max_grasp_torque_nm, "N m", 0.0, 10.0},
         {"safety.max_count_speed_m_s", safety.max_count_speed_m_s, "m/s", 0.1, 100.0},
-        {"safety.max_bad_samples", static_cast<double>(safety.max_bad_samples), "samples", 1.0, 100.0},
+        {"safety.max_bad_samples", static_cast<double>(safety.max_bad_samples), "samples", 1.0,
+         100.0},
         {"safety.read_timeout_fade_s", safety.read_timeout_fade_s, "s", 0.001, 1.0},
         {"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s", 0.001, 1.0},
         {"safety.max_grip_speed_m_s", safety.max_grip_speed_m_s, "m/s", 0.1, 10.0},
@@ -96,11 +97,12 @@ std::string validate(const ServoSettings &settings) {
         if (!(weakest_n > settings.tension.reference_tension_n) ||
             !(weakest_n > settings.tension.min_tension_n)) {
             char text[256];
-            std::snprintf(text, sizeof text,
-                          "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
-                          "pretension of %g N; raise max_current_a or lower reference_tension_n.",
-                          weakest_n,
-                          std::max(settings.tension.reference_tension_n, settings.tension.min_tension_n));
+            std::snprintf(
+                text, sizeof text,
+                "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
+                "pretension of %g N; raise max_current_a or lower reference_tension_n.",
+                weakest_n,
+                std::max(settings.tension.reference_tension_n, settings.tension.min_tension_n));
             problem = text;
         }
     }

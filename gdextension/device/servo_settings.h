@@ -13,27 +13,27 @@
 namespace spidar {
 
 struct SafetySettings {
-    double arming_time_s = 1.0;            // forces rise from 0 to 1 over this
-    double tension_slew_n_per_ms = 1.0;    // of each string
-    double max_force_n = 8.0;              // of the request; larger is scaled, direction kept
+    double arming_time_s = 1.0;         // forces rise from 0 to 1 over this
+    double tension_slew_n_per_ms = 1.0; // of each string
+    double max_force_n = 8.0;           // of the request; larger is scaled, direction kept
     double max_moment_nm = 0.4;
     double max_grasp_torque_nm = 0.4;
-    double max_count_speed_m_s = 5.0;      // a string that seems faster is a bad sample
-    int max_bad_samples = 3;               // in a row; then the fault latches
-    double read_timeout_fade_s = 0.005;    // no report for this long: wrench to zero in 20 ms
-    double read_timeout_fault_s = 0.020;   // motors off
-    double max_grip_speed_m_s = 2.0;       // over-speed: motors off
-    double wrench_fade_s = 0.050;          // after its duration
-    double contacts_full_s = 0.100;        // age to which contacts act in full
-    double contacts_gone_s = 0.300;        // age at which they have faded out
+    double max_count_speed_m_s = 5.0;    // a string that seems faster is a bad sample
+    int max_bad_samples = 3;             // in a row; then the fault latches
+    double read_timeout_fade_s = 0.005;  // no report for this long: wrench to zero in 20 ms
+    double read_timeout_fault_s = 0.020; // motors off
+    double max_grip_speed_m_s = 2.0;     // over-speed: motors off
+    double wrench_fade_s = 0.050;        // after its duration
+    double contacts_full_s = 0.100;      // age to which contacts act in full
+    double contacts_gone_s = 0.300;      // age at which they have faded out
 };
 
 struct ServoSettings {
-    double rate_hz = 1000.0;               // 100 to 4000
-    double velocity_cutoff_hz = 60.0;      // one-pole filter of the twist
+    double rate_hz = 1000.0;          // 100 to 4000
+    double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;
-    StringCalibration strings;             // must be given: zero scale is refused
+    StringCalibration strings; // must be given: zero scale is refused
     MotorCalibration motors;
     TensionSettings tension;
     GraspSettings grasp;

@@ -18,15 +18,15 @@ enum class DeviceState : std::uint8_t {
     connected = 1, // reading; motors at zero
     arming = 2,    // forces rise
     active = 3,
-    fading = 4,    // forces fall, then connected
-    fault = 5,     // motors off until clear_fault() and arm()
+    fading = 4, // forces fall, then connected
+    fault = 5,  // motors off until clear_fault() and arm()
 };
 [[nodiscard]] const char *describe(DeviceState state) noexcept;
 
 struct GripState {
     GripPose pose;
     GripFrame frame;
-    Twist twist;                    // filtered
+    Twist twist; // filtered
     double residual_rms_m = 0.0;
     double conditioning = 0.0;
     Status status = Status::held_last_pose; // < 0 or held_last_pose: the pose is an old one
@@ -44,35 +44,36 @@ struct ServoCounters {
     std::uint64_t ticks = 0;
     std::uint64_t kinematics_skipped = 0; // counts unchanged
     std::uint64_t cold_starts = 0;
-    std::uint64_t bad_samples = 0;        // count jumps and impossible lengths
+    std::uint64_t bad_samples = 0; // count jumps and impossible lengths
     std::uint64_t read_timeouts = 0;
-    std::uint64_t rejected_requests = 0;  // not finite or malformed, seen in the loop
+    std::uint64_t rejected_requests = 0; // not finite or malformed, seen in the loop
     std::uint64_t clamped_requests = 0;
     std::uint64_t expired_requests = 0;
-    std::uint64_t saturated_ticks = 0;    // strings at a bound changed the wrench
-    std::uint64_t slewed_ticks = 0;       // the slew limit changed a tension
+    std::uint64_t saturated_ticks = 0; // strings at a bound changed the wrench
+    std::uint64_t slewed_ticks = 0;    // the slew limit changed a tension
     std::uint64_t write_failures = 0;
-    std::uint64_t bad_time_steps = 0;     // not in (0, 0.05] s: taken as 1 / rate
-    std::uint64_t gate_clamps = 0;        // a tension outside [0, max] or NaN reached the safety gate: a defect
+    std::uint64_t bad_time_steps = 0; // not in (0, 0.05] s: taken as 1 / rate
+    std::uint64_t gate_clamps =
+        0; // a tension outside [0, max] or NaN reached the safety gate: a defect
 };
 
 struct ServoSnapshot {
     double time_s = 0.0; // sum of the time steps
     DeviceState state = DeviceState::closed;
-    Status fault = Status::ok;       // why, when state is fault
-    std::int8_t fault_string = -1;   // 0-7, or -1
+    Status fault = Status::ok;     // why, when state is fault
+    std::int8_t fault_string = -1; // 0-7, or -1
     GripState grip;
     GraspPhase grasp = GraspPhase::open;
     CountArray counts{};
     StringArray lengths_m{};
-    StringArray tensions_n{};        // commanded, after every limit
-    Wrench requested;                // all requests summed, after limits and ramp
-    Wrench achieved;                 // what tensions_n give
-    Wrench bias;                     // the part of achieved - requested owed to ridge and pretension
+    StringArray tensions_n{}; // commanded, after every limit
+    Wrench requested;         // all requests summed, after limits and ramp
+    Wrench achieved;          // what tensions_n give
+    Wrench bias;              // the part of achieved - requested owed to ridge and pretension
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0;        // arming ramp, 0..1
+    double force_scale = 0.0; // arming ramp, 0..1
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
     ServoCounters counters;

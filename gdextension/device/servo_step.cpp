@@ -175,8 +175,7 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
 
 DriveCommand ServoStep::drive(double dt_s) noexcept {
     const double trust = tracking_ ? 1.0 : 0.0;
-    const Wrench asked =
-        wrench_.value() + contacts_.render(tracker_.grip(), dt_s, trust);
+    const Wrench asked = wrench_.value() + contacts_.render(tracker_.grip(), dt_s, trust);
     const double factor = limit_factor(asked, settings_.safety);
     if (factor < 1.0 && !limiting_) {
         ++snapshot_.counters.clamped_requests;

@@ -27,8 +27,8 @@ public:
 
     // read_status: what Transport::read returned. may_arm_itself: simulated devices arm when forces are enabled.
     // Returns what to write; snapshot() holds the rest.
-    DriveCommand step(Status read_status, const DeviceReading &reading, const HapticCommand &command,
-                      double dt_s, bool may_arm_itself) noexcept;
+    DriveCommand step(Status read_status, const DeviceReading &reading,
+                      const HapticCommand &command, double dt_s, bool may_arm_itself) noexcept;
 
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
@@ -59,14 +59,14 @@ private:
     TensionSolver solver_;
     SafetyGate gate_;
     WrenchMatrix matrix_{};
-    bool matrix_valid_ = false;  // of the present pose
+    bool matrix_valid_ = false; // of the present pose
     bool motors_were_on_ = false;
-    bool limiting_ = false;      // the sum of all requests is being brought down
-    bool tracking_ = false;      // the newest sample gave a pose
-    bool answered_ = false;      // any reading yet
+    bool limiting_ = false; // the sum of all requests is being brought down
+    bool tracking_ = false; // the newest sample gave a pose
+    bool answered_ = false; // any reading yet
     double since_report_s_ = 0.0;
-    int unsolved_in_row_ = 0;    // samples without a pose
-    double link_scale_ = 1.0;    // of the wrench, while reports fail to come
+    int unsolved_in_row_ = 0; // samples without a pose
+    double link_scale_ = 1.0; // of the wrench, while reports fail to come
     std::uint32_t arm_count_ = 0;
     std::uint32_t disarm_count_ = 0;
     std::uint32_t clear_fault_count_ = 0;

@@ -10,7 +10,8 @@
 
 namespace spidar {
 
-template <typename T> class TripleBuffer {
+template <typename T>
+class TripleBuffer {
     static_assert(std::is_nothrow_copy_assignable_v<T>);
 
 public:

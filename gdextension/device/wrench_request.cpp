@@ -25,7 +25,8 @@ double factor_for(const Vec3 &v, double limit) noexcept {
 } // namespace
 
 Wrench operator+(const Wrench &a, const Wrench &b) noexcept {
-    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm, a.grasp_torque_nm + b.grasp_torque_nm};
+    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm,
+            a.grasp_torque_nm + b.grasp_torque_nm};
 }
 
 Wrench operator*(double factor, const Wrench &wrench) noexcept {

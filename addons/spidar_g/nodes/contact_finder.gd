@@ -1,0 +1,106 @@
+extends RefCounted
+## Finds the surfaces near a convex shape: one plane per body, published before contact.
+##
+## A shape query with a margin reports, for convex shapes A (ours) and B, the points of the shape grown by the
+## margin; the separation is therefore dot(n, a - b) + margin. The plane through the nearest point of a convex body with
+## the normal of shortest separation holds the whole body behind it, so it never stops what the body would not stop.
+
+const ContactPlane := preload("contact_plane.gd")
+
+## Bodies looked at per shape and frame, nearest side of a bound on the frame's cost.
+const MAX_BODIES: int = 6
+## Contact points asked per body: a face on a face gives four.
+const MAX_POINTS: int = 4
+
+## A body with this metadata (N/m per device metre) feels softer than the rest.
+const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
+## The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
+## let a light body bounce between the tool's push and its own answer.
+const PUSHED_STIFFNESS_RATIO: float = 1.0
+
+var collision_mask: int = 1
+var margin_m: float = 0.04
+var stiffness_n_m: float = 350.0
+var damping_n_s_m: float = 2.0
+var friction: float = 0.4
+var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
+
+
+## Appends to `found` the planes near `shape` at `transform`; bodies in `exclude` are not seen.
+func find(
+	space: PhysicsDirectSpaceState3D,
+	shape: Shape3D,
+	transform: Transform3D,
+	exclude: Array[RID],
+	found: Array[ContactPlane]
+) -> void:
+	_query.shape = shape
+	_query.transform = transform
+	_query.margin = margin_m
+	_query.collision_mask = collision_mask
+	_query.exclude = exclude
+	var bodies: Array[RID] = unique_rids(space.intersect_shape(_query, 2 * MAX_BODIES))
+	for rid: RID in bodies:
+		_query.exclude = exclude + bodies.filter(func(other: RID) -> bool: return other != rid)
+		var plane: ContactPlane = _nearest_plane(space)
+		if plane != null:
+			found.append(plane)
+
+
+## Each body once, in the order met.
+static func unique_rids(hits: Array[Dictionary]) -> Array[RID]:
+	var rids: Array[RID] = []
+	for hit: Dictionary in hits:
+		var rid: RID = hit["rid"]
+		if not rids.has(rid) and rids.size() < MAX_BODIES:
+			rids.append(rid)
+	return rids
+
+
+func _nearest_plane(space: PhysicsDirectSpaceState3D) -> ContactPlane:
+	var rest: Dictionary = space.get_rest_info(_query)
+	if rest.is_empty():
+		return null
+	var normal: Vector3 = rest["normal"]
+	if not normal.is_finite() or absf(normal.length_squared() - 1.0) > 1e-3:
+		return null  # Engines give a zero normal for exactly concentric shapes: there is no side to push to.
+	normal = normal.normalized()
+	var separation: float = INF
+	var pairs: PackedVector3Array = space.collide_shape(_query, MAX_POINTS)
+	for i: int in range(0, pairs.size() - 1, 2):
+		separation = minf(separation, normal.dot(pairs[i] - pairs[i + 1]) + margin_m)
+	if not is_finite(separation):
+		return null
+	var plane: ContactPlane = ContactPlane.new()
+	plane.normal = normal
+	plane.separation_m = separation
+	plane.point = rest["point"]
+	plane.velocity = rest["linear_velocity"]
+	plane.rid = rest["rid"]
+	var collider_id: int = rest["collider_id"]
+	set_material(plane, instance_from_id(collider_id))
+	return plane
+
+
+## Gives `plane` the feel of the body `collider`, and the body itself when a push moves it.
+func set_material(plane: ContactPlane, collider: Object) -> void:
+	plane.stiffness_n_m = float_meta(collider, STIFFNESS_META, stiffness_n_m)
+	plane.damping_n_s_m = damping_n_s_m
+	plane.friction = friction
+	var body: RigidBody3D = collider as RigidBody3D
+	if body != null and not body.freeze:
+		plane.pushed_body = body
+		var per_frame: float = float(Engine.physics_ticks_per_second)
+		var limit: float = PUSHED_STIFFNESS_RATIO * body.mass * per_frame * per_frame
+		plane.stiffness_n_m = minf(plane.stiffness_n_m, limit)
+
+
+## Metadata `key` of `object` when it is a positive finite number, else `fallback`.
+static func float_meta(object: Object, key: StringName, fallback: float) -> float:
+	if object == null or not object.has_meta(key):
+		return fallback
+	var value: Variant = object.get_meta(key)
+	if not (value is float or value is int):
+		return fallback
+	var number: float = value
+	return number if is_finite(number) and number > 0.0 else fallback

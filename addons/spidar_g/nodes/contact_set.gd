@@ -1,0 +1,95 @@
+extends RefCounted
+## The planes published to the device: merges parallel ones, keeps ids from frame to frame, packs them for
+## SpidarG.set_contacts, and turns the impulses that come back into what each plane gave since the last frame.
+
+const ContactPlane := preload("contact_plane.gd")
+
+## All planes act on the grip's centre, so of two that are nearly parallel only the nearer one can ever touch.
+const MERGE_COSINE: float = 0.996  # 5 degrees
+## A surface of the same body whose normal turned less than this in one frame is the same surface.
+const SAME_SURFACE_COSINE: float = 0.94  # 20 degrees
+## SpidarG takes 8 contacts; one is kept for the grasp stop.
+const MAX_PLANES: int = 7
+
+var planes: Array[ContactPlane] = []
+var _next_id: int = 1
+var _sums: Dictionary[int, Vector3] = {}
+var _gained: Dictionary[int, Vector3] = {}
+
+
+## An id never used before, for the grasp stop as well as planes.
+func new_id() -> int:
+	var id: int = _next_id
+	_next_id = 1 if _next_id >= 0x7fffffff else _next_id + 1  # The device takes 32-bit ids.
+	return id
+
+
+## Replaces the set by `found`, nearest first, at most MAX_PLANES.
+func replace(found: Array[ContactPlane]) -> void:
+	found.sort_custom(
+		func(a: ContactPlane, b: ContactPlane) -> bool: return a.separation_m < b.separation_m
+	)
+	var kept: Array[ContactPlane] = []
+	for plane: ContactPlane in found:
+		if kept.size() < MAX_PLANES and not _is_covered(plane, kept):
+			kept.append(plane)
+	var before: Array[ContactPlane] = planes.duplicate()
+	for plane: ContactPlane in kept:
+		var same: ContactPlane = _same_surface(plane, before)
+		if same == null:
+			plane.id = new_id()
+		else:
+			plane.id = same.id
+			before.erase(same)
+	planes = kept
+
+
+## Appends SpidarG's rows for a grip centred on `centre` (world).
+func pack_into(rows: PackedFloat64Array, centre: Vector3) -> void:
+	for plane: ContactPlane in planes:
+		var offset: float = plane.normal.dot(centre) - plane.separation_m
+		rows.append_array(
+			PackedFloat64Array(
+				[
+					plane.normal.x, plane.normal.y, plane.normal.z, offset,
+					plane.velocity.x, plane.velocity.y, plane.velocity.z,
+					plane.stiffness_n_m, plane.damping_n_s_m, plane.friction,
+					SpidarG.CONTACT_CENTRE, plane.id,
+				]
+			)
+		)
+
+
+## Takes SpidarG.get_contact_impulses(), sums since each id appeared, once a physics frame.
+func read_impulses(sums: Dictionary) -> void:
+	_gained.clear()
+	var now: Dictionary[int, Vector3] = {}
+	for key: Variant in sums:
+		var id: int = key
+		var total: Vector3 = sums[key]
+		now[id] = total
+		_gained[id] = total - _sums.get(id, Vector3.ZERO)
+	_sums = now
+
+
+## N s on the grip since the last frame (grasp stop: N m s in x).
+func gained(id: int) -> Vector3:
+	return _gained.get(id, Vector3.ZERO)
+
+
+func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:
+	for other: ContactPlane in nearer:
+		if plane.normal.dot(other.normal) > MERGE_COSINE:
+			return true
+	return false
+
+
+func _same_surface(plane: ContactPlane, before: Array[ContactPlane]) -> ContactPlane:
+	var best: ContactPlane = null
+	var best_cosine: float = SAME_SURFACE_COSINE
+	for other: ContactPlane in before:
+		var cosine: float = plane.normal.dot(other.normal)
+		if other.rid == plane.rid and cosine > best_cosine:
+			best = other
+			best_cosine = cosine
+	return best

@@ -1,0 +1,86 @@
+extends Node3D
+## Holds a rigid body to the grip: a kinematic anchor without shape that follows the grip, and a 6-DOF joint,
+## all axes locked, from it to the body. Squeezing by friction alone loses thin bodies in a game engine; this does not.
+
+## The pads close on the middle of a body that was caught off-centre within this time.
+const CENTRING_TIME_S: float = 0.08
+## Speed left to a body that is let go, so that a solver's last correction never throws it.
+const MAX_RELEASE_SPEED_M_S: float = 2.0
+
+var body: RigidBody3D = null
+var _anchor: AnimatableBody3D = null
+var _joint: Generic6DOFJoint3D = null
+## From the anchor to the body, as it was when caught.
+var _caught: Transform3D = Transform3D.IDENTITY
+## Along the grip's x axis, how far the body sat from the middle, and how much of it is still there.
+var _off_centre_m: float = 0.0
+var _age_s: float = 0.0
+var _could_sleep: bool = true
+
+
+func _init() -> void:
+	top_level = true
+
+
+## Catches `caught` as it is now. off_centre_m: its middle along the grip's x axis.
+func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void:
+	body = caught
+	_off_centre_m = off_centre_m
+	_age_s = 0.0
+	_caught = grip.affine_inverse() * body.global_transform
+	_could_sleep = body.can_sleep
+	body.can_sleep = false
+	body.sleeping = false
+	_anchor = AnimatableBody3D.new()
+	_anchor.sync_to_physics = false
+	_anchor.collision_layer = 0
+	_anchor.collision_mask = 0
+	add_child(_anchor)
+	_anchor.global_transform = grip
+	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
+	add_child(_joint)
+	_joint.global_transform = body.global_transform
+	_joint.node_a = _joint.get_path_to(_anchor)
+	_joint.node_b = _joint.get_path_to(body)
+
+
+## Moves on by one physics frame: call once, before where() and follow().
+func advance(delta_s: float) -> void:
+	_age_s += delta_s
+
+
+## Where the body belongs when the grip is at `grip` and nothing is in the way.
+func where(grip: Transform3D) -> Transform3D:
+	return _centred(grip) * _caught
+
+
+## Carries the anchor to the grip, moved by `shift` where the body met something that does not give way.
+func follow(grip: Transform3D, shift: Vector3) -> void:
+	var target: Transform3D = _centred(grip)
+	target.origin += shift
+	_anchor.global_transform = target
+
+
+## Scene metres between the body and where the anchor last held it: large when something tears at it.
+func stretch_m() -> float:
+	return body.global_position.distance_to((_anchor.global_transform * _caught).origin)
+
+
+## Lets go; safe when the body is leaving the tree.
+func detach() -> void:
+	if _joint != null:
+		_joint.node_a = NodePath()
+		_joint.node_b = NodePath()
+		_joint.queue_free()
+		_anchor.queue_free()
+	if is_instance_valid(body):
+		body.can_sleep = _could_sleep
+		body.linear_velocity = body.linear_velocity.limit_length(MAX_RELEASE_SPEED_M_S)
+	body = null
+	_joint = null
+	_anchor = null
+
+
+func _centred(grip: Transform3D) -> Transform3D:
+	var moved: float = _off_centre_m * smoothstep(0.0, CENTRING_TIME_S, _age_s)
+	return grip.translated_local(Vector3(-moved, 0.0, 0.0))

@@ -1,0 +1,410 @@
+@tool
+@icon("../icons/spidar_g_hand.svg")
+class_name SpidarGHand
+extends Node3D
+## The tool that a SPIDAR-G holds in a scene: two finger pads on the grip's jaw axis.
+##
+## Add it as a child of a [SpidarG]. Each physics frame it publishes the surfaces near the tool as contact
+## planes and the body between the pads as a stop on the grasp angle, both rendered in the device thread, and
+## asks for the weight and inertia of the body it holds. A [RigidBody3D] squeezed hard enough (friction check) is
+## held by a 6-DOF joint until the jaws open. Bodies with metadata [code]spidar_stiffness_n_m[/code] (N/m) or
+## [code]spidar_squeeze_nm_rad[/code] (N m/rad) feel softer than the rest.
+
+signal body_grasped(body: RigidBody3D)
+## Also when the body leaves the tree.
+signal body_released(body: RigidBody3D)
+## The pads closed on a body and do not hold it; once per attempt, with the reason and the remedy.
+signal grasp_refused(body: RigidBody3D, reason: String)
+
+const ContactFinder := preload("contact_finder.gd")
+const ContactPlane := preload("contact_plane.gd")
+const ContactSet := preload("contact_set.gd")
+const GraspJudge := preload("grasp_judge.gd")
+const GraspStop := preload("grasp_stop.gd")
+const HeldLoad := preload("held_load.gd")
+const HoldJoint := preload("hold_joint.gd")
+const JawSensor := preload("jaw_sensor.gd")
+const PadShape := preload("pad_shape.gd")
+
+## Closing to within this of a body's width counts as touching it, rad.
+const TOUCH_TOLERANCE: float = 0.01
+## Opening this far past the held body's width lets go, rad (3 degrees; less would drop it when a hand trembles).
+const RELEASE_ANGLE: float = 0.052
+## Play of the pads round a body that is not held, device metres: keeps the two side planes feasible together.
+const SIDE_SLACK_M: float = 0.002
+## The pads' own stop is published when the jaws are this near to closed, rad.
+const CLOSED_STOP_RANGE: float = 0.17
+## A held body torn this far from the grip (device metres) is stuck behind something.
+const MAX_STRETCH_M: float = 0.015
+## Load or stretch has to last this long to break a hold, s.
+const BREAK_TIME_S: float = 0.05
+
+## Layers that the tool touches and grasps.
+@export_flags_3d_physics var collision_mask: int = 1
+@export_group("Contact", "contact_")
+## Surfaces nearer than this are published, so that the device has them before the hand does.
+@export_range(0.01, 0.1, 0.001, "suffix:m") var contact_margin_m: float = 0.04
+## Of every surface, per device metre. Above 350 light hands may buzz on slow links.
+@export_range(50.0, 2000.0, 1.0, "suffix:N/m") var contact_stiffness_n_m: float = 350.0
+@export_range(0.0, 5.0, 0.1, "suffix:N s/m") var contact_damping_n_s_m: float = 2.0
+@export_range(0.0, 2.0, 0.01) var contact_friction: float = 0.4
+@export_group("Grasp")
+## Between a pad and a body. A body whose physics material is smoother takes its own, unless it is marked rough.
+@export_range(0.0, 2.0, 0.01) var pad_friction: float = 0.8
+## Least grasp torque that holds anything, however light.
+@export_range(0.0, 0.4, 0.001, "suffix:N m") var hold_torque_nm: float = 0.005
+## A held body pressed against the world harder than this is torn from the pads.
+@export_range(0.5, 50.0, 0.1, "suffix:N") var break_force_n: float = 7.0
+@export_group("Feel")
+@export var render_contacts: bool = true
+@export var render_width: bool = true
+@export var render_weight: bool = true
+@export var render_inertia: bool = true
+## Multiplies the felt weight and inertia, for scenes whose masses the device cannot carry.
+@export_range(0.0, 2.0, 0.01) var weight_scale: float = 1.0
+
+## The parent, or null: then nothing happens and a configuration warning says why.
+var spidar: SpidarG = null
+
+var _contacts: ContactSet = ContactSet.new()
+var _finder: ContactFinder = ContactFinder.new()
+var _jaw: JawSensor = JawSensor.new()
+var _judge: GraspJudge = GraspJudge.new()
+var _stop: GraspStop = GraspStop.new()
+var _load: HeldLoad = HeldLoad.new()
+var _pad: PadShape = PadShape.new()
+var _hold: HoldJoint = null
+var _held_width_m: float = 0.0
+var _overload_s: float = 0.0
+var _published: bool = false
+var _load_requested: bool = false
+var _fallback_config: SpidarGConfig = null
+
+
+func _enter_tree() -> void:
+	spidar = get_parent() as SpidarG
+	_run_if_useful()
+	update_configuration_warnings()
+
+
+func _ready() -> void:
+	_run_if_useful()  # The engine turns physics processing on just before this.
+
+
+func _exit_tree() -> void:
+	if not Engine.is_editor_hint():
+		release()
+		_withdraw()
+	spidar = null
+
+
+func _get_configuration_warnings() -> PackedStringArray:
+	var warnings: PackedStringArray = []
+	if not get_parent() is SpidarG:
+		warnings.append("SpidarGHand does nothing here: make it a child of a SpidarG node.")
+	var engine: String = str(ProjectSettings.get_setting("physics/3d/physics_engine", ""))
+	if engine != "Jolt Physics":
+		warnings.append(
+			"Thin bodies slip through floors in this physics engine: set physics/3d/physics_engine to "
+			+ "Jolt Physics (Project > Tools > SPIDAR-G: Apply Physics Settings)."
+		)
+	return warnings
+
+
+## The body that the tool holds, or null.
+func get_held_body() -> RigidBody3D:
+	return _hold.body if _hold != null else null
+
+
+## Width of the held body along the jaw axis where the pads hold it, scene metres; 0 when none is held.
+func get_held_width_m() -> float:
+	return _held_width_m if _hold != null else 0.0
+
+
+## Middle of a pad's inner face in the world: side 0 at -x of the grip, side 1 at +x. Pads stop at a body's faces.
+func get_pad_position(side: int) -> Vector3:
+	if spidar == null:
+		return global_position
+	return _pad.transform_of(side, spidar.get_grip_transform(), _shown_gap_m()).origin
+
+
+## Radius of a pad, scene metres.
+func get_pad_radius_m() -> float:
+	return PadShape.RADIUS_M * (spidar.workspace_scale if spidar != null else 1.0)
+
+
+## Grasp torque with which the fingers press the body between the pads, N m; 0 when they do not.
+func get_squeeze_torque_nm() -> float:
+	return _stop.squeeze_nm
+
+
+## Grasp angle at which the body between the pads (or the closed pads) stops the fingers, rad; NAN when nothing does.
+func get_stop_angle() -> float:
+	return _stop.angle_rad if _stop.active else NAN
+
+
+## Lets go of the held body, if any.
+func release() -> void:
+	if _hold == null:
+		return
+	var body: RigidBody3D = _hold.body
+	if is_instance_valid(body) and body.tree_exiting.is_connected(release):
+		body.tree_exiting.disconnect(release)
+	_hold.detach()
+	_hold.queue_free()
+	_hold = null
+	_judge.reset()
+	body_released.emit(body)
+
+
+func _run_if_useful() -> void:
+	set_physics_process(spidar != null and not Engine.is_editor_hint())
+
+
+func _physics_process(delta: float) -> void:
+	if spidar.get_state() == SpidarG.STATE_CLOSED:
+		release()
+		_withdraw()
+		return
+	var grip: Transform3D = spidar.get_grip_transform()
+	_contacts.read_impulses(spidar.get_contact_impulses())
+	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
+	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
+	_push_bodies(delta)
+	if _hold != null:
+		_watch_hold(delta)
+	var exclude: Array[RID] = []
+	if _hold == null:
+		_sense_jaws(grip)
+		_try_grasp(grip, delta)
+	if _hold != null:
+		exclude.append(_hold.body.get_rid())
+	var found: Array[ContactPlane] = []
+	if _hold != null:
+		_carry(grip, exclude, delta, found)
+	_find_tool_planes(grip, exclude, found)
+	_contacts.replace(found)
+	_publish(grip)
+	_request_load(grip, delta)
+
+
+## Newton's third law at game rate: what a plane gave the hand, its body gets back.
+func _push_bodies(delta: float) -> void:
+	var most: float = _settings().max_force * delta
+	for plane: ContactPlane in _contacts.planes:
+		var impulse: Vector3 = -_contacts.gained(plane.id)
+		if is_instance_valid(plane.pushed_body) and impulse.is_finite() and not impulse.is_zero_approx():
+			var arm: Vector3 = plane.point - plane.pushed_body.global_position
+			plane.pushed_body.apply_impulse(impulse.limit_length(most), arm)
+
+
+func _sense_jaws(grip: Transform3D) -> void:
+	var scale_m: float = spidar.workspace_scale
+	var settings: SpidarGConfig = _settings()
+	var reach: float = (0.5 * settings.jaw_open + PadShape.RADIUS_M) * scale_m
+	_jaw.collision_mask = collision_mask
+	_jaw.look(_space(), grip, _gap_m(), reach, get_pad_radius_m(), [])
+	if _jaw.body != null:
+		_place_stop(_jaw.width_m, _jaw.body, _jaw.rid)
+	elif spidar.get_grasp_angle() > settings.jaw_closed_angle - CLOSED_STOP_RANGE:
+		_stop.place(_contacts, settings.jaw_closed_angle, GraspStop.STIFFNESS_NM_RAD, RID())
+	else:
+		_stop.remove()
+
+
+func _place_stop(width_m: float, body: CollisionObject3D, rid: RID) -> void:
+	if not _stop.is_for(rid):
+		_judge.reset()
+	var angle: float = spidar.get_grasp_angle_for_gap(width_m / spidar.workspace_scale)
+	var stiffness: float = ContactFinder.float_meta(
+		body, GraspStop.STIFFNESS_META, GraspStop.STIFFNESS_NM_RAD
+	)
+	_stop.place(_contacts, angle, stiffness, rid)
+
+
+func _try_grasp(grip: Transform3D, delta: float) -> void:
+	var angle: float = spidar.get_grasp_angle()
+	if _jaw.body == null or angle < _stop.angle_rad - RELEASE_ANGLE:
+		_judge.reset()
+		return
+	if angle < _stop.angle_rad - TOUCH_TOLERANCE:
+		return
+	var body: RigidBody3D = _jaw.body as RigidBody3D
+	var weight: float = 0.0
+	if body != null:
+		weight = weight_scale * body.mass * _gravity_of(body).length()
+	# The fingers push at the poles' ends: force = torque / pole half length.
+	var lever: float = _settings().pole_half_length
+	var verdict: GraspJudge.Verdict = _judge.judge(
+		_jaw,
+		spidar.get_grasp_rate(),
+		_stop.squeeze_nm / lever,
+		hold_torque_nm / lever,
+		_friction_of(body),
+		weight,
+		delta
+	)
+	if verdict == GraspJudge.Verdict.HOLD:
+		_attach(body, grip)
+	elif verdict == GraspJudge.Verdict.REFUSE:
+		grasp_refused.emit(body, _judge.reason)
+
+
+func _attach(body: RigidBody3D, grip: Transform3D) -> void:
+	_hold = HoldJoint.new()
+	add_child(_hold)
+	_hold.attach(body, grip, _jaw.centre_offset_m)
+	_held_width_m = _jaw.width_m
+	_overload_s = 0.0
+	_load.reset(spidar.get_linear_velocity() / spidar.workspace_scale)
+	body.tree_exiting.connect(release)
+	body_grasped.emit(body)
+
+
+## Lets go when the jaws open past the body, or when the world tears at it for long enough.
+func _watch_hold(delta: float) -> void:
+	var force: Vector3 = Vector3.ZERO
+	for plane: ContactPlane in _contacts.planes:
+		if plane.through_held_body:
+			force += _contacts.gained(plane.id) / delta
+	var torn: bool = _hold.stretch_m() > MAX_STRETCH_M * spidar.workspace_scale
+	_overload_s = _overload_s + delta if torn or force.length() > break_force_n else 0.0
+	var opened: bool = spidar.get_grasp_angle() < _stop.angle_rad - RELEASE_ANGLE
+	if opened or _overload_s >= BREAK_TIME_S or _hold.body.freeze:
+		release()
+
+
+## Moves the held body with the grip as far as the world lets it, and finds the planes that stop it.
+func _carry(
+	grip: Transform3D, exclude: Array[RID], delta: float, found: Array[ContactPlane]
+) -> void:
+	_hold.advance(delta)
+	var body: RigidBody3D = _hold.body
+	var at: Transform3D = _hold.where(grip)
+	_prepare_finder()
+	for shape_owner: int in body.get_shape_owners():
+		if body.is_shape_owner_disabled(shape_owner):
+			continue
+		var placed: Transform3D = at * body.shape_owner_get_transform(shape_owner)
+		for index: int in body.shape_owner_get_shape_count(shape_owner):
+			var shape: Shape3D = body.shape_owner_get_shape(shape_owner, index)
+			_finder.find(_space(), shape, placed, exclude, found)
+	var shift: Vector3 = Vector3.ZERO
+	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
+		for plane: ContactPlane in found:
+			plane.through_held_body = true
+			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
+	_hold.follow(grip, shift)
+
+
+func _find_tool_planes(
+	grip: Transform3D, exclude: Array[RID], found: Array[ContactPlane]
+) -> void:
+	if not render_contacts:
+		return
+	_prepare_finder()
+	var beside: Array[RID] = exclude.duplicate()
+	if _hold == null and _jaw.body != null:
+		beside.append(_jaw.rid)
+		var settings: SpidarGConfig = _settings()
+		var gap_per_rad: float = settings.jaw_open / settings.jaw_closed_angle
+		var closing: float = spidar.get_grasp_rate() * gap_per_rad * spidar.workspace_scale
+		var slack: float = SIDE_SLACK_M * spidar.workspace_scale
+		_jaw.side_planes(_finder, grip, _gap_m(), closing, slack, found)
+	var shape: Shape3D = _pad.shape_for(spidar.workspace_scale)
+	for side: int in 2:
+		var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())
+		_finder.find(_space(), shape, at, beside, found)
+
+
+func _publish(grip: Transform3D) -> void:
+	var rows: PackedFloat64Array = PackedFloat64Array()
+	if render_contacts:
+		_contacts.pack_into(rows, grip.origin)
+	if render_width:
+		_stop.pack_into(rows)
+	if not rows.is_empty():
+		_published = spidar.set_contacts(rows)
+	elif _published:
+		spidar.clear_contacts()
+		_published = false
+
+
+func _request_load(grip: Transform3D, delta: float) -> void:
+	if _hold == null or not (render_weight or render_inertia):
+		if _load_requested:
+			spidar.request_wrench(Vector3.ZERO, Vector3.ZERO, 0.0)
+			_load_requested = false
+		return
+	var body: RigidBody3D = _hold.body
+	var scale_m: float = spidar.workspace_scale
+	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
+	var centre: Vector3 = state.transform.origin + state.center_of_mass
+	_load.advance(
+		delta,
+		body.mass,
+		state.total_gravity,
+		spidar.get_linear_velocity() / scale_m,
+		(centre - grip.origin) / scale_m,
+		_settings().max_force,
+		weight_scale,
+		render_weight,
+		render_inertia
+	)
+	_load_requested = spidar.request_wrench(_load.force_n, _load.moment_nm, 0.0)
+
+
+## Takes everything back from the device.
+func _withdraw() -> void:
+	_stop.remove()
+	_contacts.replace([])
+	_jaw.body = null
+	if spidar != null and _published:
+		spidar.clear_contacts()
+	if spidar != null and _load_requested:
+		spidar.request_wrench(Vector3.ZERO, Vector3.ZERO, 0.0)
+	_published = false
+	_load_requested = false
+
+
+func _prepare_finder() -> void:
+	_finder.collision_mask = collision_mask
+	_finder.margin_m = contact_margin_m
+	_finder.stiffness_n_m = contact_stiffness_n_m
+	_finder.damping_n_s_m = contact_damping_n_s_m
+	_finder.friction = contact_friction
+
+
+func _space() -> PhysicsDirectSpaceState3D:
+	return get_world_3d().direct_space_state
+
+
+## Of the jaws as the device stands, scene metres.
+func _gap_m() -> float:
+	return maxf(spidar.get_jaw_gap() * spidar.workspace_scale, 0.0)
+
+
+## The jaws as the pads show them: not closer than the body between them.
+func _shown_gap_m() -> float:
+	if _hold != null:
+		return maxf(_gap_m(), _held_width_m)
+	return maxf(_gap_m(), _jaw.width_m) if _jaw.body != null else _gap_m()
+
+
+func _gravity_of(body: RigidBody3D) -> Vector3:
+	return PhysicsServer3D.body_get_direct_state(body.get_rid()).total_gravity
+
+
+func _friction_of(body: RigidBody3D) -> float:
+	if body == null or body.physics_material_override == null:
+		return pad_friction
+	var material: PhysicsMaterial = body.physics_material_override
+	return maxf(pad_friction, material.friction) if material.rough else minf(pad_friction, material.friction)
+
+
+func _settings() -> SpidarGConfig:
+	if spidar.config != null:
+		return spidar.config
+	if _fallback_config == null:
+		_fallback_config = SpidarGConfig.new()
+	return _fallback_config

@@ -1,0 +1,183 @@
+@icon("../icons/spidar_g_view.svg")
+class_name SpidarGView
+extends Node3D
+## Draws a SPIDAR-G as it is: frame, eight strings coloured by tension, the two crossing poles with their hinge,
+## hemispheres and hinge stops, the finger pads of a sibling [SpidarGHand], and the force that the strings give.
+##
+## Add it as a child of a [SpidarG]. It only reads; it redraws what changed since the last frame, and nothing while hidden.
+
+const ViewParts := preload("view_parts.gd")
+
+## Below this a string is slack, N.
+const SLACK_N: float = 0.05
+const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
+const LOW_COLOUR: Color = Color(0.20, 0.48, 0.95)
+const FAIR_COLOUR: Color = Color(0.10, 0.70, 0.45)  # Straight from blue to yellow would pass through grey: slack.
+const MIDDLE_COLOUR: Color = Color(1.00, 0.82, 0.20)
+const HIGH_COLOUR: Color = Color(0.95, 0.18, 0.15)
+## Forces weaker than this have no arrow, N.
+const LEAST_FORCE_N: float = 0.02
+
+@export var show_frame: bool = true:
+	set(value):
+		show_frame = value
+		_stale = true
+@export var show_strings: bool = true:
+	set(value):
+		show_strings = value
+		_stale = true
+@export var show_grip: bool = true:
+	set(value):
+		show_grip = value
+		_stale = true
+@export var show_pads: bool = true:
+	set(value):
+		show_pads = value
+		_stale = true
+@export var show_force: bool = true:
+	set(value):
+		show_force = value
+		_stale = true
+## Length of the force arrow, device metres per newton.
+@export_range(0.001, 0.1, 0.001, "suffix:m/N") var force_arrow_m_n: float = 0.015
+
+## The parent, or null: then nothing is drawn and a configuration warning says why.
+var spidar: SpidarG = null
+
+var _parts: ViewParts = null
+var _hand: SpidarGHand = null
+var _stale: bool = true
+var _drawn_grip: Transform3D = Transform3D.IDENTITY
+var _drawn_frame: Transform3D = Transform3D.IDENTITY
+var _drawn_angle: float = NAN
+var _drawn_pads: PackedVector3Array = PackedVector3Array()
+var _drawn_tensions: PackedFloat64Array = PackedFloat64Array()
+var _drawn_force: Vector3 = Vector3.ZERO
+
+
+## Colour of a string under `tension_n`. Square root scale, so that pretension and half load look different.
+static func tension_colour(tension_n: float, max_n: float) -> Color:
+	if not (tension_n >= SLACK_N) or not (max_n > 0.0):
+		return SLACK_COLOUR
+	var part: float = 3.0 * clampf(sqrt(tension_n / max_n), 0.0, 1.0)
+	if part < 1.0:
+		return LOW_COLOUR.lerp(FAIR_COLOUR, part)
+	if part < 2.0:
+		return FAIR_COLOUR.lerp(MIDDLE_COLOUR, part - 1.0)
+	return MIDDLE_COLOUR.lerp(HIGH_COLOUR, part - 2.0)
+
+
+func _enter_tree() -> void:
+	spidar = get_parent() as SpidarG
+	top_level = true
+	global_transform = Transform3D.IDENTITY
+	_stale = true
+
+
+func _ready() -> void:
+	set_process(spidar != null)
+	if spidar == null:
+		push_warning("SpidarGView draws nothing: make it a child of a SpidarG node.")
+		return
+	_parts = ViewParts.new()
+	add_child(_parts)
+
+
+func _process(_delta: float) -> void:
+	if spidar == null or not is_visible_in_tree():
+		return
+	_hand = _find_hand()
+	var grip: Transform3D = spidar.get_grip_transform()
+	var angle: float = spidar.get_grasp_angle()
+	var frame: Transform3D = spidar.global_transform
+	var frame_moved: bool = _stale or frame != _drawn_frame
+	var grip_moved: bool = frame_moved or grip != _drawn_grip or angle != _drawn_angle
+	if frame_moved:
+		_draw_frame(frame)
+	if grip_moved:
+		_draw_grip(grip, angle)
+	_draw_tensions(grip_moved)
+	_draw_pads(grip)
+	_draw_force(grip.origin, grip_moved)
+	_stale = false
+
+
+func _draw_frame(frame: Transform3D) -> void:
+	_drawn_frame = frame
+	var scale_m: float = spidar.workspace_scale
+	_parts.size_for(scale_m, _pole_half_length())
+	_parts.frame.visible = show_frame
+	var placed: Transform3D = Transform3D(frame.basis.orthonormalized(), frame.origin)
+	_parts.place_frame(placed, _frame_size() * scale_m)
+
+
+func _draw_grip(grip: Transform3D, angle: float) -> void:
+	_drawn_grip = grip
+	_drawn_angle = angle
+	_parts.grip.visible = show_grip
+	_parts.strings.visible = show_strings
+	_parts.place_grip(
+		grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
+	)
+	for string: int in ViewParts.STRINGS:
+		_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
+	for end: int in 4:
+		var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
+		_parts.place_knot(end, spidar.get_pole_end(target))
+
+
+func _draw_tensions(forced: bool) -> void:
+	var tensions: PackedFloat64Array = spidar.get_string_tensions()
+	if not forced and tensions == _drawn_tensions:
+		return
+	_drawn_tensions = tensions
+	for string: int in mini(tensions.size(), ViewParts.STRINGS):
+		_parts.colour_string(string, tension_colour(tensions[string], _max_tension()))
+
+
+func _draw_pads(grip: Transform3D) -> void:
+	_parts.pads.visible = show_pads and _hand != null
+	if not _parts.pads.visible:
+		return
+	var now: PackedVector3Array = [_hand.get_pad_position(0), _hand.get_pad_position(1), grip.basis.x]
+	if now != _drawn_pads or _stale:
+		_drawn_pads = now
+		_parts.place_pads(grip.basis, now[0], now[1], _hand.get_pad_radius_m())
+
+
+func _draw_force(from: Vector3, forced: bool) -> void:
+	var wrench: PackedFloat64Array = spidar.get_achieved_wrench()
+	var force: Vector3 = Vector3.ZERO
+	if wrench.size() >= 3:
+		force = Vector3(wrench[0], wrench[1], wrench[2])
+	if not forced and force == _drawn_force:
+		return
+	_drawn_force = force
+	_parts.arrow.visible = show_force and force.length() > LEAST_FORCE_N
+	if _parts.arrow.visible:
+		_parts.place_arrow(from, force * (force_arrow_m_n * spidar.workspace_scale))
+
+
+func _find_hand() -> SpidarGHand:
+	if is_instance_valid(_hand) and _hand.get_parent() == spidar:
+		return _hand
+	for child: Node in spidar.get_children():
+		if child is SpidarGHand:
+			return child as SpidarGHand
+	return null
+
+
+func _pole_half_length() -> float:
+	return spidar.config.pole_half_length if spidar.config != null else 0.04
+
+
+func _frame_size() -> Vector3:
+	return spidar.config.frame_size if spidar.config != null else Vector3(0.48, 0.48, 0.48)
+
+
+func _closed_angle() -> float:
+	return spidar.config.jaw_closed_angle if spidar.config != null else deg_to_rad(50.0)
+
+
+func _max_tension() -> float:
+	return spidar.config.tension_max if spidar.config != null else 10.0

@@ -1,0 +1,100 @@
+## SpidarGHand: surfaces near the tool become planes in the device.
+extends "res://hand_scene.gd"
+
+const PAD_RADIUS: float = 0.012
+
+
+func test_the_floor_stops_the_tool() -> void:
+	await set_up(Vector3.ZERO)
+	var depth: float = 0.03
+	var touch: float = FLOOR_Y + PAD_RADIUS
+	await move_to(Vector3(0.0, touch - depth, 0.0), 0.0, 90)
+	await physics_frames(40)
+	var felt: PackedFloat64Array = await mean_felt(20)
+	var height: float = device.get_grip_transform().origin.y
+	# The felt force is the plane's spring from the height at which the pads touch.
+	print("INFO pads sink %.2f mm, felt %.3f N" % [1e3 * (touch - height), felt[1]])
+	check_near(felt[1], hand.contact_stiffness_n_m * (touch - height), 0.4, "force from the floor")
+	check(height > touch - 0.7 * depth, "the floor holds the hand up: %f" % height)
+	check_near(felt[0], 0.0, 0.1, "nothing sideways")
+
+
+func test_surfaces_are_published_before_contact_and_ids_stay() -> void:
+	await set_up(Vector3.ZERO)
+	check_equal(device.get_contact_impulses().size(), 0, "nothing near: no contact is published")
+	var above: float = FLOOR_Y + PAD_RADIUS + 0.02
+	await move_to(Vector3(0.0, above, 0.0), 0.0, 60)
+	await physics_frames(20)
+	check(device.get_contact_impulses().size() == 1, "one plane for the floor, not touching yet")
+	check_equal(device.get_touching_contacts().size(), 0, "20 mm above does not touch")
+	var id: int = device.get_contact_impulses().keys()[0]
+	await move_to(Vector3(0.05, above - 0.03, 0.03), 0.0, 60)
+	await physics_frames(10)
+	check(device.get_contact_impulses().keys().has(id), "the same floor keeps its id")
+	check(device.get_touching_contacts().has(id), "and touches now")
+
+
+func test_a_wall_and_the_floor_give_two_planes() -> void:
+	await set_up(Vector3.ZERO)
+	add_box(Vector3(0.1, 0.4, 0.4), Vector3(0.15, 0.0, 0.0), 0.0)
+	# Pads reach 52 mm from the centre when open; the wall's face is at 100 mm.
+	await move_to(Vector3(0.06, FLOOR_Y + PAD_RADIUS - 0.01, 0.0), 0.0, 90)
+	await physics_frames(40)
+	var felt: PackedFloat64Array = await mean_felt(20)
+	check(felt[0] < -0.5, "the wall pushes back: %f N" % felt[0])
+	check(felt[1] > 0.5, "the floor pushes up: %f N" % felt[1])
+	check_equal(device.get_touching_contacts().size(), 2, "both are touched")
+
+
+func test_a_body_outside_the_mask_is_not_felt() -> void:
+	await set_up(Vector3.ZERO)
+	hand.collision_mask = 2
+	await move_to(Vector3(0.0, FLOOR_Y - 0.01, 0.0), 0.0, 60)
+	await physics_frames(20)
+	check_equal(device.get_contact_impulses().size(), 0, "no plane")
+	var felt: PackedFloat64Array = await mean_felt(10)
+	check_near(felt[1], 0.0, 0.05, "no force")
+
+
+func test_the_tool_pushes_a_free_body_and_feels_it() -> void:
+	await set_up(Vector3(-0.05, FLOOR_Y + 0.03, 0.0))
+	# Outside the jaws: the right pad's dome meets it, 52 mm from the centre.
+	var body: RigidBody3D = add_free_box(Vector3(0.04, 0.05, 0.06), 0.2, 0.045)
+	await physics_frames(10)
+	var start: float = body.global_position.x
+	await move_to(Vector3(0.03, FLOOR_Y + 0.03, 0.0), 0.0, 120)
+	check(body.global_position.x > start + 0.03, "pushed: %f m" % (body.global_position.x - start))
+	check(body.global_position.x < start + 0.15, "not thrown: %f m" % (body.global_position.x - start))
+	check(absf(body.global_position.z) < 0.02, "along the push")
+
+
+func test_a_box_between_the_pads_is_centred_without_a_jump() -> void:
+	await set_up(Vector3.ZERO)
+	var body: RigidBody3D = add_free_box(Vector3(0.03, 0.04, 0.03), 0.1, 0.008)
+	await physics_frames(10)
+	await move_to(Vector3(0.0, body.global_position.y, 0.0), 0.0, 60)
+	await move_to(at, SQUEEZE_ANGLE, 60)
+	await physics_frames(40)
+	check_equal(hand.get_held_body(), body, "held")
+	var along: float = (device.get_grip_transform().affine_inverse() * body.global_position).x
+	check_near(along, 0.0, 0.0015, "the pads close on its middle")
+	check(body.linear_velocity.length() < 0.05, "it rests: %s" % body.linear_velocity)
+
+
+func test_everything_scales_with_the_workspace() -> void:
+	await set_up(Vector3.ZERO)
+	device.workspace_scale = 2.0
+	await physics_frames(2)
+	check_near(hand.get_pad_radius_m(), 2.0 * PAD_RADIUS, 1e-9, "pad radius")
+	var gap: float = hand.get_pad_position(0).distance_to(hand.get_pad_position(1))
+	check_near(gap, 0.16, 0.002, "open jaws")
+
+
+func test_a_hand_without_a_device_warns_and_does_nothing() -> void:
+	var lonely := SpidarGHand.new()
+	add(lonely)
+	await physics_frames(3)
+	check(lonely.get_held_body() == null, "holds nothing")
+	check(not lonely.is_physics_processing(), "does not run")
+	var warnings: PackedStringArray = lonely._get_configuration_warnings()
+	check(warnings.size() > 0 and warnings[0].contains("SpidarG"), "says what to do: %s" % warnings)
