@@ -2,7 +2,7 @@
 //
 // Guess: a few rounds that bound every string that left its range at once and release every string whose
 // bound pulls the wrong way at once. Then a primal active set (one string at a time, the objective falls at
-// every move), which cannot cycle: releasing a string moves it by more than kReleaseMove_n.
+// every move), which cannot cycle: see kSureMove_n.
 // The answer is refined with gradients taken from A itself, so that it is exact to rounding.
 #include <algorithm>
 #include <cmath>
@@ -22,6 +22,9 @@ constexpr double kStepTolerance_n = 1e-10;
 // A bounded string is released when that would move some string by more than this (unit: N). Five
 // roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
 constexpr double kReleaseMove_n = 1e-14;
+// A smaller move than this may be undone by rounding: each string gets one such release, so that no two
+// active sets can alternate.
+constexpr double kSureMove_n = 1e-11;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
 // Where that rounding moves a free string by more than this, gradients are taken in double-double.
@@ -89,6 +92,7 @@ public:
 private:
     void start(const ActiveSet *warm) noexcept {
         free_ = 0;
+        barely_released_ = 0;
         factored_ = false;
         precise_ = false;
         for (std::size_t i = 0; i < kStrings; ++i) {
@@ -202,7 +206,7 @@ private:
             if (!(wish > -noise)) {
                 continue;
             }
-            if (!(wish > noise && wish > kReleaseMove_n * system_.diagonal(i))) {
+            if (!(wish > noise && wish > kSureMove_n * system_.diagonal(i))) {
                 // Near zero: what counts is how far the strings would move.
                 const BoxLeastSquares::Release release = system_.release(i);
                 double reach = 1.0;
@@ -215,6 +219,12 @@ private:
                 }
                 if (!(wish * reach > kReleaseMove_n * release.stiffness)) {
                     continue;
+                }
+                if (!(wish * reach > kSureMove_n * release.stiffness)) {
+                    if (has_string(barely_released_, i)) {
+                        continue;
+                    }
+                    barely_released_ = with_string(barely_released_, i);
                 }
             }
             if (guess_rounds_ > 0) {
@@ -241,6 +251,7 @@ private:
     ActiveSet active_{};
     StringMask movable_ = 0;
     StringMask free_ = 0;
+    StringMask barely_released_ = 0;
     bool factored_ = false;
     bool precise_ = false;
     int guess_rounds_ = 0;
