@@ -118,7 +118,11 @@ private:
         factored_ = false;
     }
 
-    void let_go(std::size_t string) noexcept {
+    // barely: by less than kSureMove_n, which this string may do once.
+    void let_go(std::size_t string, bool barely) noexcept {
+        if (barely) {
+            barely_released_ = with_string(barely_released_, string);
+        }
         active_[string] = StringBound::free;
         free_ = with_string(free_, string);
         factored_ = false;
@@ -195,12 +199,14 @@ private:
         const double noise = precise_ ? 0.0 : kGradientRounding * gradient_.largest_force_n;
         double worst = 0.0;
         std::size_t worst_string = kStrings;
+        bool worst_barely = false;
         bool released = false;
         for (std::size_t i = 0; i < kStrings; ++i) {
             if (has_string(free_, i) || !has_string(movable_, i)) {
                 continue;
             }
             const double slope = gradient_.values[i] + change[i];
+            bool barely = false;
             // How strongly the string wants into its range.
             const double wish = active_[i] == StringBound::at_lower ? -slope : slope;
             if (!(wish > -noise)) {
@@ -224,21 +230,22 @@ private:
                     if (has_string(barely_released_, i)) {
                         continue;
                     }
-                    barely_released_ = with_string(barely_released_, i);
+                    barely = true;
                 }
             }
             if (guess_rounds_ > 0) {
                 released = true;
-                let_go(i);
+                let_go(i, barely);
             } else if (wish > worst) {
                 worst = wish;
                 worst_string = i;
+                worst_barely = barely;
             }
         }
         if (released) {
             --guess_rounds_;
         } else if (worst_string < kStrings) {
-            let_go(worst_string);
+            let_go(worst_string, worst_barely);
             released = true;
         }
         return released;

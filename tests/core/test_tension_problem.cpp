@@ -177,7 +177,8 @@ TEST_CASE("tension problem: zero multipliers at the optimum make no two active s
     for (StringBound &bound : guess) {
         bound = static_cast<StringBound>(random.below(3));
     }
-    for (const ActiveSet *warm : {static_cast<const ActiveSet *>(nullptr), &guess}) {
+    const std::array<const ActiveSet *, 2> starts{nullptr, &guess};
+    for (const ActiveSet *warm : starts) {
         const TensionSolution solution = solve_tension_problem(problem, warm);
         CHECK(solution.status == Status::ok);
         CHECK(solution.iterations < 25);
