@@ -22,9 +22,10 @@ constexpr double kStepTolerance_n = 1e-10;
 // A bounded string is released when that would move some string by more than this (unit: N). Five
 // roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
 constexpr double kReleaseMove_n = 1e-14;
-// A smaller move than this may be undone by rounding: each string gets one such release, so that no two
-// active sets can alternate.
+// A smaller move than this may be undone by rounding: only kBareReleases such releases are made, so that no
+// two active sets can alternate without end. Two for each string, well inside kMaxFactorisations.
 constexpr double kSureMove_n = 1e-11;
+constexpr int kBareReleases = 16;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
 // Where that rounding moves a free string by more than this, gradients are taken in double-double.
@@ -92,7 +93,7 @@ public:
 private:
     void start(const ActiveSet *warm) noexcept {
         free_ = 0;
-        barely_released_ = 0;
+        bare_releases_ = 0;
         factored_ = false;
         precise_ = false;
         for (std::size_t i = 0; i < kStrings; ++i) {
@@ -118,11 +119,9 @@ private:
         factored_ = false;
     }
 
-    // barely: by less than kSureMove_n, which this string may do once.
+    // barely: by less than kSureMove_n.
     void let_go(std::size_t string, bool barely) noexcept {
-        if (barely) {
-            barely_released_ = with_string(barely_released_, string);
-        }
+        bare_releases_ += barely ? 1 : 0;
         active_[string] = StringBound::free;
         free_ = with_string(free_, string);
         factored_ = false;
@@ -227,7 +226,7 @@ private:
                     continue;
                 }
                 if (!(wish * reach > kSureMove_n * release.stiffness)) {
-                    if (has_string(barely_released_, i)) {
+                    if (bare_releases_ >= kBareReleases) {
                         continue;
                     }
                     barely = true;
@@ -258,10 +257,10 @@ private:
     ActiveSet active_{};
     StringMask movable_ = 0;
     StringMask free_ = 0;
-    StringMask barely_released_ = 0;
     bool factored_ = false;
     bool precise_ = false;
     int guess_rounds_ = 0;
+    int bare_releases_ = 0;
     int refinements_ = 0;
     int iterations_ = 0;
 };

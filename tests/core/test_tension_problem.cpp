@@ -149,8 +149,8 @@ TEST_CASE("tension problem: optimal in quad precision for every kind, weights do
 
 TEST_CASE("tension problem: found by stress_tension and mended") {
     // 1088795, 1074659: lost rank, weight 1e-12, a large residual: a plain gradient rounds the same way at every
-    // refinement, which looked like convergence. 1053999: objective near zero, a string held a hair too long.
-    for (const std::uint64_t seed : {1088795ULL, 1074659ULL, 1053999ULL}) {
+    // refinement, which looked like convergence. 1053999, 50158376: objective near zero, a string held a hair too long.
+    for (const std::uint64_t seed : {1088795ULL, 1074659ULL, 1053999ULL, 50158376ULL}) {
         const TensionProblem problem = test::random_problem(seed).problem;
         const TensionSolution cold = solve_tension_problem(problem, nullptr);
         test::Random random(~seed); // the wrong guess that stress_tension makes
@@ -181,7 +181,7 @@ TEST_CASE("tension problem: zero multipliers at the optimum make no two active s
     for (const ActiveSet *warm : starts) {
         const TensionSolution solution = solve_tension_problem(problem, warm);
         CHECK(solution.status == Status::ok);
-        CHECK(solution.iterations < 25);
+        CHECK(solution.iterations < 50); // the bound of one search
         CHECK(test::certify(problem, solution.tensions_n).tension_error_n < 1e-10);
     }
 }
