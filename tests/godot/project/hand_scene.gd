@@ -1,5 +1,5 @@
 ## Base of the SpidarGHand tests: a stepped device, a hand, a floor and boxes, at 1:1 scale.
-extends TestCase
+extends "res://test_case.gd"
 
 ## Top of the floor in the world, and so the rest height of a box's underside.
 const FLOOR_Y: float = -0.08

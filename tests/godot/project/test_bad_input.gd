@@ -1,5 +1,5 @@
 ## Bad input: a message that names field, value, unit and remedy; the pose holds, tensions stay within limits.
-extends TestCase
+extends "res://test_case.gd"
 
 var _messages: Array[String] = []
 

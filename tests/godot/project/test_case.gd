@@ -1,5 +1,4 @@
 ## Base of every test script. Functions named test_* are run, each on an object of its own.
-class_name TestCase
 extends RefCounted
 
 ## Set by the runner.

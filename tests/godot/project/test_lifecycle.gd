@@ -1,5 +1,5 @@
 ## Nodes that come and go leave nothing behind: no thread, no device, no crash.
-extends TestCase
+extends "res://test_case.gd"
 
 const ROUNDS: int = 200
 
