@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "core/closed_form.h"
 #include "core/constants.h"
