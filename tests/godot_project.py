@@ -73,19 +73,21 @@ def import_assets(godot, project):
         file.write(godot)
 
 
-def prepare_project(project):
-    """All that a run without imported assets needs. Raises ProjectError."""
+def prepare_project(project, godot=None):
+    """All that a run from the command line needs. Without `godot` there is no import: enough for a
+    project with no assets and no class_name. Raises ProjectError."""
     if not os.path.isfile(os.path.join(project, "project.godot")):
         raise ProjectError(f"{project} holds no project.godot")
     link_addons(project)
     list_extensions(project)
+    if godot:
+        import_assets(godot, project)
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__.splitlines()[0])
     try:
-        prepare_project(sys.argv[2])
-        import_assets(*sys.argv[1:])
+        prepare_project(sys.argv[2], sys.argv[1])
     except ProjectError as problem:
         sys.exit(f"godot_project: {problem}")

@@ -29,7 +29,7 @@ Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
 // New velocity of a critically damped approach within limits of acceleration and speed.
 Vec3 approach(const Vec3 &error, const Vec3 &velocity, double max_speed, double max_acceleration,
               double dt_s) noexcept {
-    constexpr double w = kHandPathRate_rad_s;
+    const double w = kHandPathRate_rad_s;
     const Vec3 acceleration = no_longer_than(w * w * error - 2.0 * w * velocity, max_acceleration);
     return no_longer_than(velocity + dt_s * acceleration, max_speed);
 }

@@ -238,7 +238,6 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
     StringForces out;
     out.r1_m = poles.r1;
     out.r2_m = poles.r2;
-    out.wrench = {};
     std::array<Vec3, 2> end_force{Vec3(0.0), Vec3(0.0)}; // signed by which end it pulls at
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Attachment &tie = settings_.grip.attachments[i];
@@ -250,7 +249,7 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
         const double rate = -glm::dot(direction, twist_.linear_m_s + tie.sign * end_velocity[pole]);
         double tension = 0.0;
         if (has_bit(broken_, i)) {
-            tension = 0.0;
+            // Nothing to pull with.
         } else if (settings_.elastic) {
             const double stretch = length - rotors_m_[i];
             if (stretch > 0.0) {

@@ -103,8 +103,11 @@ public:
 private:
     // Poles, tensions and what they do to the grip, at one state.
     struct StringForces {
-        Vec3 r1_m, r2_m;
-        StringArray lengths_m, length_rates_m_s, tensions_n;
+        Vec3 r1_m{0.0};
+        Vec3 r2_m{0.0};
+        StringArray lengths_m{};
+        StringArray length_rates_m_s{};
+        StringArray tensions_n{};
         Wrench wrench;
     };
     void step() noexcept;

@@ -137,7 +137,7 @@ TEST_CASE("plant: friction is against the string's movement, and exactly absent 
                 CHECK(truth.tensions_n[i] < 0.95);
             }
         }
-        // Friction only takes from the hand; a hand that comes back to where it was has lost it.
+        // Friction only takes from the hand.
         if (scale > 0.0) {
             CHECK(glm::dot(truth.strings.force_n, truth.twist.linear_m_s) < 0.0);
         }
@@ -274,8 +274,7 @@ TEST_CASE("plant: hinge stops and the hand's reach hold") {
     CHECK(plant.truth().pose.position_m.x == doctest::Approx(0.24 - 0.04).epsilon(1e-6));
     CHECK(plant.truth().pose.position_m.y == doctest::Approx(-0.24 + 0.04).epsilon(1e-6));
     CHECK(plant.truth().frame.grasp_angle_rad <= settings.hinge_closed_rad);
-    // Against the stop by force: strings 0, 1, 2, 3 hold pole 1 to z = +c, so tension there cannot close; push
-    // with the hand instead, narrower stops.
+    // Narrow stops, against which the strings pull both ways.
     settings.hinge_open_rad = -0.1;
     settings.hinge_closed_rad = 0.1;
     SimulatedPlant narrow(settings);

@@ -12,6 +12,7 @@ const ViewParts := preload("view_parts.gd")
 const SLACK_N: float = 0.05
 const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
 const LOW_COLOUR: Color = Color(0.20, 0.48, 0.95)
+const FAIR_COLOUR: Color = Color(0.10, 0.70, 0.45)  # Straight from blue to yellow would pass through grey: slack.
 const MIDDLE_COLOUR: Color = Color(1.00, 0.82, 0.20)
 const HIGH_COLOUR: Color = Color(0.95, 0.18, 0.15)
 ## Forces weaker than this have no arrow, N.
@@ -58,10 +59,12 @@ var _drawn_force: Vector3 = Vector3.ZERO
 static func tension_colour(tension_n: float, max_n: float) -> Color:
 	if not (tension_n >= SLACK_N) or not (max_n > 0.0):
 		return SLACK_COLOUR
-	var part: float = clampf(sqrt(tension_n / max_n), 0.0, 1.0)
-	if part < 0.5:
-		return LOW_COLOUR.lerp(MIDDLE_COLOUR, 2.0 * part)
-	return MIDDLE_COLOUR.lerp(HIGH_COLOUR, 2.0 * part - 1.0)
+	var part: float = 3.0 * clampf(sqrt(tension_n / max_n), 0.0, 1.0)
+	if part < 1.0:
+		return LOW_COLOUR.lerp(FAIR_COLOUR, part)
+	if part < 2.0:
+		return FAIR_COLOUR.lerp(MIDDLE_COLOUR, part - 1.0)
+	return MIDDLE_COLOUR.lerp(HIGH_COLOUR, part - 2.0)
 
 
 func _enter_tree() -> void:

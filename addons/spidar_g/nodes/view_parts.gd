@@ -4,12 +4,13 @@ extends Node3D
 const STRINGS: int = 8
 ## Sizes in device metres.
 const EDGE_M: float = 0.004
-const STRING_RADIUS_M: float = 0.0007
+const STRING_RADIUS_M: float = 0.0009
 const POLE_RADIUS_M: float = 0.0022
 const KNOT_RADIUS_M: float = 0.0035
 const HINGE_RADIUS_M: float = 0.005
 const HEMISPHERE_RADIUS_M: float = 0.02
-const STOP_DISTANCE_M: float = 0.026
+const STOP_DISTANCE_M: float = 0.012
+const STOP_RADIUS_M: float = 0.0015
 const ARROW_RADIUS_M: float = 0.0022
 
 const FRAME_COLOUR: Color = Color(0.45, 0.48, 0.53)
@@ -94,7 +95,8 @@ func place_knot(end: int, at: Vector3) -> void:
 func place_grip(at: Transform3D, pole1: Transform3D, pole2: Transform3D, closed_angle: float) -> void:
 	_poles[0].global_transform = pole1.scaled_local(Vector3.ONE * _scale)
 	_poles[1].global_transform = pole2.scaled_local(Vector3.ONE * _scale)
-	var crossing: float = 0.5 * PI - closed_angle
+	# The pin's middle is a rod's and a pin's radius before the line of pole 1.
+	var crossing: float = 0.5 * PI - closed_angle - asin((POLE_RADIUS_M + STOP_RADIUS_M) / STOP_DISTANCE_M)
 	for side: int in 2:
 		var outward: float = -1.0 if side == 0 else 1.0
 		var along: Vector3 = Vector3(cos(crossing), sin(crossing), 0.0) * (STOP_DISTANCE_M * outward)
@@ -144,8 +146,12 @@ func _make_pole(pole: int) -> void:
 		hinge.rotation.x = 0.5 * PI
 		node.add_child(hinge)
 	else:
+		var plate: MeshInstance3D = _one(_cylinder(0.0145, 0.0145, 0.0012, 24), METAL_COLOUR)
+		plate.rotation.x = 0.5 * PI
+		plate.position.z = -0.004
+		node.add_child(plate)
 		for _side: int in 2:
-			var pin: MeshInstance3D = _one(_cylinder(0.0015, 0.0015, 0.008, 8), METAL_COLOUR)
+			var pin: MeshInstance3D = _one(_cylinder(STOP_RADIUS_M, STOP_RADIUS_M, 0.008, 8), METAL_COLOUR)
 			grip.add_child(pin)
 			_stops.append(pin)
 

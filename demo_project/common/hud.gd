@@ -1,0 +1,122 @@
+class_name Hud
+extends CanvasLayer
+## What a haptics person wants in sight: task and time, device state and servo rate, tensions, wrench asked
+## and given, grasp angle. Three modes: off, short, full.
+
+enum Mode { OFF, SHORT, FULL }
+
+const HINT_FORCES_OFF := "Forces are off.  F  turns them on (they ramp up while the device arms).   H  help"
+const HINT_ON := "Left button  closes the grasp    Space  stops the forces    H  help"
+
+@export var mode := Mode.FULL
+
+var _spidar: SpidarG
+var _tool_hand: SpidarGHand
+var _notice := ""
+var _result := ""
+
+@onready var _title: Label = %Title
+@onready var _time: Label = %Time
+@onready var _placed: Label = %Placed
+@onready var _device: PanelContainer = %Device
+@onready var _state: Label = %State
+@onready var _dot: ColorRect = %Dot
+@onready var _servo: Label = %Servo
+@onready var _held: Label = %Held
+@onready var _tensions: TensionBars = %Tensions
+@onready var _wrench: WrenchBars = %Wrench
+@onready var _dial: GraspDial = %Dial
+@onready var _bars_panel: PanelContainer = %BarsPanel
+@onready var _wrench_panel: PanelContainer = %WrenchPanel
+@onready var _hint: Label = %Hint
+@onready var _hint_panel: PanelContainer = %HintPanel
+@onready var _help: Control = %Help
+
+
+func setup(spidar: SpidarG, tool_hand: SpidarGHand) -> void:
+	_spidar = spidar
+	_tool_hand = tool_hand
+	if spidar.config != null:
+		_dial.band_from_rad = spidar.config.grasp_enter_angle
+		_dial.band_to_rad = spidar.config.over_closed_leave_angle
+	_apply_mode()
+
+
+func next_mode() -> void:
+	mode = ((mode + 1) % Mode.size()) as Mode
+	_apply_mode()
+
+
+func toggle_help() -> void:
+	_help.visible = not _help.visible
+
+
+func show_help(shown: bool) -> void:
+	_help.visible = shown
+
+
+func show_notice(text: String) -> void:
+	_notice = text
+
+
+func show_result(text: String) -> void:
+	_result = text
+
+
+func show_task(title: String, time_s: float, placed: int, total: int, seed_number: int) -> void:
+	_title.text = "%s   seed %d" % [title, seed_number]
+	_time.text = "%d:%04.1f" % [int(time_s) / 60, fmod(time_s, 60.0)]
+	_placed.text = "%d of %d placed" % [placed, total]
+
+
+func _process(_delta: float) -> void:
+	if _spidar == null or mode == Mode.OFF:
+		_hint_panel.visible = _spidar != null and _hint_text() != HINT_ON
+		_hint.text = _hint_text()
+		return
+	_hint_panel.visible = true
+	_hint.text = _hint_text()
+	_state.text = _spidar.get_state_text()
+	_dot.color = _state_colour()
+	var statistics := _spidar.get_statistics()
+	_servo.text = "servo %.0f Hz" % float(statistics.get("servo_rate_hz", 0.0))
+	var held := _tool_hand.get_held_body()
+	_held.text = "empty" if held == null else (
+		"%d g,  %d mm" % [roundi(held.mass * 1000.0), roundi(_tool_hand.get_held_width_m() * 1000.0)]
+	)
+	_dial.show_grasp(
+		_spidar.get_grasp_angle(), _spidar.get_jaw_gap() * _spidar.workspace_scale,
+		_spidar.get_grasp_phase() == SpidarG.GRASP_GRASPED
+	)
+	if mode == Mode.FULL:
+		var limit := 10.0 if _spidar.config == null else float(_spidar.config.tension_max)
+		_tensions.show_tensions(_spidar.get_string_tensions(), limit)
+		_wrench.show_wrenches(_spidar.get_requested_wrench(), _spidar.get_achieved_wrench())
+
+
+func _apply_mode() -> void:
+	for panel: Control in [%Task, _device, %DialPanel]:
+		panel.visible = mode != Mode.OFF
+	for panel: Control in [_bars_panel, _wrench_panel]:
+		panel.visible = mode == Mode.FULL
+
+
+func _hint_text() -> String:
+	if _result != "":
+		return _result
+	if _spidar.get_state() == SpidarG.STATE_FAULT:
+		return "Fault: %s   F  clears it and arms again" % _spidar.get_fault_text()
+	if not _spidar.forces_enabled:
+		return _notice if _notice != "" else HINT_FORCES_OFF
+	return HINT_ON
+
+
+func _state_colour() -> Color:
+	match _spidar.get_state():
+		SpidarG.STATE_ACTIVE:
+			return DemoPalette.GOOD
+		SpidarG.STATE_FAULT:
+			return DemoPalette.BAD
+		SpidarG.STATE_ARMING, SpidarG.STATE_FADING:
+			return DemoPalette.ACCENT
+	return DemoPalette.TEXT_SOFT

@@ -1,0 +1,126 @@
+class_name MouseHand
+extends Node
+## Mouse and keyboard drive the simulated hand: the mouse moves the grip in the view plane, the wheel
+## in depth, dragging with the right button turns it, the left button closes the grasp.
+
+const KEY_SPEED_M_S := 0.12
+const KEY_TURN_RAD_S := 0.9
+const WHEEL_STEP_M := 0.006
+const DRAG_RAD_PER_PIXEL := 0.005
+const REACH_M := 0.16
+const TURN_LIMIT_RAD := deg_to_rad(40.0)
+const CLOSE_SPEED_RAD_S := 1.2
+const OPEN_ANGLE_RAD := deg_to_rad(4.0)
+## Closing stops when the fingers push back this hard, or at the end of the jaw's way.
+const SQUEEZE_NM := 0.10
+const CLOSED_ANGLE_RAD := deg_to_rad(52.0)
+
+var spidar: SpidarG
+var camera: Camera3D
+## Target in the device's frame.
+var position_m := Vector3.ZERO
+var yaw_rad := 0.0
+var pitch_rad := 0.0
+var roll_rad := 0.0
+var grasp_angle_rad := OPEN_ANGLE_RAD
+
+var _closing := false
+var _turning := false
+
+
+func start(spidar_: SpidarG, camera_: Camera3D, position_: Vector3) -> void:
+	spidar = spidar_
+	camera = camera_
+	recentre(position_)
+
+
+func recentre(position_: Vector3) -> void:
+	position_m = position_
+	yaw_rad = 0.0
+	pitch_rad = 0.0
+	roll_rad = 0.0
+	_closing = false
+	grasp_angle_rad = OPEN_ANGLE_RAD
+
+
+func _unhandled_input(event: InputEvent) -> void:
+	if event is InputEventMouseMotion:
+		_on_motion(event as InputEventMouseMotion)
+	elif event is InputEventMouseButton:
+		_on_button(event as InputEventMouseButton)
+
+
+func _physics_process(delta: float) -> void:
+	var move := Vector3(
+		_axis(KEY_A, KEY_D), _axis(KEY_Q, KEY_E), _axis(KEY_W, KEY_S)
+	)
+	position_m += move * KEY_SPEED_M_S * delta
+	yaw_rad += _axis(KEY_RIGHT, KEY_LEFT) * KEY_TURN_RAD_S * delta
+	pitch_rad += _axis(KEY_UP, KEY_DOWN) * KEY_TURN_RAD_S * delta
+	roll_rad += _axis(KEY_PAGEDOWN, KEY_PAGEUP) * KEY_TURN_RAD_S * delta
+	_clamp()
+	_move_grasp(delta)
+	var basis := Basis.from_euler(Vector3(pitch_rad, yaw_rad, roll_rad))
+	var in_device := Transform3D(basis, position_m * spidar.workspace_scale)
+	spidar.simulated_hand_target(
+		spidar.global_transform.orthonormalized() * in_device, grasp_angle_rad
+	)
+
+
+func _on_motion(motion: InputEventMouseMotion) -> void:
+	if _turning:
+		yaw_rad += motion.relative.x * DRAG_RAD_PER_PIXEL
+		pitch_rad += motion.relative.y * DRAG_RAD_PER_PIXEL
+		return
+	# The grip goes as far on the screen as the cursor does, at its own depth.
+	var here := spidar.to_global(position_m)
+	var depth := -camera.to_local(here).z
+	var from := camera.project_position(motion.position - motion.relative, depth)
+	var to := camera.project_position(motion.position, depth)
+	position_m += spidar.global_basis.orthonormalized().inverse() * (to - from) / spidar.workspace_scale
+
+
+func _on_button(button: InputEventMouseButton) -> void:
+	match button.button_index:
+		MOUSE_BUTTON_LEFT:
+			_closing = button.pressed
+		MOUSE_BUTTON_RIGHT:
+			_turning = button.pressed
+			# Captured, the cursor stays where it was: the grip does not jump when the turn ends.
+			Input.mouse_mode = (
+				Input.MOUSE_MODE_CAPTURED if _turning else Input.MOUSE_MODE_VISIBLE
+			)
+		MOUSE_BUTTON_WHEEL_UP:
+			_move_in_depth(WHEEL_STEP_M)
+		MOUSE_BUTTON_WHEEL_DOWN:
+			_move_in_depth(-WHEEL_STEP_M)
+
+
+func _move_in_depth(distance_m: float) -> void:
+	# Along the ground, so that depth does not change the height over the table.
+	var forward := -camera.global_basis.z
+	forward.y = 0.0
+	position_m += spidar.global_basis.orthonormalized().inverse() * forward.normalized() * distance_m
+
+
+func _move_grasp(delta: float) -> void:
+	if not _closing:
+		grasp_angle_rad = maxf(grasp_angle_rad - CLOSE_SPEED_RAD_S * delta, OPEN_ANGLE_RAD)
+		return
+	var pushed_back := -spidar.get_achieved_wrench()[6] >= SQUEEZE_NM
+	if not pushed_back:
+		grasp_angle_rad = minf(grasp_angle_rad + CLOSE_SPEED_RAD_S * delta, CLOSED_ANGLE_RAD)
+
+
+func _clamp() -> void:
+	position_m = position_m.clamp(-Vector3.ONE * REACH_M, Vector3.ONE * REACH_M)
+	yaw_rad = clampf(yaw_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
+	pitch_rad = clampf(pitch_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
+	roll_rad = clampf(roll_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
+
+
+func _axis(negative: Key, positive: Key) -> float:
+	return (
+		float(Input.is_physical_key_pressed(positive))
+		- float(Input.is_physical_key_pressed(negative))
+	)

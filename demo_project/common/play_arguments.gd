@@ -1,0 +1,82 @@
+class_name PlayArguments
+extends RefCounted
+## What the command line asks for, after `--`. No arguments: an interactive session.
+
+const EXIT_DONE := 0
+const EXIT_NOT_DONE := 1
+const EXIT_BAD_ARGUMENTS := 2
+const USAGE := (
+	"usage: ... -- --play TASK --seed N --out DIR [--pictures] [--cut-output] [--freeze-pose]\n"
+	+ "       ... -- [--seed N]            (interactive)"
+)
+
+## Task to play by script; empty: interactive.
+var task := ""
+## Layout of the trial.
+var seed_number := 1
+## Absolute folder for the results.
+var out_dir := ""
+## Save pictures of the run into out_dir.
+var pictures := false
+## Cut the motor currents inside the simulated device: nothing can be felt.
+var cut_output := false
+## Freeze the simulated encoders: the grip's pose never changes.
+var freeze_pose := false
+## What is wrong with the arguments; empty when nothing is.
+var problem := ""
+
+
+func scripted() -> bool:
+	return task != ""
+
+
+static func parse(words: PackedStringArray, tasks: PackedStringArray) -> PlayArguments:
+	var result := PlayArguments.new()
+	var index := 0
+	while index < words.size() and result.problem == "":
+		var word := words[index]
+		match word:
+			"--pictures":
+				result.pictures = true
+			"--cut-output":
+				result.cut_output = true
+			"--freeze-pose":
+				result.freeze_pose = true
+			"--play", "--seed", "--out":
+				index += 1
+				if index >= words.size():
+					result.problem = "%s needs a value after it" % word
+				else:
+					result._set_value(word, words[index], tasks)
+			_:
+				result.problem = "%s is not an argument of the demo" % word
+		index += 1
+	if result.problem == "":
+		result.problem = result._find_conflict()
+	return result
+
+
+func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
+	match word:
+		"--play":
+			if not tasks.has(value):
+				problem = "--play %s: no such task; there is: %s" % [value, ", ".join(tasks)]
+			task = value
+		"--seed":
+			if not value.is_valid_int() or value.to_int() < 0:
+				problem = "--seed %s: must be a whole number of 0 or more" % value
+			seed_number = value.to_int()
+		"--out":
+			if not value.is_absolute_path():
+				problem = "--out %s: must be an absolute path of a folder" % value
+			out_dir = value
+
+
+func _find_conflict() -> String:
+	if scripted() and out_dir == "":
+		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
+	if not scripted() and (pictures or cut_output or freeze_pose or out_dir != ""):
+		return "--out, --pictures, --cut-output and --freeze-pose need --play TASK"
+	if pictures and DisplayServer.get_name() == "headless":
+		return "--pictures needs a display: run without --headless (under Xvfb where there is none)"
+	return ""

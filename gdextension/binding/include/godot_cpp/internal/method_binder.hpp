@@ -1,0 +1,105 @@
+#pragma once
+
+// Not part of the godot-cpp API: a bound method, as the engine calls it.
+
+#include <godot_cpp/classes/ref.hpp>
+
+namespace godot::internal {
+
+// Checks the count and types of `given`, fills defaults. False, with `error` set, when they do not fit.
+bool arrange_arguments(const MethodRecord &method, const GDExtensionConstVariantPtr *given,
+                       GDExtensionInt count, const Variant **arranged, GDExtensionCallError &error);
+
+// False for an object of another class than the argument's.
+template <class T>
+struct ObjectFits {
+    static bool test(const Variant &) { return true; }
+};
+
+template <ObjectPointer T>
+struct ObjectFits<T> {
+    static bool test(const Variant &value) {
+        Object *object = static_cast<Object *>(value);
+        return object == nullptr || dynamic_cast<T>(object) != nullptr;
+    }
+};
+
+template <class T>
+struct ObjectFits<Ref<T>> : ObjectFits<T *> {};
+
+template <class M>
+struct BoundMethod : MethodRecord {
+    using Signature = Member<M>;
+    using Class = typename Signature::Class;
+    using Return = typename Signature::Return;
+    using Arguments = typename Signature::Arguments;
+    static constexpr std::size_t kCount = std::tuple_size_v<Arguments>;
+    static constexpr bool kStatic = std::is_void_v<Class>;
+
+    explicit BoundMethod(M bound) : method(bound) {
+        flags = Signature::kFlags | GDEXTENSION_METHOD_FLAG_NORMAL;
+        if constexpr (!std::is_void_v<Return>) {
+            has_return = true;
+            return_info = Border<Decayed<Return>>::info();
+            return_metadata = Border<Decayed<Return>>::metadata;
+        }
+        [&]<class... A>(std::tuple<A...> *) {
+            (arguments.push_back(Border<A>::info()), ...);
+            (argument_metadata.push_back(Border<A>::metadata), ...);
+        }(static_cast<Arguments *>(nullptr));
+        call = &call_with_variants;
+        pointer_call = &call_with_pointers;
+    }
+
+    // The method as a plain function of its arguments.
+    auto on(GDExtensionClassInstancePtr instance) const {
+        if constexpr (kStatic) {
+            static_cast<void>(instance);
+            return [function = method](const auto &...values) { return function(values...); };
+        } else {
+            auto *self = static_cast<Class *>(static_cast<Wrapped *>(instance));
+            return [self, function = method](const auto &...values) {
+                return (self->*function)(values...);
+            };
+        }
+    }
+
+    static void call_with_pointers(void *userdata, GDExtensionClassInstancePtr instance,
+                                   const GDExtensionConstTypePtr *given, GDExtensionTypePtr result) {
+        const auto &bound = *static_cast<const BoundMethod *>(userdata);
+        answer_pointer_call<Return, Arguments>(bound.on(instance), given, result);
+    }
+
+    static void call_with_variants(void *userdata, GDExtensionClassInstancePtr instance,
+                                   const GDExtensionConstVariantPtr *given, GDExtensionInt count,
+                                   GDExtensionVariantPtr result, GDExtensionCallError *error) {
+        const auto &bound = *static_cast<const BoundMethod *>(userdata);
+        std::array<const Variant *, kCount + 1> arranged{};
+        if (!arrange_arguments(bound, given, count, arranged.data(), *error)) {
+            return;
+        }
+        const int misfit = first_misfit(arranged.data(), static_cast<Arguments *>(nullptr),
+                                        std::make_index_sequence<kCount>());
+        if (misfit >= 0) {
+            *error = {GDEXTENSION_CALL_ERROR_INVALID_ARGUMENT, misfit, Variant::OBJECT};
+            return;
+        }
+        const Variant answer =
+            answer_variant_call<Return, Arguments>(bound.on(instance), arranged.data());
+        api.variant_new_copy(result, answer._native_ptr());
+    }
+
+    template <class... A, std::size_t... I>
+    static int first_misfit(const Variant *const *values, std::tuple<A...> *,
+                            std::index_sequence<I...>) {
+        int misfit = -1;
+        static_cast<void>(values);
+        static_cast<void>(((ObjectFits<A>::test(*values[I]) || (misfit = static_cast<int>(I), false)) &&
+                           ...));
+        return misfit;
+    }
+
+    M method;
+};
+
+} // namespace godot::internal

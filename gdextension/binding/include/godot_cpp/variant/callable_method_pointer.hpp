@@ -1,0 +1,30 @@
+#pragma once
+
+#include <godot_cpp/internal/method_binder.hpp>
+
+namespace godot {
+
+namespace internal {
+
+// A Callable that calls `record.call` on `object` as long as that object lives. Two are equal when
+// object and method are: `identity` (of `identity_size` bytes, inside the record) tells methods apart.
+Callable make_callable(const Object *object, Wrapped *instance,
+                       std::unique_ptr<MethodRecord> record, const void *identity,
+                       std::size_t identity_size);
+
+template <class T, class M>
+Callable bound_callable(T *object, M method) {
+    if (object == nullptr) {
+        return Callable();
+    }
+    auto record = std::make_unique<BoundMethod<M>>(method);
+    const void *identity = &record->method;
+    return make_callable(object, object, std::move(record), identity, sizeof(M));
+}
+
+} // namespace internal
+
+// A Callable of a method of ours, which need not be bound.
+#define callable_mp(m_object, m_method) (::godot::internal::bound_callable(m_object, m_method))
+
+} // namespace godot

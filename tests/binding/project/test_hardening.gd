@@ -1,0 +1,71 @@
+extends "res://test_case.gd"
+## Misuse: each prints a message (run_binding_tests.py counts them) and leaves a usable state.
+
+
+func test_missing_engine_method() -> void:
+	var probe: Probe = Probe.new()
+	for i: int in 3:
+		equal(probe.call_missing_method(), 0, "default values instead of a crash")
+	probe.free()
+
+
+func test_object_made_on_the_stack() -> void:
+	var probe: Probe = Probe.new()
+	equal(probe.stack_object_calls(), 0, "stays usable, engine calls answer defaults")
+	probe.free()
+
+
+func test_wrong_arguments() -> void:
+	var probe: Variant = Probe.new()
+	check(probe.call("sum") == null, "too few arguments")
+	check(probe.call("sum", 1, 2, 3, 4) == null, "too many arguments")
+	check(probe.call("sum", "text") == null, "wrong type")
+	check(probe.call("call_count_of", RefCounted.new()) == null, "object of another class")
+	equal(probe.call("sum", 1), 111.0, "usable afterwards")
+	probe.free()
+
+
+func test_wrong_resource_in_property() -> void:
+	var probe: Probe = Probe.new()
+	probe.config = ProbeConfig.new()
+	probe.set("config", Resource.new())
+	check(probe.config is ProbeConfig, "a resource of another class changes nothing")
+	probe.free()
+
+
+func test_rejected_value() -> void:
+	var config: ProbeConfig = ProbeConfig.new()
+	for bad: float in [0.0, -1.0, NAN]:
+		config.rate_hz = bad
+		equal(config.rate_hz, 1000.0, "%s Hz is refused" % bad)
+
+
+func test_index_check() -> void:
+	var probe: Probe = Probe.new()
+	equal(probe.check_index(7), 7, "last")
+	equal(probe.check_index(8), -1, "beyond")
+	equal(probe.check_index(-1), -1, "below")
+	probe.free()
+
+
+func test_freed_object_in_variant() -> void:
+	var probe: Probe = Probe.new()
+	var gone: Node = Node.new()
+	var held: Array = [gone]
+	gone.free()
+	check(probe.callv("is_probe", held) != true, "a freed object is no Probe")
+	probe.free()
+
+
+func test_many_lives() -> void:
+	var before: int = int(Performance.get_monitor(Performance.OBJECT_COUNT))
+	for i: int in 200:
+		var probe: Probe = DerivedProbe.new() if i % 2 == 0 else Probe.new()
+		probe.config = ProbeConfig.new()
+		probe.make_child("child")
+		tree.root.add_child(probe)
+		probe.connect_own(true)
+		if i % 3 == 0:
+			probe.reparent(tree.root.get_child(0) if tree.root.get_child_count() > 1 else tree.root)
+		probe.free()
+	equal(int(Performance.get_monitor(Performance.OBJECT_COUNT)), before, "objects left")
