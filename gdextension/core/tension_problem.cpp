@@ -19,9 +19,9 @@ constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
 // A Newton step that moves no string by more than this ends the refinement: the next one would be at least
 // 1e6 times smaller (see kCancelledPivot).
 constexpr double kStepTolerance_n = 1e-10;
-// A bounded string is released when that would move some string by more than this (unit: N). Fifty
+// A bounded string is released when that would move some string by more than this (unit: N). Five
 // roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
-constexpr double kReleaseMove_n = 1e-13;
+constexpr double kReleaseMove_n = 1e-14;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
 // Where that rounding moves a free string by more than this, gradients are taken in double-double.
@@ -172,15 +172,16 @@ private:
     }
 
     bool needs_another_refinement(double largest_step) noexcept {
-        if (largest_step <= kStepTolerance_n) {
-            return false;
-        }
-        // The first step is from far away: what cancels then says nothing about the end.
-        if (refinements_ > 0 && !precise_ &&
+        // The first step is from far away: what cancels then says nothing about the end. A small step proves
+        // nothing where the rounding of the gradient is the same each time.
+        const bool near_the_end = refinements_ > 0 || largest_step <= kStepTolerance_n;
+        if (near_the_end && !precise_ &&
             rounding_move(system_.smallest_pivot()) > kRoundingMove_n) {
             precise_ = true;
+            refinements_ = 1;
+            return true;
         }
-        return ++refinements_ <= kMaxRefinements;
+        return largest_step > kStepTolerance_n && ++refinements_ <= kMaxRefinements;
     }
 
     // At the optimum of the free strings: lets go of strings whose bound pulls the wrong way. False when none.

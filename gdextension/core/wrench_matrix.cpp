@@ -2,13 +2,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/constants.h"
+
 namespace spidar {
 
 namespace {
-
-// Sine of the crossing angle below which n = unit(r1 x r2) is rounding noise and the seventh row is set
-// to zero (design.md: at psi = 0 or pi the seventh row of A vanishes).
-constexpr double kSmallestCrossingSine = 1e-9;
 
 // A string shorter than this has no direction: its column is zero (unit: m).
 constexpr double kShortestString_m = 1e-9;
@@ -21,7 +19,8 @@ WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
     const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
     const double area = glm::length(cross);
     const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
-    matrix.grasp_row_vanishes = !(area > kSmallestCrossingSine * scale);
+    matrix.grasp_row_vanishes = !(area > kParallelAngle_rad * scale);
+    // Nearer to parallel than the rotation is trusted, n is noise and would turn g into a noisy moment.
     const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
 
     for (int i = 0; i < kStringCount; ++i) {

@@ -147,6 +147,27 @@ TEST_CASE("tension problem: optimal in quad precision for every kind, weights do
     CHECK(kinds_with_tiny_weight > 50);
 }
 
+TEST_CASE("tension problem: found by stress_tension and mended") {
+    // 1088795, 1074659: lost rank, weight 1e-12, a large residual: a plain gradient rounds the same way at every
+    // refinement, which looked like convergence. 1053999: objective near zero, a string held a hair too long.
+    for (const std::uint64_t seed : {1088795ULL, 1074659ULL, 1053999ULL}) {
+        const TensionProblem problem = test::random_problem(seed).problem;
+        const TensionSolution cold = solve_tension_problem(problem, nullptr);
+        test::Random random(~seed); // the wrong guess that stress_tension makes
+        ActiveSet guess{};
+        for (StringBound &bound : guess) {
+            bound = static_cast<StringBound>(random.below(3));
+        }
+        for (const TensionSolution &solution : {cold, solve_tension_problem(problem, &guess)}) {
+            const test::Certificate truth = test::certify(problem, solution.tensions_n);
+            CAPTURE(seed);
+            REQUIRE(truth.certified);
+            CHECK(truth.tension_error_n < 1e-8);
+            CHECK(truth.objective_error < 1e-12);
+        }
+    }
+}
+
 TEST_CASE("tension problem: a warm start changes the time, not the answer") {
     int warm_factorisations = 0;
     for (std::uint64_t seed = 7000; seed < 7500; ++seed) {

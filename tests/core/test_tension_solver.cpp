@@ -281,6 +281,9 @@ TEST_CASE("tension solver: the change term has no steady cost and refers to what
 }
 
 TEST_CASE("tension solver: a wrench that is not finite counts as zero, and the matrix is refused") {
+    TensionSolver at_work = solver_with({});
+    const DofArray wrench_of_work{1.0, 0, 0, 0, 0, 0, 0};
+    const TensionResult good = settled(at_work, matrix_at_rest(), wrench_of_work);
     const double bad_values[] = {std::nan(""), HUGE_VAL, -HUGE_VAL};
     for (const double bad : bad_values) {
         for (std::size_t k = 0; k < kDofs; ++k) {
@@ -295,12 +298,10 @@ TEST_CASE("tension solver: a wrench that is not finite counts as zero, and the m
         }
         for (std::size_t i = 0; i < kStrings; ++i) {
             for (std::size_t k = 0; k < kDofs; ++k) {
-                TensionSolver solver = solver_with({});
-                const DofArray wrench{1.0, 0, 0, 0, 0, 0, 0};
-                const TensionResult good = settled(solver, matrix_at_rest(), wrench);
+                TensionSolver solver = at_work; // with its memory
                 WrenchMatrix matrix = matrix_at_rest();
                 matrix.columns[i][k] = bad;
-                const TensionResult refused = solver.update(matrix, wrench);
+                const TensionResult refused = solver.update(matrix, wrench_of_work);
                 CHECK(refused.status == Status::not_finite);
                 for (double tension : refused.tensions_n) {
                     CHECK(tension == solver.settings().min_tension_n);
@@ -309,7 +310,7 @@ TEST_CASE("tension solver: a wrench that is not finite counts as zero, and the m
                     CHECK(std::isfinite(value));
                 }
                 // Memory stands: the next good tick goes on from the last good one.
-                CHECK(largest_difference(solver.update(matrix_at_rest(), wrench).tensions_n,
+                CHECK(largest_difference(solver.update(matrix_at_rest(), wrench_of_work).tensions_n,
                                          good.tensions_n) < 1e-9);
             }
         }

@@ -70,7 +70,7 @@ inline NamedProblem random_problem(std::uint64_t seed) {
     const double reach = kind == "central" ? 0.1 : kind == "far" ? 0.5 : 0.2;
     double psi = random.uniform(0.5, 2.6);
     if (kind == "near_parallel") {
-        psi = std::pow(10.0, random.uniform(-6.0, -0.8));
+        psi = std::pow(10.0, random.uniform(-5.0, -0.8));
         psi = random.chance(0.5) ? psi : 3.141592653589793 - psi;
     }
     GripPose pose = random_pose(random, reach, psi);
