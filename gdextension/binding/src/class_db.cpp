@@ -24,8 +24,12 @@ void complain(const std::string &text) {
 }
 
 GDExtensionPropertyInfo described(const PropertyInfo &info, const StringName &name) {
-    return {static_cast<GDExtensionVariantType>(info.type), name._native_ptr(),
-            info.class_name._native_ptr(), info.hint, info.hint_string._native_ptr(), info.usage};
+    return {static_cast<GDExtensionVariantType>(info.type),
+            name._native_ptr(),
+            info.class_name._native_ptr(),
+            info.hint,
+            info.hint_string._native_ptr(),
+            info.usage};
 }
 
 GDExtensionPropertyInfo described(const PropertyInfo &info) {
