@@ -11,6 +11,9 @@ const ARMING_FRAMES: int = 70
 
 var device: SpidarG
 var hand: SpidarGHand
+## Of the simulated device, before set_up().
+var elastic: bool = false
+var firmness: SpidarG.HandFirmness = SpidarG.HAND_NORMAL
 var at: Vector3 = Vector3.ZERO
 var angle: float = 0.0
 
@@ -18,6 +21,8 @@ var angle: float = 0.0
 ## A device with forces on, its hand at `start`, settled.
 func set_up(start: Vector3, forces: bool = true) -> void:
 	device = ideal_device()
+	device.config.simulated_elastic = elastic
+	device.config.simulated_hand_firmness = firmness
 	device.forces_enabled = forces
 	hand = SpidarGHand.new()
 	device.add_child(hand)
@@ -79,3 +84,15 @@ func grasp(body: RigidBody3D) -> void:
 	await move_to(body.global_position, 0.0, 60)
 	await move_to(body.global_position, SQUEEZE_ANGLE, 40)
 	await physics_frames(40)
+
+
+## Largest peak-to-peak motion of the true grip (m) over some frames, its target at rest.
+func tremble(frame_count: int) -> float:
+	var least := Vector3.INF
+	var most := -Vector3.INF
+	for _i: int in frame_count:
+		await physics_frames(1)
+		var grip: Transform3D = device.get_simulated_truth()["grip_transform"]
+		least = least.min(grip.origin)
+		most = most.max(grip.origin)
+	return (most - least).length()
