@@ -71,9 +71,7 @@ func _pick(object: TaskObject) -> bool:
 		return false
 	if object == objects[0]:
 		await pictures.take("grasp")
-		camera_rig.look_closely(spidar.get_grip_transform().origin)
-		await pictures.take("grasp_close")
-		camera_rig.look_at_all()
+		await _take_close_picture("grasp_close")
 	await hand.move_to(_at_travel_height(hand.wanted), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if tool_hand.get_held_body() != object:
@@ -126,13 +124,17 @@ func _place(object: TaskObject) -> void:
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if object == objects[1]:
 		await pictures.take("carry")
-		camera_rig.look_closely(spidar.get_grip_transform().origin)
-		await pictures.take("carry_close")
-		camera_rig.look_at_all()
+		await _take_close_picture("carry_close")
 	await hand.move_to(goal, LOWER_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	await hand.turn_grasp_to(_angle_for(object.spec.size_m.x + CLEARANCE_M), 0.4)
 	await hand.wait(0.1)
+
+
+func _take_close_picture(picture_name: String) -> void:
+	camera_rig.look_closely(spidar.get_grip_transform().origin)
+	await pictures.take(picture_name)
+	camera_rig.look_at_all()
 
 
 func _rise() -> void:
