@@ -2,7 +2,7 @@
 //
 // Guess: a few rounds that bound every string that left its range at once and release every string whose
 // bound pulls the wrong way at once. Then a primal active set (one string at a time, the objective falls at
-// every move), which cannot cycle: releasing a string moves it by more than kReleaseMove_n.
+// every move), which cannot cycle: see kSureMove_n.
 // The answer is refined with gradients taken from A itself, so that it is exact to rounding.
 #include <algorithm>
 #include <cmath>
@@ -22,6 +22,9 @@ constexpr double kStepTolerance_n = 1e-10;
 // A bounded string is released when that would move some string by more than this (unit: N). Five
 // roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
 constexpr double kReleaseMove_n = 1e-14;
+// A smaller move than this may be undone by rounding: each string gets one such release, so that no two
+// active sets can alternate.
+constexpr double kSureMove_n = 1e-11;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
 // Where that rounding moves a free string by more than this, gradients are taken in double-double.
@@ -89,6 +92,7 @@ public:
 private:
     void start(const ActiveSet *warm) noexcept {
         free_ = 0;
+        barely_released_ = 0;
         factored_ = false;
         precise_ = false;
         for (std::size_t i = 0; i < kStrings; ++i) {
@@ -114,7 +118,11 @@ private:
         factored_ = false;
     }
 
-    void let_go(std::size_t string) noexcept {
+    // barely: by less than kSureMove_n, which this string may do once.
+    void let_go(std::size_t string, bool barely) noexcept {
+        if (barely) {
+            barely_released_ = with_string(barely_released_, string);
+        }
         active_[string] = StringBound::free;
         free_ = with_string(free_, string);
         factored_ = false;
@@ -191,18 +199,20 @@ private:
         const double noise = precise_ ? 0.0 : kGradientRounding * gradient_.largest_force_n;
         double worst = 0.0;
         std::size_t worst_string = kStrings;
+        bool worst_barely = false;
         bool released = false;
         for (std::size_t i = 0; i < kStrings; ++i) {
             if (has_string(free_, i) || !has_string(movable_, i)) {
                 continue;
             }
             const double slope = gradient_.values[i] + change[i];
+            bool barely = false;
             // How strongly the string wants into its range.
             const double wish = active_[i] == StringBound::at_lower ? -slope : slope;
             if (!(wish > -noise)) {
                 continue;
             }
-            if (!(wish > noise && wish > kReleaseMove_n * system_.diagonal(i))) {
+            if (!(wish > noise && wish > kSureMove_n * system_.diagonal(i))) {
                 // Near zero: what counts is how far the strings would move.
                 const BoxLeastSquares::Release release = system_.release(i);
                 double reach = 1.0;
@@ -216,19 +226,26 @@ private:
                 if (!(wish * reach > kReleaseMove_n * release.stiffness)) {
                     continue;
                 }
+                if (!(wish * reach > kSureMove_n * release.stiffness)) {
+                    if (has_string(barely_released_, i)) {
+                        continue;
+                    }
+                    barely = true;
+                }
             }
             if (guess_rounds_ > 0) {
                 released = true;
-                let_go(i);
+                let_go(i, barely);
             } else if (wish > worst) {
                 worst = wish;
                 worst_string = i;
+                worst_barely = barely;
             }
         }
         if (released) {
             --guess_rounds_;
         } else if (worst_string < kStrings) {
-            let_go(worst_string);
+            let_go(worst_string, worst_barely);
             released = true;
         }
         return released;
@@ -241,6 +258,7 @@ private:
     ActiveSet active_{};
     StringMask movable_ = 0;
     StringMask free_ = 0;
+    StringMask barely_released_ = 0;
     bool factored_ = false;
     bool precise_ = false;
     int guess_rounds_ = 0;

@@ -168,6 +168,24 @@ TEST_CASE("tension problem: found by stress_tension and mended") {
     }
 }
 
+TEST_CASE("tension problem: zero multipliers at the optimum make no two active sets alternate") {
+    // 50151398: one string was released and bounded again until the iteration bound.
+    const std::uint64_t seed = 50151398ULL;
+    const TensionProblem problem = test::random_problem(seed).problem;
+    test::Random random(~seed);
+    ActiveSet guess{};
+    for (StringBound &bound : guess) {
+        bound = static_cast<StringBound>(random.below(3));
+    }
+    const std::array<const ActiveSet *, 2> starts{nullptr, &guess};
+    for (const ActiveSet *warm : starts) {
+        const TensionSolution solution = solve_tension_problem(problem, warm);
+        CHECK(solution.status == Status::ok);
+        CHECK(solution.iterations < 25);
+        CHECK(test::certify(problem, solution.tensions_n).tension_error_n < 1e-10);
+    }
+}
+
 TEST_CASE("tension problem: a warm start changes the time, not the answer") {
     int warm_factorisations = 0;
     for (std::uint64_t seed = 7000; seed < 7500; ++seed) {

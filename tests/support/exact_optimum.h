@@ -122,7 +122,7 @@ inline Quad objective_of(const TensionProblem &p, const QuadStrings &x) {
 
 // What storing tensions as doubles may cost: (W |A| |tau| eps)^2 summed. Counts where the optimum is near 0.
 inline Quad rounding_cost(const TensionProblem &p, const StringArray &tensions_n) {
-    Quad sum = 0;
+    Quad sum = 1e-30; // 1e-15 N squared: an optimum of exactly zero is met when nobody can tell
     for (std::size_t k = 0; k < kDofs; ++k) {
         Quad force = 0;
         for (std::size_t i = 0; i < kStrings; ++i) {
