@@ -33,8 +33,9 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 	_anchor.sync_to_physics = false
 	_anchor.collision_layer = 0
 	_anchor.collision_mask = 0
+	# Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
+	_anchor.transform = grip
 	add_child(_anchor)
-	_anchor.global_transform = grip
 	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
 	add_child(_joint)
 	_joint.global_transform = body.global_transform
