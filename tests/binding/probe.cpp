@@ -67,6 +67,7 @@ void Probe::_bind_methods() {
     ClassDB::bind_method(D_METHOD("same", "object"), &Probe::same);
     ClassDB::bind_method(D_METHOD("is_probe", "object"), &Probe::is_probe);
     ClassDB::bind_method(D_METHOD("call_count_of", "counter"), &Probe::call_count_of);
+    ClassDB::bind_method(D_METHOD("owners_of_duplicate"), &Probe::owners_of_duplicate);
     ClassDB::bind_method(D_METHOD("make_counter", "start"), &Probe::make_counter);
     ClassDB::bind_method(D_METHOD("emit_many"), &Probe::emit_many);
     ClassDB::bind_method(D_METHOD("connect_own", "connected"), &Probe::connect_own);
@@ -226,6 +227,15 @@ bool Probe::is_probe(Object *object) const {
 
 int64_t Probe::call_count_of(const Ref<ProbeCounter> &counter) const {
     return counter.is_valid() ? counter->get_reference_count() : -1;
+}
+
+int64_t Probe::owners_of_duplicate() const {
+    // The engine returns a Ref: it must become ours without being counted twice.
+    const Ref<Resource> copy = config_->duplicate();
+    const Ref<ProbeConfig> config = copy;
+    return config.is_valid() && config->get_rate_hz() == config_->get_rate_hz()
+               ? config->get_reference_count()
+               : -1;
 }
 
 Error Probe::emit_many() {

@@ -89,6 +89,7 @@ public:
     godot::Node *first_child() const;
     godot::Object *same(godot::Object *object) const { return object; }
     bool is_probe(godot::Object *object) const;
+    int64_t owners_of_duplicate() const;
     int64_t call_count_of(const godot::Ref<ProbeCounter> &counter) const;
     godot::Ref<ProbeCounter> make_counter(int start) const { return ProbeCounter::make(start); }
     godot::Error emit_many();

@@ -7,6 +7,7 @@ namespace probe {
 void ProbeFaults::_bind_methods() {
     ClassDB::bind_method(D_METHOD("call_missing_method"), &ProbeFaults::call_missing_method);
     ClassDB::bind_method(D_METHOD("use_stack_object"), &ProbeFaults::use_stack_object);
+    ClassDB::bind_method(D_METHOD("ask_changed_virtual"), &ProbeFaults::ask_changed_virtual);
     ClassDB::bind_method(D_METHOD("warnings_of", "probe"), &ProbeFaults::warnings_of);
 }
 
@@ -26,6 +27,21 @@ int64_t ProbeFaults::use_stack_object() const {
     const ProbeConfig config; // not made by memnew: prints so, and stays usable in C++
     const String path = config.get_path();
     return config.get_rate_hz() == 1000.0 && path.is_empty() ? 0 : 1;
+}
+
+int64_t ProbeFaults::ask_changed_virtual() const {
+    internal::ClassRecord record;
+    const auto call = [](GDExtensionClassInstancePtr, const GDExtensionConstTypePtr *,
+                         GDExtensionTypePtr) {};
+    record.virtuals.push_back({StringName("_changed"), 1, call});
+    record.virtuals.push_back({StringName("_same"), 1, call});
+    int64_t answered = 0;
+    for (int i = 0; i < 3; ++i) {
+        answered += internal::find_virtual(record, StringName("_changed"), 2) != nullptr ? 1 : 0;
+    }
+    const bool others_stay = internal::find_virtual(record, StringName("_same"), 1) != nullptr &&
+                             internal::find_virtual(record, StringName("_other"), 1) == nullptr;
+    return others_stay ? answered : -1;
 }
 
 PackedStringArray ProbeFaults::warnings_of(Probe *probe) const {

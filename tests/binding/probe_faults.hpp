@@ -14,6 +14,8 @@ class ProbeFaults : public godot::RefCounted {
 public:
     int64_t call_missing_method();
     int64_t use_stack_object() const;
+    // How many of three requests for a virtual method with another hash were answered.
+    int64_t ask_changed_virtual() const;
     godot::PackedStringArray warnings_of(Probe *probe) const;
 
 protected:

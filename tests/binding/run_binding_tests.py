@@ -26,6 +26,7 @@ import refusal_cases  # noqa: E402
 EXPECTED_MESSAGES = (
     ("Node3D.get_phantom (hash 12345) is not in this Godot", 1),
     ("Array.phantom_sort (hash 12345) is not in this Godot", 1),
+    ("The virtual method _changed has other arguments in this Godot", 1),
     ("An engine method was called on an object that the engine did not make", 2),
     ("rate_hz is nan Hz: it must be above 0.", 1),
     ("String 8 does not exist.", 1),

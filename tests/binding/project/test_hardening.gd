@@ -8,6 +8,11 @@ func test_missing_engine_method() -> void:
 		equal(faults.call_missing_method(), 0, "default values instead of a crash")
 
 
+func test_changed_virtual_method() -> void:
+	var faults: ProbeFaults = ProbeFaults.new()
+	equal(faults.ask_changed_virtual(), 0, "not called, and the others stay")
+
+
 func test_object_made_on_the_stack() -> void:
 	var faults: ProbeFaults = ProbeFaults.new()
 	equal(faults.use_stack_object(), 0, "stays usable, engine calls answer defaults")
