@@ -258,22 +258,23 @@ def write_package(target, source, env):
     """A zip that unpacks as addons/spidar_g/, the same bytes for the same files."""
     addon = env["ADDON"]
     libraries = {os.path.normpath(str(node)) for node in env["PACKAGE_LIBRARIES"]}
-    entries = {}
+    entries = set()
     for folder, folders, names in os.walk(addon):
         folders[:] = [name for name in folders if name not in (".godot", "__pycache__")]
         for name in names:
             path = os.path.normpath(os.path.join(folder, name))
             if os.path.dirname(path) == os.path.join(addon, "bin") and path not in libraries:
                 continue  # a leftover of another build
-            entries[path] = path
-    for name in ("LICENSE", "THIRDPARTY.md", "README.md"):
-        entries.setdefault(os.path.join(addon, name), name)
+            entries.add(path)
+    for name in ("LICENSE.md", "THIRDPARTY.md", "README.md"):
+        if os.path.join(addon, name) not in entries:
+            raise BuildError(f"{addon}/{name} is missing; a release must hold it")
     with zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:
         for name in sorted(entries):
             info = zipfile.ZipInfo(name.replace(os.sep, "/"), (1980, 1, 1, 0, 0, 0))
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (0o755 if name in libraries else 0o644) << 16
-            with open(entries[name], "rb") as file:
+            with open(name, "rb") as file:
                 archive.writestr(info, file.read())
     with open(str(target[0]), "rb") as file:
         digest = hashlib.sha256(file.read()).hexdigest()

@@ -124,6 +124,14 @@ def versions(files):
             yield path, 1, f"has no line {text} as version.py says"
 
 
+def copies():
+    """What the add-on carries for itself is what the repository says."""
+    for name, copy in (("LICENSE", "LICENSE.md"), ("THIRDPARTY.md", "THIRDPARTY.md")):
+        path = f"addons/spidar_g/{copy}"
+        if not os.path.isfile(os.path.join(ROOT, path)) or lines_of(path) != lines_of(name):
+            yield path, 1, f"is no copy of {name}"
+
+
 def archive():
     """.gitattributes: an archive of the repository holds addons/ only."""
     command = ["git", "archive", "--worktree-attributes", "--format=zip", "HEAD"]
@@ -145,6 +153,7 @@ def main():
         "machine paths and registries": machine_names(files),
         "length of sources": long_files(files),
         "one version": versions(files),
+        "copies": copies(),
         "archive": archive(),
     }
     failed = 0

@@ -35,13 +35,12 @@ var _peak_torque_nm := 0.0
 var _peak_grasp_nm := 0.0
 var _residual_square_sum := 0.0
 var _ticks_at_start := 0
-var _saturated_at_start := 0
+var _samples_at_limit := 0
 
 
 func start(spidar: SpidarG) -> void:
 	var statistics := spidar.get_statistics()
 	_ticks_at_start = statistics.get("ticks", 0)
-	_saturated_at_start = statistics.get("saturated_ticks", 0)
 	row["schema_version"] = SCHEMA_VERSION
 	row["godot_version"] = Engine.get_version_info()["string"]
 	var config := ConfigFile.new()
@@ -60,6 +59,7 @@ func sample(spidar: SpidarG, delta: float) -> void:
 	var given := spidar.get_achieved_wrench()
 	var force := Vector3(given[0], given[1], given[2]).length()
 	_samples += 1
+	_samples_at_limit += int(int(spidar.get_statistics().get("at_max_mask", 0)) != 0)
 	_force_sum_n += force
 	_peak_force_n = maxf(_peak_force_n, force)
 	_peak_torque_nm = maxf(_peak_torque_nm, Vector3(given[3], given[4], given[5]).length())
@@ -81,7 +81,6 @@ func note_grasp() -> void:
 func finish(spidar: SpidarG, ideal_path_m: float) -> void:
 	var statistics := spidar.get_statistics()
 	var ticks: int = int(statistics.get("ticks", 0)) - _ticks_at_start
-	var saturated: int = int(statistics.get("saturated_ticks", 0)) - _saturated_at_start
 	row["task_time_s"] = task_time_s
 	row["grasp_attempts"] = grasp_attempts
 	row["grasp_successes"] = grasp_successes
@@ -94,11 +93,10 @@ func finish(spidar: SpidarG, ideal_path_m: float) -> void:
 	if _samples > 0:
 		row["peak_force_n"] = _peak_force_n
 		row["mean_force_n"] = _force_sum_n / _samples
+		row["tension_saturated_pct"] = 100.0 * _samples_at_limit / _samples
 		row["peak_torque_nm"] = _peak_torque_nm
 		row["peak_grasp_moment_nm"] = _peak_grasp_nm
 		row["wrench_residual_rms"] = sqrt(_residual_square_sum / _samples)
-	if ticks > 0:
-		row["tension_saturated_pct"] = 100.0 * saturated / ticks
 	if spidar.drive_mode == SpidarG.DRIVE_STEPPED:
 		# Simulated time: the rate is cycles per simulated second, and there is no clock to be late by.
 		if task_time_s > 0.0:

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "core/closed_form.h"
 #include "core/constants.h"
@@ -136,7 +135,7 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
     if (!first.solvable || !(first.step_m <= kMaxWarmStep_m)) {
         const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m);
-        return search(lengths_m, forget ? nullptr : &pose);
+        return search(lengths_m, forget ? nullptr : &last_pose_);
     }
     const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
     const double residual_rms_m = length_errors(problem, pose).rms_m();

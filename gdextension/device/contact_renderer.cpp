@@ -251,6 +251,9 @@ Wrench ContactRenderer::render(const GripState &grip, double dt_s, double dampin
 }
 
 void ContactRenderer::integrate(double scale, double dt_s) noexcept {
+    if (!(scale > 0.0)) {
+        return;
+    }
     for (std::size_t i = 0; i < count_; ++i) {
         tracks_[i].impulse_ns += (scale * dt_s) * tracks_[i].force_n;
         tracks_[i].grasp_impulse_nms += (scale * dt_s) * tracks_[i].grasp_torque_nm;

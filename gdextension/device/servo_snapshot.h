@@ -52,7 +52,7 @@ struct ServoCounters {
     std::uint64_t saturated_ticks = 0; // strings at a bound changed the wrench
     std::uint64_t slewed_ticks = 0;    // the slew limit changed a tension
     std::uint64_t write_failures = 0;
-    std::uint64_t bad_time_steps = 0; // not in (0, 0.05] s: taken as 1 / rate
+    std::uint64_t bad_time_steps = 0; // not in [1e-6, 0.05] s: taken as 1 / rate
     std::uint64_t gate_clamps =
         0; // a tension outside [0, max] or NaN reached the safety gate: a defect
 };

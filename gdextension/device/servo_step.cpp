@@ -8,6 +8,8 @@ namespace {
 
 // Longer steps than this are a suspended computer, not a servo cycle.
 constexpr double kLongestStep_s = 0.05;
+// Shorter ones than any servo has would make speeds without bound out of one encoder count.
+constexpr double kShortestStep_s = 1e-6;
 // The wrench falls to zero in this time when reports fail to come, and returns in that.
 constexpr double kLinkFade_s = 0.020;
 constexpr double kLinkRecovery_s = 0.050;
@@ -208,7 +210,8 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     }
     // The ramp scales the tensions, not the request: pretension and wrench rise together, and A (ramp tau) is
     // ramp times the wrench, exactly.
-    const Wrench full = request_scale * asked;
+    // A factor of 0 means a sum that is not finite: 0 times it would still be NaN.
+    const Wrench full = request_scale > 0.0 ? request_scale * asked : Wrench();
     const TensionResult result = solver_.update(matrix_, to_paper(full));
     StringArray wanted_n{};
     for (std::size_t i = 0; i < wanted_n.size(); ++i) {
@@ -251,7 +254,7 @@ void ServoStep::publish_state() noexcept {
 DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
                              const HapticCommand &command, double dt_s,
                              bool may_arm_itself) noexcept {
-    if (!(dt_s > 0.0 && dt_s <= kLongestStep_s)) {
+    if (!(dt_s >= kShortestStep_s && dt_s <= kLongestStep_s)) {
         dt_s = nominal_dt_s_;
         ++snapshot_.counters.bad_time_steps;
     }

@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <godot_cpp/core/error_macros.hpp>
+
 #include "godot/type_conversions.h"
 
 using spidar::Vec3;
@@ -25,9 +27,8 @@ godot::Transform3D SpidarG::get_grip_transform() const {
 }
 
 godot::Transform3D SpidarG::get_pole_transform(int pole) const {
-    if (pole != 0 && pole != 1) {
-        ERR_FAIL_V_MSG(godot::Transform3D(), "SpidarG.get_pole_transform: pole is 0 (r1) or 1 (r2).");
-    }
+    ERR_FAIL_COND_V_MSG(pole != 0 && pole != 1, godot::Transform3D(),
+                        "SpidarG.get_pole_transform: pole is 0 (r1) or 1 (r2).");
     const spidar::GripState &grip = snapshot_.grip;
     const Vec3 along = glm::normalize(pole == 0 ? grip.pose.r1_m : grip.pose.r2_m);
     const Vec3 normal = grip.frame.rotation[2];
@@ -127,7 +128,7 @@ godot::Dictionary SpidarG::get_contact_impulses() const {
         const spidar::ContactReport &contact = snapshot_.contacts[static_cast<std::size_t>(i)];
         const bool is_stop = contact.grasp_impulse_nms != 0.0;
         impulses[contact.id] =
-            is_stop ? godot::Vector3(static_cast<real_t>(contact.grasp_impulse_nms), 0, 0)
+            is_stop ? godot::Vector3(static_cast<spidar::GodotReal>(contact.grasp_impulse_nms), 0, 0)
                     : spidar::to_godot(frame.turn_to_world(contact.impulse_ns));
     }
     return impulses;

@@ -14,12 +14,15 @@
 
 namespace spidar {
 
+// float, or double where Godot is built so.
+using GodotReal = decltype(godot::Vector3::x);
+
 [[nodiscard]] inline Vec3 to_core(const godot::Vector3 &v) noexcept {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 [[nodiscard]] inline godot::Vector3 to_godot(const Vec3 &v) noexcept {
-    return {static_cast<real_t>(v.x), static_cast<real_t>(v.y), static_cast<real_t>(v.z)};
+    return {static_cast<GodotReal>(v.x), static_cast<GodotReal>(v.y), static_cast<GodotReal>(v.z)};
 }
 
 // Godot's Basis stores rows; glm stores columns.

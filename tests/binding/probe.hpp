@@ -89,14 +89,13 @@ public:
     godot::Node *first_child() const;
     godot::Object *same(godot::Object *object) const { return object; }
     bool is_probe(godot::Object *object) const;
+    int64_t owners_of_duplicate() const;
     int64_t call_count_of(const godot::Ref<ProbeCounter> &counter) const;
     godot::Ref<ProbeCounter> make_counter(int start) const { return ProbeCounter::make(start); }
-    int64_t call_missing_method();
     godot::Error emit_many();
     int64_t connect_own(bool connected);
     void on_many(int64_t a, double b, const godot::String &c);
     int64_t get_heard() const { return heard_; }
-    int64_t stack_object_calls() const;
     godot::Dictionary engine_facts() const;
     godot::Dictionary text_facts() const;
     int64_t check_index(int64_t index) const;

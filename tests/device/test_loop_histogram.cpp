@@ -11,7 +11,8 @@ TEST_CASE("histogram: buckets are half octaves, without gaps or overlaps") {
     for (std::uint64_t t = 1; t < 100000; ++t) {
         const int bucket = LoopHistogram::bucket_of(t);
         REQUIRE(bucket >= last);
-        REQUIRE(bucket == static_cast<int>(std::floor(2.0 * std::log2(static_cast<double>(t)) + 1e-12)));
+        REQUIRE(bucket ==
+                static_cast<int>(std::floor(2.0 * std::log2(static_cast<double>(t)) + 1e-12)));
         last = bucket;
     }
     CHECK(LoopHistogram::bucket_of(0) == 0);

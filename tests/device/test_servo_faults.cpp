@@ -55,7 +55,8 @@ TEST_CASE("states: disarming takes 20 ms, the tensions falling all the way") {
     CHECK(bench.motors_off());
 }
 
-TEST_CASE("states: a real device arms on the edge of arm() only, and only while forces are enabled") {
+TEST_CASE(
+    "states: a real device arms on the edge of arm() only, and only while forces are enabled") {
     Bench bench;
     bench.simulated = false;
     bench.command.forces_enabled = true;
@@ -102,7 +103,8 @@ TEST_CASE("states: arm() while fading is kept for when it is over; without a pos
     CHECK(blind.now().state == DeviceState::connected); // half a second later would be a surprise
 }
 
-TEST_CASE("fault: one count jump is held and counted, three in a row latch with the string's number") {
+TEST_CASE(
+    "fault: one count jump is held and counted, three in a row latch with the string's number") {
     Bench bench;
     bench.activate();
     const GripPose pose = bench.now().grip.pose;
@@ -135,7 +137,8 @@ TEST_CASE("fault: one count jump is held and counted, three in a row latch with 
     bench.reading.counts[6] -= 1000;
     ++bench.command.clear_fault_count;
     bench.tick(200);
-    CHECK(bench.now().state == DeviceState::connected); // and a fault wants arm() from simulated ones too
+    CHECK(bench.now().state ==
+          DeviceState::connected); // and a fault wants arm() from simulated ones too
     CHECK(bench.now().fault == Status::ok);
     CHECK(bench.now().fault_string == -1);
     ++bench.command.arm_count;
@@ -144,7 +147,8 @@ TEST_CASE("fault: one count jump is held and counted, three in a row latch with 
 }
 
 TEST_CASE("counts wrap at 32 bits in both directions and nothing is felt of it") {
-    for (const std::int64_t start : {std::int64_t{2147483647} - 100, -std::int64_t{2147483648} + 100}) {
+    for (const std::int64_t start :
+         {std::int64_t{2147483647} - 100, -std::int64_t{2147483648} + 100}) {
         Bench bench;
         bench.settings.strings.zero_count.fill(static_cast<std::int32_t>(start));
         bench.start();
@@ -202,7 +206,8 @@ TEST_CASE("three lost reports are nothing; seven cost some force, which comes ba
     CHECK(bench.now().state == DeviceState::active);
 }
 
-TEST_CASE("fault: unplugged: closed with motors off in the same cycle; back only after clear and arm") {
+TEST_CASE(
+    "fault: unplugged: closed with motors off in the same cycle; back only after clear and arm") {
     for (const bool at_write : {false, true}) {
         Bench bench;
         bench.activate();

@@ -23,7 +23,7 @@ TOTALS = re.compile(r"^(\d+) passed, (\d+) failed$", re.M)
 
 def main(arguments):
     godot, *names = arguments
-    prepare_project(PROJECT)
+    prepare_project(PROJECT, godot)
     command = [godot, "--headless", "--verbose", "--path", PROJECT, "--fixed-fps", "60",
                "-s", "res://run_tests.gd", "--", *names]
     try:

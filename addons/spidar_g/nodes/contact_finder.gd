@@ -7,7 +7,7 @@ extends RefCounted
 
 const ContactPlane := preload("contact_plane.gd")
 
-## Bodies looked at per shape and frame, nearest side of a bound on the frame's cost.
+## Bodies looked at per shape and frame: bounds the frame's cost.
 const MAX_BODIES: int = 6
 ## Contact points asked per body: a face on a face gives four.
 const MAX_POINTS: int = 4
@@ -19,7 +19,9 @@ const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
 const PUSHED_STIFFNESS_RATIO: float = 1.0
 
 var collision_mask: int = 1
+## Scene metres.
 var margin_m: float = 0.04
+var workspace_scale: float = 1.0
 var stiffness_n_m: float = 350.0
 var damping_n_s_m: float = 2.0
 var friction: float = 0.4
@@ -91,7 +93,8 @@ func set_material(plane: ContactPlane, collider: Object) -> void:
 	if body != null and not body.freeze:
 		plane.pushed_body = body
 		var per_frame: float = float(Engine.physics_ticks_per_second)
-		var limit: float = PUSHED_STIFFNESS_RATIO * body.mass * per_frame * per_frame
+		# Stiffness is per device metre, the body moves in scene metres.
+		var limit: float = PUSHED_STIFFNESS_RATIO * body.mass * per_frame * per_frame * workspace_scale
 		plane.stiffness_n_m = minf(plane.stiffness_n_m, limit)
 
 

@@ -12,6 +12,12 @@ const SETTLED_RATE: float = 0.2
 ## A hand that has closed and still squeezes too little for this long is told so.
 const REFUSE_AFTER_S: float = 0.25
 
+## Of the pads; a body whose physics material is smoother takes its own, unless it is marked rough.
+var pad_friction: float = 1.0
+## Least finger force that holds anything, however light.
+var min_force_n: float = 0.1
+## Multiplies the weight that friction has to carry.
+var weight_scale: float = 1.0
 ## Why the last REFUSE.
 var reason: String = ""
 var _settled_s: float = 0.0
@@ -24,21 +30,17 @@ func reset() -> void:
 	_told = false
 
 
-## finger_force_n: on each pad. weight_n: what friction has to carry. REFUSE comes once per attempt.
+## finger_force_n: on each pad. grasp_rate: rad/s. REFUSE comes once per attempt.
 func judge(
-	jaw: JawSensor,
-	grasp_rate: float,
-	finger_force_n: float,
-	min_force_n: float,
-	friction: float,
-	weight_n: float,
-	delta_s: float
+	jaw: JawSensor, finger_force_n: float, grasp_rate: float, delta_s: float
 ) -> Verdict:
 	var problem: String = ""
 	var body: RigidBody3D = jaw.body as RigidBody3D
-	var carried_n: float = 2.0 * friction * finger_force_n
 	if body == null:
 		return Verdict.WAIT  # A wall or a fixed peg: it has a width, and nobody expects to lift it.
+	var friction: float = _friction_on(body)
+	var carried_n: float = 2.0 * friction * finger_force_n
+	var weight_n: float = weight_scale * body.mass * _gravity_on(body)
 	if body.freeze:
 		problem = "the body is frozen: set freeze to false to let it be lifted"
 	elif jaw.opposition_deg() < MIN_OPPOSITION_DEG:
@@ -64,3 +66,16 @@ func judge(
 	_told = true
 	reason = problem
 	return Verdict.REFUSE
+
+
+func _friction_on(body: RigidBody3D) -> float:
+	var material: PhysicsMaterial = body.physics_material_override
+	if material == null:
+		return pad_friction
+	if material.rough:
+		return maxf(pad_friction, material.friction)
+	return minf(pad_friction, material.friction)
+
+
+static func _gravity_on(body: RigidBody3D) -> float:
+	return PhysicsServer3D.body_get_direct_state(body.get_rid()).total_gravity.length()

@@ -13,6 +13,13 @@ const INERTIA_FORCE_SHARE: float = 0.3
 ## Weight comes on over this time: a step would be felt as a knock.
 const ONSET_TIME_S: float = 0.1
 
+## Multiplies weight and inertia alike.
+var gain: float = 1.0
+## The device's own limit.
+var max_force_n: float = 8.0
+var with_weight: bool = true
+var with_inertia: bool = true
+
 var force_n: Vector3 = Vector3.ZERO
 var moment_nm: Vector3 = Vector3.ZERO
 var _velocity: Vector3 = Vector3.ZERO
@@ -20,36 +27,32 @@ var _acceleration: Vector3 = Vector3.ZERO
 var _age_s: float = 0.0
 
 
-func reset(velocity_m_s: Vector3) -> void:
-	_velocity = velocity_m_s
+## A body has just been caught. velocity: of the grip, scene m/s.
+func reset(velocity: Vector3) -> void:
+	_velocity = velocity
 	_acceleration = Vector3.ZERO
 	_age_s = 0.0
 	force_n = Vector3.ZERO
 	moment_nm = Vector3.ZERO
 
 
-## velocity_m_s: of the grip, device metres per second on world axes. arm_m: from the grip's centre to the
-## body's centre of mass, device metres. gravity: scene m/s^2. scale: multiplies weight and inertia alike.
+## Once a physics frame. grip_centre and velocity of the grip: scene; workspace_scale: scene metres per device metre.
 func advance(
-	delta_s: float,
-	mass_kg: float,
-	gravity: Vector3,
-	velocity_m_s: Vector3,
-	arm_m: Vector3,
-	max_force_n: float,
-	scale: float,
-	with_weight: bool,
-	with_inertia: bool
+	delta_s: float, body: RigidBody3D, grip_centre: Vector3, velocity: Vector3, workspace_scale: float
 ) -> void:
+	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
 	var blend: float = delta_s / (delta_s + 1.0 / (TAU * ACCELERATION_CUTOFF_HZ))
-	_acceleration += blend * ((velocity_m_s - _velocity) / delta_s - _acceleration)
-	_velocity = velocity_m_s
+	_acceleration += blend * ((velocity - _velocity) / delta_s - _acceleration)
+	_velocity = velocity
 	_age_s += delta_s
 	force_n = Vector3.ZERO
 	if with_weight:
-		force_n += scale * mass_kg * gravity
+		force_n += gain * body.mass * state.total_gravity
 	if with_inertia:
-		var mass: float = minf(scale * mass_kg, MAX_INERTIA_MASS_KG)
-		force_n -= (mass * _acceleration).limit_length(INERTIA_FORCE_SHARE * max_force_n)
+		# Of the hand's own motion, so that a large scale does not turn a small jerk into a large force.
+		var mass: float = minf(gain * body.mass, MAX_INERTIA_MASS_KG)
+		var inertia: Vector3 = mass * _acceleration / workspace_scale
+		force_n -= inertia.limit_length(INERTIA_FORCE_SHARE * max_force_n)
 	force_n *= clampf(_age_s / ONSET_TIME_S, 0.0, 1.0)
-	moment_nm = arm_m.cross(force_n)
+	var centre: Vector3 = state.transform.origin + state.center_of_mass
+	moment_nm = ((centre - grip_centre) / workspace_scale).cross(force_n)

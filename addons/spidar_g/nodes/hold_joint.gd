@@ -4,8 +4,6 @@ extends Node3D
 
 ## The pads close on the middle of a body that was caught off-centre within this time.
 const CENTRING_TIME_S: float = 0.08
-## Speed left to a body that is let go, so that a solver's last correction never throws it.
-const MAX_RELEASE_SPEED_M_S: float = 2.0
 
 var body: RigidBody3D = null
 var _anchor: AnimatableBody3D = null
@@ -35,8 +33,9 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 	_anchor.sync_to_physics = false
 	_anchor.collision_layer = 0
 	_anchor.collision_mask = 0
+	# Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
+	_anchor.transform = grip
 	add_child(_anchor)
-	_anchor.global_transform = grip
 	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
 	add_child(_joint)
 	_joint.global_transform = body.global_transform
@@ -66,8 +65,8 @@ func stretch_m() -> float:
 	return body.global_position.distance_to((_anchor.global_transform * _caught).origin)
 
 
-## Lets go; safe when the body is leaving the tree.
-func detach() -> void:
+## Lets go, at no more than max_speed (scene m/s); safe when the body is leaving the tree.
+func detach(max_speed_m_s: float) -> void:
 	if _joint != null:
 		_joint.node_a = NodePath()
 		_joint.node_b = NodePath()
@@ -75,7 +74,7 @@ func detach() -> void:
 		_anchor.queue_free()
 	if is_instance_valid(body):
 		body.can_sleep = _could_sleep
-		body.linear_velocity = body.linear_velocity.limit_length(MAX_RELEASE_SPEED_M_S)
+		body.linear_velocity = body.linear_velocity.limit_length(max_speed_m_s)
 	body = null
 	_joint = null
 	_anchor = null

@@ -8,8 +8,6 @@ const ContactPlane := preload("contact_plane.gd")
 const RAY_PATTERN: Array[Vector2] = [
 	Vector2(0.0, 0.0), Vector2(0.7, 0.0), Vector2(-0.7, 0.0), Vector2(0.0, 0.7), Vector2(0.0, -0.7)
 ]
-## A body that the jaws have already closed through by more than this did not come in between them.
-const ENTRY_TOLERANCE_M: float = 0.003
 
 ## The body between the pads, or null. All else is valid only when it is not.
 var body: CollisionObject3D = null
@@ -23,6 +21,8 @@ var normals: PackedVector3Array = PackedVector3Array([Vector3.LEFT, Vector3.RIGH
 var points: PackedVector3Array = PackedVector3Array([Vector3.ZERO, Vector3.ZERO])
 
 var collision_mask: int = 1
+## A body that the jaws have already closed through by more than this (scene metres) did not come in between them.
+var entry_tolerance_m: float = 0.003
 var _box: BoxShape3D = BoxShape3D.new()
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
 var _found_points: PackedVector3Array = PackedVector3Array([Vector3.ZERO, Vector3.ZERO])
@@ -59,7 +59,7 @@ func look(
 		# Between the pads, not beside one of them.
 		if absf(offset) > 0.5 * maxf(gap_m, width) - 0.25 * width:
 			continue
-		if candidate != before and gap_m < width - ENTRY_TOLERANCE_M:
+		if candidate != before and gap_m < width - entry_tolerance_m:
 			continue
 		if body != null and width <= width_m:
 			continue

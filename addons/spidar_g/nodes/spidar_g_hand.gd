@@ -32,8 +32,12 @@ const TOUCH_TOLERANCE: float = 0.01
 const RELEASE_ANGLE: float = 0.052
 ## Play of the pads round a body that is not held, device metres: keeps the two side planes feasible together.
 const SIDE_SLACK_M: float = 0.002
+## A body that the jaws have already closed through by more than this (device metres) did not come in between them.
+const ENTRY_TOLERANCE_M: float = 0.003
 ## The pads' own stop is published when the jaws are this near to closed, rad.
 const CLOSED_STOP_RANGE: float = 0.17
+## Speed left to a body that is let go (device m/s), so that a solver's last correction never throws it.
+const MAX_RELEASE_SPEED_M_S: float = 2.0
 ## A held body torn this far from the grip (device metres) is stuck behind something.
 const MAX_STRETCH_M: float = 0.015
 ## Load or stretch has to last this long to break a hold, s.
@@ -42,7 +46,7 @@ const BREAK_TIME_S: float = 0.05
 ## Layers that the tool touches and grasps.
 @export_flags_3d_physics var collision_mask: int = 1
 @export_group("Contact", "contact_")
-## Surfaces nearer than this are published, so that the device has them before the hand does.
+## Surfaces nearer than this (device metres) are published, so that the device has them before the hand does.
 @export_range(0.01, 0.1, 0.001, "suffix:m") var contact_margin_m: float = 0.04
 ## Of every surface, per device metre. Above 350 light hands may buzz on slow links.
 @export_range(50.0, 2000.0, 1.0, "suffix:N/m") var contact_stiffness_n_m: float = 350.0
@@ -50,7 +54,7 @@ const BREAK_TIME_S: float = 0.05
 @export_range(0.0, 2.0, 0.01) var contact_friction: float = 0.4
 @export_group("Grasp")
 ## Between a pad and a body. A body whose physics material is smoother takes its own, unless it is marked rough.
-@export_range(0.0, 2.0, 0.01) var pad_friction: float = 0.8
+@export_range(0.0, 2.0, 0.01) var pad_friction: float = 1.0
 ## Least grasp torque that holds anything, however light.
 @export_range(0.0, 0.4, 0.001, "suffix:N m") var hold_torque_nm: float = 0.005
 ## A held body pressed against the world harder than this is torn from the pads.
@@ -150,7 +154,7 @@ func release() -> void:
 	var body: RigidBody3D = _hold.body
 	if is_instance_valid(body) and body.tree_exiting.is_connected(release):
 		body.tree_exiting.disconnect(release)
-	_hold.detach()
+	_hold.detach(MAX_RELEASE_SPEED_M_S * (spidar.workspace_scale if spidar != null else 1.0))
 	_hold.queue_free()
 	_hold = null
 	_judge.reset()
@@ -203,6 +207,7 @@ func _sense_jaws(grip: Transform3D) -> void:
 	var settings: SpidarGConfig = _settings()
 	var reach: float = (0.5 * settings.jaw_open + PadShape.RADIUS_M) * scale_m
 	_jaw.collision_mask = collision_mask
+	_jaw.entry_tolerance_m = ENTRY_TOLERANCE_M * scale_m
 	_jaw.look(_space(), grip, _gap_m(), reach, get_pad_radius_m(), [])
 	if _jaw.body != null:
 		_place_stop(_jaw.width_m, _jaw.body, _jaw.rid)
@@ -229,25 +234,18 @@ func _try_grasp(grip: Transform3D, delta: float) -> void:
 		return
 	if angle < _stop.angle_rad - TOUCH_TOLERANCE:
 		return
-	var body: RigidBody3D = _jaw.body as RigidBody3D
-	var weight: float = 0.0
-	if body != null:
-		weight = weight_scale * body.mass * _gravity_of(body).length()
 	# The fingers push at the poles' ends: force = torque / pole half length.
 	var lever: float = _settings().pole_half_length
+	_judge.pad_friction = pad_friction
+	_judge.min_force_n = hold_torque_nm / lever
+	_judge.weight_scale = weight_scale
 	var verdict: GraspJudge.Verdict = _judge.judge(
-		_jaw,
-		spidar.get_grasp_rate(),
-		_stop.squeeze_nm / lever,
-		hold_torque_nm / lever,
-		_friction_of(body),
-		weight,
-		delta
+		_jaw, _stop.squeeze_nm / lever, spidar.get_grasp_rate(), delta
 	)
 	if verdict == GraspJudge.Verdict.HOLD:
-		_attach(body, grip)
+		_attach(_jaw.body as RigidBody3D, grip)
 	elif verdict == GraspJudge.Verdict.REFUSE:
-		grasp_refused.emit(body, _judge.reason)
+		grasp_refused.emit(_jaw.body as RigidBody3D, _judge.reason)
 
 
 func _attach(body: RigidBody3D, grip: Transform3D) -> void:
@@ -256,7 +254,7 @@ func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 	_hold.attach(body, grip, _jaw.centre_offset_m)
 	_held_width_m = _jaw.width_m
 	_overload_s = 0.0
-	_load.reset(spidar.get_linear_velocity() / spidar.workspace_scale)
+	_load.reset(spidar.get_linear_velocity())
 	body.tree_exiting.connect(release)
 	body_grasped.emit(body)
 
@@ -336,21 +334,11 @@ func _request_load(grip: Transform3D, delta: float) -> void:
 			spidar.request_wrench(Vector3.ZERO, Vector3.ZERO, 0.0)
 			_load_requested = false
 		return
-	var body: RigidBody3D = _hold.body
-	var scale_m: float = spidar.workspace_scale
-	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
-	var centre: Vector3 = state.transform.origin + state.center_of_mass
-	_load.advance(
-		delta,
-		body.mass,
-		state.total_gravity,
-		spidar.get_linear_velocity() / scale_m,
-		(centre - grip.origin) / scale_m,
-		_settings().max_force,
-		weight_scale,
-		render_weight,
-		render_inertia
-	)
+	_load.gain = weight_scale
+	_load.max_force_n = _settings().max_force
+	_load.with_weight = render_weight
+	_load.with_inertia = render_inertia
+	_load.advance(delta, _hold.body, grip.origin, spidar.get_linear_velocity(), spidar.workspace_scale)
 	_load_requested = spidar.request_wrench(_load.force_n, _load.moment_nm, 0.0)
 
 
@@ -369,7 +357,8 @@ func _withdraw() -> void:
 
 func _prepare_finder() -> void:
 	_finder.collision_mask = collision_mask
-	_finder.margin_m = contact_margin_m
+	_finder.workspace_scale = spidar.workspace_scale
+	_finder.margin_m = contact_margin_m * spidar.workspace_scale
 	_finder.stiffness_n_m = contact_stiffness_n_m
 	_finder.damping_n_s_m = contact_damping_n_s_m
 	_finder.friction = contact_friction
@@ -389,17 +378,6 @@ func _shown_gap_m() -> float:
 	if _hold != null:
 		return maxf(_gap_m(), _held_width_m)
 	return maxf(_gap_m(), _jaw.width_m) if _jaw.body != null else _gap_m()
-
-
-func _gravity_of(body: RigidBody3D) -> Vector3:
-	return PhysicsServer3D.body_get_direct_state(body.get_rid()).total_gravity
-
-
-func _friction_of(body: RigidBody3D) -> float:
-	if body == null or body.physics_material_override == null:
-		return pad_friction
-	var material: PhysicsMaterial = body.physics_material_override
-	return maxf(pad_friction, material.friction) if material.rough else minf(pad_friction, material.friction)
 
 
 func _settings() -> SpidarGConfig:

@@ -12,7 +12,10 @@ const DESCEND_S := 0.6
 const LOWER_S := 0.8
 const SETTLE_TOLERANCE_M := 0.001
 const SETTLE_S := 0.6
-const FEEL_S := 0.5
+## Hefting: slowly up and down again this far. The strings' friction pulls down on the way up and up on
+## the way down, so the mean of both is the weight alone.
+const HEFT_M := 0.012
+const HEFT_S := 0.6
 const CLOSE_RAD_S := deg_to_rad(35.0)
 ## The hand never aims past this angle; it squeezes by aiming past the object's width.
 const AIM_LIMIT_RAD := deg_to_rad(85.0)
@@ -31,8 +34,6 @@ var table_height_m := 0.0
 var records: Dictionary[TaskObject, FeltRecord] = {}
 var pictures: PictureTaker
 var camera_rig: CameraRig
-
-var _hover_force_n := 0.0
 
 
 ## Coroutine: returns when every object was placed or given up.
@@ -62,7 +63,6 @@ func _pick(object: TaskObject) -> bool:
 	await hand.turn_grasp_to(open_rad, 0.2)
 	await hand.move_to(_at_travel_height(_pick_pose(object)), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
-	_hover_force_n = (await _feel())[1]
 	await hand.move_to(_pick_pose(object), DESCEND_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	var held := await _close_on(object)
@@ -71,9 +71,7 @@ func _pick(object: TaskObject) -> bool:
 		return false
 	if object == objects[0]:
 		await pictures.take("grasp")
-		camera_rig.look_closely(spidar.get_grip_transform().origin)
-		await pictures.take("grasp_close")
-		camera_rig.look_at_all()
+		await _take_close_picture("grasp_close")
 	await hand.move_to(_at_travel_height(hand.wanted), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if tool_hand.get_held_body() != object:
@@ -107,14 +105,26 @@ func _close_on(object: TaskObject) -> bool:
 	return held
 
 
-## The weight is what the hand feels more than at its empty hover just before.
+## Hefts the object: the mean pull over one stroke up and one down.
 func _weigh(object: TaskObject) -> void:
-	var force := await _feel()
+	var low := hand.wanted
+	var high := low.translated(Vector3.UP * HEFT_M)
+	var pulls := PackedFloat64Array()
+	var feel := func() -> void:
+		var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
+		pulls.append(-strings[1])
+	hand.stepped.connect(feel)
+	await hand.move_to(high, HEFT_S)
+	await hand.move_to(low, HEFT_S)
+	hand.stepped.disconnect(feel)
+	var sum := 0.0
+	for pull in pulls:
+		sum += pull
 	var record := records[object]
 	record.weight_expected_n = (
 		object.mass * float(ProjectSettings.get_setting("physics/3d/default_gravity"))
 	)
-	record.weight_felt_n = _hover_force_n - force[1]
+	record.weight_felt_n = sum / maxi(pulls.size(), 1)
 
 
 func _place(object: TaskObject) -> void:
@@ -126,13 +136,17 @@ func _place(object: TaskObject) -> void:
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if object == objects[1]:
 		await pictures.take("carry")
-		camera_rig.look_closely(spidar.get_grip_transform().origin)
-		await pictures.take("carry_close")
-		camera_rig.look_at_all()
+		await _take_close_picture("carry_close")
 	await hand.move_to(goal, LOWER_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	await hand.turn_grasp_to(_angle_for(object.spec.size_m.x + CLEARANCE_M), 0.4)
 	await hand.wait(0.1)
+
+
+func _take_close_picture(picture_name: String) -> void:
+	camera_rig.look_closely(spidar.get_grip_transform().origin)
+	await pictures.take(picture_name)
+	camera_rig.look_at_all()
 
 
 func _rise() -> void:
@@ -157,19 +171,6 @@ func _at_travel_height(pose: Transform3D) -> Transform3D:
 	var raised := pose
 	raised.origin.y = table_height_m + TRAVEL_ABOVE_TABLE_M
 	return raised
-
-
-## Mean of the strings' wrench on the hand over a short rest.
-func _feel() -> PackedFloat64Array:
-	var sum := PackedFloat64Array()
-	sum.resize(7)
-	var ticks := roundi(FEEL_S * Engine.physics_ticks_per_second)
-	for tick in ticks:
-		await hand.wait(1e-6)
-		var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
-		for axis in 7:
-			sum[axis] += strings[axis] / ticks
-	return sum
 
 
 func _angle_for(width_m: float) -> float:

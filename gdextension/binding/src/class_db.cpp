@@ -24,8 +24,12 @@ void complain(const std::string &text) {
 }
 
 GDExtensionPropertyInfo described(const PropertyInfo &info, const StringName &name) {
-    return {static_cast<GDExtensionVariantType>(info.type), name._native_ptr(),
-            info.class_name._native_ptr(), info.hint, info.hint_string._native_ptr(), info.usage};
+    return {static_cast<GDExtensionVariantType>(info.type),
+            name._native_ptr(),
+            info.class_name._native_ptr(),
+            info.hint,
+            info.hint_string._native_ptr(),
+            info.usage};
 }
 
 GDExtensionPropertyInfo described(const PropertyInfo &info) {
@@ -56,8 +60,21 @@ void free_instance(void *, GDExtensionClassInstancePtr instance) {
 
 GDExtensionClassCallVirtual get_virtual(void *userdata, GDExtensionConstStringNamePtr name,
                                         uint32_t hash) {
-    const StringName &wanted = *static_cast<const StringName *>(name);
-    for (VirtualEntry &entry : static_cast<ClassRecord *>(userdata)->virtuals) {
+    return find_virtual(*static_cast<ClassRecord *>(userdata),
+                        *static_cast<const StringName *>(name), hash);
+}
+
+} // namespace
+
+const ClassRecord *find_class(const StringName &name) {
+    const auto found = std::find_if(classes.begin(), classes.end(),
+                                    [&](const auto &record) { return record->name == name; });
+    return found == classes.end() ? nullptr : found->get();
+}
+
+GDExtensionClassCallVirtual find_virtual(ClassRecord &record, const StringName &wanted,
+                                         uint32_t hash) {
+    for (VirtualEntry &entry : record.virtuals) {
         if (entry.name != wanted) {
             continue;
         }
@@ -72,14 +89,6 @@ GDExtensionClassCallVirtual get_virtual(void *userdata, GDExtensionConstStringNa
         return nullptr;
     }
     return nullptr;
-}
-
-} // namespace
-
-const ClassRecord *find_class(const StringName &name) {
-    const auto found = std::find_if(classes.begin(), classes.end(),
-                                    [&](const auto &record) { return record->name == name; });
-    return found == classes.end() ? nullptr : found->get();
 }
 
 void set_registration_level(GDExtensionInitializationLevel level) {

@@ -98,10 +98,10 @@ bool load_interface(GDExtensionInterfaceGetProcAddress get_proc_address,
         return false;
     }
     std::string missing;
-#define GODOT_BINDING_LOAD(name, type)                                                          \
-    api.name = reinterpret_cast<GDExtensionInterface##type>(get_proc_address(#name));           \
-    if (api.name == nullptr) {                                                                  \
-        missing += missing.empty() ? #name : ", " #name;                                        \
+#define GODOT_BINDING_LOAD(name, type)                                                             \
+    api.name = reinterpret_cast<GDExtensionInterface##type>(get_proc_address(#name));              \
+    if (api.name == nullptr) {                                                                     \
+        missing += missing.empty() ? #name : ", " #name;                                           \
     }
     GODOT_BINDING_FUNCTIONS(GODOT_BINDING_LOAD)
 #undef GODOT_BINDING_LOAD
@@ -133,7 +133,8 @@ const StringName &persistent_name(const char *text) {
 
 void release_persistent_names() {
     const std::lock_guard lock(names_mutex());
-    const GDExtensionPtrDestructor destroy = lifecycles[GDEXTENSION_VARIANT_TYPE_STRING_NAME].destroy;
+    const GDExtensionPtrDestructor destroy =
+        lifecycles[GDEXTENSION_VARIANT_TYPE_STRING_NAME].destroy;
     for (PersistentName &name : names()) {
         destroy(&name.name);
         std::fill(std::begin(name.name), std::end(name.name), std::byte(0));

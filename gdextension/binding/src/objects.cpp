@@ -14,12 +14,13 @@ namespace internal {
 namespace {
 
 void report_missing(const std::string &what, int64_t hash) {
-    report_error(__func__, __FILE__, __LINE__,
-                 (what + " (hash " + std::to_string(hash) +
-                  ") is not in this Godot: calls of it do nothing and answer a default value. Build "
-                  "the extension with the API of this Godot, or use a Godot that has it.")
-                     .c_str(),
-                 "");
+    report_error(
+        __func__, __FILE__, __LINE__,
+        (what + " (hash " + std::to_string(hash) +
+         ") is not in this Godot: calls of it do nothing and answer a default value. Build "
+         "the extension with the API of this Godot, or use a Godot that has it.")
+            .c_str(),
+        "");
 }
 
 struct Expected {
@@ -87,9 +88,9 @@ void report_no_owner() {
 }
 
 void report_call_error(const GDExtensionCallError &error) {
-    const std::string text =
-        "A call of an engine method failed: error " + std::to_string(static_cast<int>(error.error)) +
-        ", argument " + std::to_string(error.argument) + ".";
+    const std::string text = "A call of an engine method failed: error " +
+                             std::to_string(static_cast<int>(error.error)) + ", argument " +
+                             std::to_string(error.argument) + ".";
     report_error(__func__, __FILE__, __LINE__, text.c_str(), "");
 }
 

@@ -136,8 +136,8 @@ String Variant::stringify() const {
 bool Variant::operator==(const Variant &other) const {
     Variant result;
     GDExtensionBool valid = 0;
-    internal::api.variant_evaluate(GDEXTENSION_VARIANT_OP_EQUAL, bytes_.data(),
-                                   other.bytes_.data(), result._native_ptr(), &valid);
+    internal::api.variant_evaluate(GDEXTENSION_VARIANT_OP_EQUAL, bytes_.data(), other.bytes_.data(),
+                                   result._native_ptr(), &valid);
     return valid != 0 && result.booleanize();
 }
 
@@ -156,10 +156,9 @@ bool Variant::can_convert_strict(Type from, Type to) {
 namespace internal {
 
 String format(const String &text, const Array &values) {
-    static const GDExtensionPtrOperatorEvaluator evaluate =
-        api.variant_get_ptr_operator_evaluator(GDEXTENSION_VARIANT_OP_MODULE,
-                                               GDEXTENSION_VARIANT_TYPE_STRING,
-                                               GDEXTENSION_VARIANT_TYPE_ARRAY);
+    static const GDExtensionPtrOperatorEvaluator evaluate = api.variant_get_ptr_operator_evaluator(
+        GDEXTENSION_VARIANT_OP_MODULE, GDEXTENSION_VARIANT_TYPE_STRING,
+        GDEXTENSION_VARIANT_TYPE_ARRAY);
     String result;
     evaluate(text._native_ptr(), values._native_ptr(), result._native_ptr());
     return result;

@@ -3,25 +3,29 @@ extends "res://test_case.gd"
 
 
 func test_missing_engine_method() -> void:
-	var probe: Probe = Probe.new()
+	var faults: ProbeFaults = ProbeFaults.new()
 	for i: int in 3:
-		equal(probe.call_missing_method(), 0, "default values instead of a crash")
-	probe.free()
+		equal(faults.call_missing_method(), 0, "default values instead of a crash")
+
+
+func test_changed_virtual_method() -> void:
+	var faults: ProbeFaults = ProbeFaults.new()
+	equal(faults.ask_changed_virtual(), 0, "not called, and the others stay")
 
 
 func test_object_made_on_the_stack() -> void:
-	var probe: Probe = Probe.new()
-	equal(probe.stack_object_calls(), 0, "stays usable, engine calls answer defaults")
-	probe.free()
+	var faults: ProbeFaults = ProbeFaults.new()
+	equal(faults.use_stack_object(), 0, "stays usable, engine calls answer defaults")
 
 
 func test_wrong_arguments() -> void:
-	var probe: Variant = Probe.new()
-	check(probe.call("sum") == null, "too few arguments")
-	check(probe.call("sum", 1, 2, 3, 4) == null, "too many arguments")
-	check(probe.call("sum", "text") == null, "wrong type")
-	check(probe.call("call_count_of", RefCounted.new()) == null, "object of another class")
-	equal(probe.call("sum", 1), 111.0, "usable afterwards")
+	var probe: Probe = Probe.new()
+	check(probe.callv("sum", []) == null, "too few arguments")
+	check(probe.callv("sum", [1, 2, 3, 4]) == null, "too many arguments")
+	check(probe.callv("sum", ["text"]) == null, "wrong type")
+	check(probe.callv("call_count_of", [RefCounted.new()]) == null, "object of another class")
+	check(probe.callv("call_count_of", [probe]) == null, "object that is not counted")
+	equal(probe.callv("sum", [1]), 111.0, "usable afterwards")
 	probe.free()
 
 

@@ -73,6 +73,10 @@ func test_resource_property() -> void:
 	probe.free()
 	equal(config.get_reference_count(), 1, "the probe let go")
 	var copy: ProbeConfig = config.duplicate()
+	probe = Probe.new()
+	probe.config = config
+	equal(probe.owners_of_duplicate(), 2, "a Ref that the engine returned: the two in C++ hold it")
+	probe.free()
 	equal(copy.rate_hz, 500.0, "duplicate keeps a property")
 	equal(copy.lengths, PackedFloat64Array([0.1, 0.2]), "duplicate keeps an array")
 

@@ -1,6 +1,9 @@
 ## Base of the SpidarGHand tests: a stepped device, a hand, a floor and boxes, at 1:1 scale.
-extends TestCase
+extends "res://test_case.gd"
 
+## By path, so that the tests need no import before them.
+const Hand := preload("res://addons/spidar_g/nodes/spidar_g_hand.gd")
+const GraspStop := preload("res://addons/spidar_g/nodes/grasp_stop.gd")
 ## Top of the floor in the world, and so the rest height of a box's underside.
 const FLOOR_Y: float = -0.08
 const GRAVITY: float = 9.8
@@ -10,7 +13,10 @@ const SQUEEZE_ANGLE: float = 1.4
 const ARMING_FRAMES: int = 70
 
 var device: SpidarG
-var hand: SpidarGHand
+var hand: Hand
+## Of the simulated device, before set_up().
+var elastic: bool = false
+var firmness: SpidarG.HandFirmness = SpidarG.HAND_NORMAL
 var at: Vector3 = Vector3.ZERO
 var angle: float = 0.0
 
@@ -18,8 +24,10 @@ var angle: float = 0.0
 ## A device with forces on, its hand at `start`, settled.
 func set_up(start: Vector3, forces: bool = true) -> void:
 	device = ideal_device()
+	device.config.simulated_elastic = elastic
+	device.config.simulated_hand_firmness = firmness
 	device.forces_enabled = forces
-	hand = SpidarGHand.new()
+	hand = Hand.new()
 	device.add_child(hand)
 	add(device)
 	add_box(Vector3(1.0, 0.1, 1.0), Vector3(0.0, FLOOR_Y - 0.05, 0.0), 0.0)
@@ -79,3 +87,15 @@ func grasp(body: RigidBody3D) -> void:
 	await move_to(body.global_position, 0.0, 60)
 	await move_to(body.global_position, SQUEEZE_ANGLE, 40)
 	await physics_frames(40)
+
+
+## Largest peak-to-peak motion of the true grip (m) over some frames, its target at rest.
+func tremble(frame_count: int) -> float:
+	var least := Vector3.INF
+	var most := -Vector3.INF
+	for _i: int in frame_count:
+		await physics_frames(1)
+		var grip: Transform3D = device.get_simulated_truth()["grip_transform"]
+		least = least.min(grip.origin)
+		most = most.max(grip.origin)
+	return (most - least).length()

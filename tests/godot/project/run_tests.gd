@@ -35,7 +35,8 @@ func _run_all() -> void:
 			continue
 		for method: Dictionary in script.get_script_method_list():
 			var name: String = method["name"]
-			if not name.begins_with("test_") or not (file + ":" + name).contains(wanted):
+			var skipped: bool = wanted != "" and not (file + ":" + name).contains(wanted)
+			if not name.begins_with("test_") or skipped:
 				continue
 			if await _run_one(script, file.get_basename(), name):
 				passed += 1
@@ -47,7 +48,7 @@ func _run_all() -> void:
 
 func _run_one(script: GDScript, file: String, method: String) -> bool:
 	print("RUN  %s:%s" % [file, method])
-	var case: TestCase = script.new()
+	var case: RefCounted = script.new()
 	case.tree = self
 	var nodes_before: Array[Node] = root.get_children()
 	_done = false
@@ -72,6 +73,6 @@ func _run_one(script: GDScript, file: String, method: String) -> bool:
 	return failures.size() == 0
 
 
-func _call(case: TestCase, method: String) -> void:
+func _call(case: RefCounted, method: String) -> void:
 	await case.call(method)
 	_done = true

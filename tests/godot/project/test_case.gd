@@ -1,5 +1,4 @@
 ## Base of every test script. Functions named test_* are run, each on an object of its own.
-class_name TestCase
 extends RefCounted
 
 ## Set by the runner.
@@ -39,6 +38,19 @@ func physics_frames(count: int) -> void:
 func frames(count: int) -> void:
 	for _i: int in count:
 		await tree.process_frame
+
+
+## Waits in real time, which headless frames run ahead of: a thread needs some.
+func until(condition: Callable, limit_ms: int = 5000) -> bool:
+	var deadline: int = Time.get_ticks_msec() + limit_ms
+	while not condition.call() and Time.get_ticks_msec() < deadline:
+		OS.delay_msec(1)
+		await tree.process_frame
+	return condition.call()
+
+
+func is_open(device: SpidarG) -> bool:
+	return device.get_state() != SpidarG.STATE_CLOSED
 
 
 ## A stepped device of the ideal kind: no elasticity, no friction, no sensor noise but the counts.

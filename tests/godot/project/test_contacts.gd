@@ -1,5 +1,5 @@
 ## Contact planes and the grasp stop, felt by the plant's hand.
-extends TestCase
+extends "res://test_case.gd"
 
 const STIFFNESS: float = 350.0
 const DAMPING: float = 2.0

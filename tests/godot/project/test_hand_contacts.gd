@@ -91,7 +91,7 @@ func test_everything_scales_with_the_workspace() -> void:
 
 
 func test_a_hand_without_a_device_warns_and_does_nothing() -> void:
-	var lonely := SpidarGHand.new()
+	var lonely := Hand.new()
 	add(lonely)
 	await physics_frames(3)
 	check(lonely.get_held_body() == null, "holds nothing")

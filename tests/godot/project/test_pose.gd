@@ -1,5 +1,5 @@
 ## The pose that the node reports against the grip as it truly is in the plant, elasticity and friction off.
-extends TestCase
+extends "res://test_case.gd"
 
 const POSES: int = 500
 ## The quantisation limit measured for 0.0251 mm counts (rms over the workspace).

@@ -1,5 +1,5 @@
 ## A requested wrench is what the plant's hand feels, in all seven DOF and with the right sign.
-extends TestCase
+extends "res://test_case.gd"
 
 const FORCE_N: float = 2.0
 const MOMENT_NM: float = 0.05

@@ -98,7 +98,7 @@ struct Border<Ref<T>> {
     static Variant to_variant(const Ref<T> &value) { return value; }
     static PropertyInfo info() {
         const StringName &name = T::get_class_static();
-        return {type,     StringName(),           PROPERTY_HINT_RESOURCE_TYPE,
+        return {type,         StringName(),           PROPERTY_HINT_RESOURCE_TYPE,
                 String(name), PROPERTY_USAGE_DEFAULT, name};
     }
 };

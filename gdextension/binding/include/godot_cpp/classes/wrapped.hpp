@@ -73,36 +73,36 @@ struct Access {
 } // namespace godot
 
 // Opens an engine class in generated headers.
-#define GODOT_BINDING_ENGINE_CLASS(m_class, m_inherits)                                         \
-    friend struct ::godot::internal::Access;                                                    \
-                                                                                                \
-protected:                                                                                      \
-    m_class() = default;                                                                        \
-    explicit m_class(::godot::internal::WrapOwner wrapped) : m_inherits(wrapped) {}             \
-                                                                                                \
-public:                                                                                         \
-    static const ::godot::StringName &get_class_static() {                                      \
-        static const ::godot::StringName &name = ::godot::internal::persistent_name(#m_class);  \
-        return name;                                                                            \
-    }                                                                                           \
-                                                                                                \
+#define GODOT_BINDING_ENGINE_CLASS(m_class, m_inherits)                                            \
+    friend struct ::godot::internal::Access;                                                       \
+                                                                                                   \
+protected:                                                                                         \
+    m_class() = default;                                                                           \
+    explicit m_class(::godot::internal::WrapOwner wrapped) : m_inherits(wrapped) {}                \
+                                                                                                   \
+public:                                                                                            \
+    static const ::godot::StringName &get_class_static() {                                         \
+        static const ::godot::StringName &name = ::godot::internal::persistent_name(#m_class);     \
+        return name;                                                                               \
+    }                                                                                              \
+                                                                                                   \
 private:
 
 // First line of every class of ours.
-#define GDCLASS(m_class, m_inherits)                                                            \
-private:                                                                                        \
-    friend struct ::godot::internal::Access;                                                    \
-    friend struct ::godot::internal::Hooks<m_class>;                                            \
-    using godot_binding_self = m_class;                                                         \
-    using godot_binding_parent = m_inherits;                                                    \
-                                                                                                \
-public:                                                                                         \
-    static const ::godot::StringName &get_class_static() {                                      \
-        static const ::godot::StringName &name = ::godot::internal::persistent_name(#m_class);  \
-        return name;                                                                            \
-    }                                                                                           \
-    static const ::godot::StringName &get_parent_class_static() {                               \
-        return m_inherits::get_class_static();                                                  \
-    }                                                                                           \
-                                                                                                \
+#define GDCLASS(m_class, m_inherits)                                                               \
+private:                                                                                           \
+    friend struct ::godot::internal::Access;                                                       \
+    friend struct ::godot::internal::Hooks<m_class>;                                               \
+    using godot_binding_self = m_class;                                                            \
+    using godot_binding_parent = m_inherits;                                                       \
+                                                                                                   \
+public:                                                                                            \
+    static const ::godot::StringName &get_class_static() {                                         \
+        static const ::godot::StringName &name = ::godot::internal::persistent_name(#m_class);     \
+        return name;                                                                               \
+    }                                                                                              \
+    static const ::godot::StringName &get_parent_class_static() {                                  \
+        return m_inherits::get_class_static();                                                     \
+    }                                                                                              \
+                                                                                                   \
 private:

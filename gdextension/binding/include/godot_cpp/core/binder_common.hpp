@@ -10,10 +10,8 @@ StringName enum_class_name(const char *qualified_name);
 } // namespace godot::internal
 
 // At global scope, after the class, once for each enum that a bound method or constant uses.
-#define VARIANT_ENUM_CAST(m_enum)                                                               \
-    template <>                                                                                 \
-    struct godot::internal::EnumName<m_enum> {                                                  \
-        static ::godot::StringName get() {                                                      \
-            return ::godot::internal::enum_class_name(#m_enum);                                 \
-        }                                                                                       \
+#define VARIANT_ENUM_CAST(m_enum)                                                                  \
+    template <>                                                                                    \
+    struct godot::internal::EnumName<m_enum> {                                                     \
+        static ::godot::StringName get() { return ::godot::internal::enum_class_name(#m_enum); }   \
     }

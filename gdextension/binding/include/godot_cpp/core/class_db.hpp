@@ -99,21 +99,21 @@ StringName enum_short_name(const StringName &class_and_enum);
 } // namespace godot
 
 // In _bind_methods(), after the methods that they name.
-#define ADD_PROPERTY(m_property, m_setter, m_getter)                                            \
+#define ADD_PROPERTY(m_property, m_setter, m_getter)                                               \
     ::godot::ClassDB::add_property(get_class_static(), m_property, m_setter, m_getter)
-#define ADD_GROUP(m_name, m_prefix)                                                             \
+#define ADD_GROUP(m_name, m_prefix)                                                                \
     ::godot::ClassDB::add_property_group(get_class_static(), m_name, m_prefix)
-#define ADD_SUBGROUP(m_name, m_prefix)                                                          \
+#define ADD_SUBGROUP(m_name, m_prefix)                                                             \
     ::godot::ClassDB::add_property_subgroup(get_class_static(), m_name, m_prefix)
 #define ADD_SIGNAL(m_signal) ::godot::ClassDB::add_signal(get_class_static(), m_signal)
-#define BIND_CONSTANT(m_constant)                                                               \
-    ::godot::ClassDB::bind_integer_constant(get_class_static(), ::godot::StringName(),          \
+#define BIND_CONSTANT(m_constant)                                                                  \
+    ::godot::ClassDB::bind_integer_constant(get_class_static(), ::godot::StringName(),             \
                                             #m_constant, m_constant)
-#define BIND_ENUM_CONSTANT(m_constant)                                                          \
-    ::godot::ClassDB::bind_integer_constant(                                                    \
-        get_class_static(),                                                                     \
-        ::godot::internal::enum_short_name(                                                     \
-            ::godot::internal::EnumName<std::remove_cv_t<decltype(m_constant)>>::get()),        \
+#define BIND_ENUM_CONSTANT(m_constant)                                                             \
+    ::godot::ClassDB::bind_integer_constant(                                                       \
+        get_class_static(),                                                                        \
+        ::godot::internal::enum_short_name(                                                        \
+            ::godot::internal::EnumName<std::remove_cv_t<decltype(m_constant)>>::get()),           \
         #m_constant, static_cast<int64_t>(m_constant))
 
 #define GDREGISTER_CLASS(m_class) ::godot::ClassDB::register_class<m_class>()

@@ -5,7 +5,8 @@
 
 #include <gdextension_interface.h>
 
-static_assert(sizeof(void *) == 8, "The in-tree binding knows the 64-bit layout of Godot's types only.");
+static_assert(sizeof(void *) == 8,
+              "The in-tree binding knows the 64-bit layout of Godot's types only.");
 
 #if defined(_WIN32)
 #define GDE_EXPORT __declspec(dllexport)

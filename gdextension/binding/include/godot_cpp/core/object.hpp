@@ -33,7 +33,7 @@ struct Border<T> {
     static Variant to_variant(const Object *value) { return Variant(value); }
     static PropertyInfo info() {
         const StringName &name = Class::get_class_static();
-        return {type,     StringName(),           PROPERTY_HINT_RESOURCE_TYPE,
+        return {type,         StringName(),           PROPERTY_HINT_RESOURCE_TYPE,
                 String(name), PROPERTY_USAGE_DEFAULT, name};
     }
 };

@@ -38,8 +38,8 @@ constexpr GDExtensionClassMethodArgumentMetadata metadata_of() {
     } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
         // The enumerators run INT8, INT16, INT32, INT64, then the same unsigned.
         constexpr int kLog2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
-        return static_cast<GDExtensionClassMethodArgumentMetadata>(
-            (std::is_signed_v<T> ? 1 : 5) + kLog2);
+        return static_cast<GDExtensionClassMethodArgumentMetadata>((std::is_signed_v<T> ? 1 : 5) +
+                                                                   kLog2);
     } else {
         return GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
     }
@@ -47,7 +47,7 @@ constexpr GDExtensionClassMethodArgumentMetadata metadata_of() {
 
 template <Number T>
 struct Border<T> {
-    static constexpr Variant::Type type = std::is_same_v<T, bool>         ? Variant::BOOL
+    static constexpr Variant::Type type = std::is_same_v<T, bool>       ? Variant::BOOL
                                           : std::is_floating_point_v<T> ? Variant::FLOAT
                                                                         : Variant::INT;
     static constexpr auto metadata = metadata_of<T>();
@@ -69,8 +69,12 @@ struct Border<T> {
     static Variant to_variant(T value) { return Variant(value); }
     static PropertyInfo info() {
         if constexpr (std::is_enum_v<T>) {
-            return {type, StringName(), PROPERTY_HINT_NONE, String(),
-                    PROPERTY_USAGE_DEFAULT | PROPERTY_USAGE_CLASS_IS_ENUM, EnumName<T>::get()};
+            return {type,
+                    StringName(),
+                    PROPERTY_HINT_NONE,
+                    String(),
+                    PROPERTY_USAGE_DEFAULT | PROPERTY_USAGE_CLASS_IS_ENUM,
+                    EnumName<T>::get()};
         } else {
             return {type, StringName()};
         }
@@ -78,7 +82,7 @@ struct Border<T> {
 };
 
 template <class T>
-    requires Plain<T> || std::is_same_v<T, Variant>
+requires Plain<T> || std::is_same_v<T, Variant>
 struct Border<T> {
     static constexpr bool kIsVariant = std::is_same_v<T, Variant>;
     static constexpr Variant::Type type = [] {

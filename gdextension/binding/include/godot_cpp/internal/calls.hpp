@@ -33,7 +33,7 @@ void report_call_error(const GDExtensionCallError &error);
 template <class R, class Call, class... Args>
 R pointer_call(const Call &call, const Args &...args) {
     std::tuple<typename Border<Args>::Slot...> slots;
-    return [&]<std::size_t... I>(std::index_sequence<I...>) -> R {
+    return [&]<std::size_t... I>(std::index_sequence<I...>)->R {
         const void *arguments[] = {Border<Args>::lend(args, std::get<I>(slots))..., nullptr};
         if constexpr (std::is_void_v<R>) {
             call(arguments, nullptr);
@@ -42,7 +42,8 @@ R pointer_call(const Call &call, const Args &...args) {
             call(arguments, static_cast<void *>(&result));
             return Border<R>::take(result);
         }
-    }(std::index_sequence_for<Args...>());
+    }
+    (std::index_sequence_for<Args...>());
 }
 
 template <class R, class... Args>
@@ -89,8 +90,8 @@ Variant call_engine_vararg(const EngineMethod &method, GodotObject *owner, const
     Variant result; // null holds nothing, so the engine may construct over it
     GDExtensionCallError error{GDEXTENSION_CALL_OK, 0, 0};
     api.object_method_bind_call(method.bind, owner, addresses.data(),
-                                static_cast<GDExtensionInt>(addresses.size()),
-                                result._native_ptr(), &error);
+                                static_cast<GDExtensionInt>(addresses.size()), result._native_ptr(),
+                                &error);
     if (error.error != GDEXTENSION_CALL_OK) [[unlikely]] {
         report_call_error(error);
     }

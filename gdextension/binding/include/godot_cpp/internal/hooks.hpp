@@ -61,7 +61,8 @@ struct Hooks {
     }
 
     static GDExtensionBool set(GDExtensionClassInstancePtr instance,
-                               GDExtensionConstStringNamePtr name, GDExtensionConstVariantPtr value) {
+                               GDExtensionConstStringNamePtr name,
+                               GDExtensionConstVariantPtr value) {
         if constexpr (kParentIsOurs) {
             if (Hooks<Parent>::set(instance, name, value) != 0) {
                 return 1;

@@ -11,16 +11,16 @@ namespace godot::internal {
 template <class M>
 struct Member;
 
-#define GODOT_BINDING_MEMBER(m_const, m_noexcept)                                               \
-    template <class R, class C, class... A>                                                     \
-    struct Member<R (C::*)(A...) m_const m_noexcept> {                                          \
-        using Class = C;                                                                        \
-        using Return = R;                                                                       \
-        using Arguments = std::tuple<Decayed<A>...>;                                            \
-        using Plain = R (C::*)(A...) m_const;                                                   \
-        static constexpr uint32_t kFlags = std::is_const_v<m_const C>                           \
-                                               ? GDEXTENSION_METHOD_FLAG_CONST                  \
-                                               : GDEXTENSION_METHOD_FLAG_NORMAL;                \
+#define GODOT_BINDING_MEMBER(m_const, m_noexcept)                                                  \
+    template <class R, class C, class... A>                                                        \
+    struct Member<R (C::*)(A...) m_const m_noexcept> {                                             \
+        using Class = C;                                                                           \
+        using Return = R;                                                                          \
+        using Arguments = std::tuple<Decayed<A>...>;                                               \
+        using Plain = R (C::*)(A...) m_const;                                                      \
+        static constexpr uint32_t kFlags = std::is_const_v<m_const C>                              \
+                                               ? GDEXTENSION_METHOD_FLAG_CONST                     \
+                                               : GDEXTENSION_METHOD_FLAG_NORMAL;                   \
     }
 GODOT_BINDING_MEMBER(, );
 GODOT_BINDING_MEMBER(const, );
@@ -28,13 +28,13 @@ GODOT_BINDING_MEMBER(, noexcept);
 GODOT_BINDING_MEMBER(const, noexcept);
 #undef GODOT_BINDING_MEMBER
 
-#define GODOT_BINDING_FUNCTION(m_noexcept)                                                      \
-    template <class R, class... A>                                                              \
-    struct Member<R (*)(A...) m_noexcept> {                                                     \
-        using Class = void;                                                                     \
-        using Return = R;                                                                       \
-        using Arguments = std::tuple<Decayed<A>...>;                                            \
-        static constexpr uint32_t kFlags = GDEXTENSION_METHOD_FLAG_STATIC;                      \
+#define GODOT_BINDING_FUNCTION(m_noexcept)                                                         \
+    template <class R, class... A>                                                                 \
+    struct Member<R (*)(A...) m_noexcept> {                                                        \
+        using Class = void;                                                                        \
+        using Return = R;                                                                          \
+        using Arguments = std::tuple<Decayed<A>...>;                                               \
+        static constexpr uint32_t kFlags = GDEXTENSION_METHOD_FLAG_STATIC;                         \
     }
 GODOT_BINDING_FUNCTION();
 GODOT_BINDING_FUNCTION(noexcept);
@@ -50,8 +50,7 @@ void answer_pointer_call(const Function &function, const GDExtensionConstTypePtr
         } else {
             Border<Decayed<R>>::give(result, function(Border<A>::decode(arguments[I])...));
         }
-    }(static_cast<Arguments *>(nullptr),
-      std::make_index_sequence<std::tuple_size_v<Arguments>>());
+    }(static_cast<Arguments *>(nullptr), std::make_index_sequence<std::tuple_size_v<Arguments>>());
     static_cast<void>(arguments); // unused without arguments
     static_cast<void>(result);
 }
@@ -78,17 +77,15 @@ void add_virtual(std::vector<VirtualEntry> &entries, const char *name, uint32_t 
     using Method = Member<decltype(kMethod)>;
     if constexpr (!std::is_same_v<typename Method::Class,
                                   typename Member<decltype(kEngineMethod)>::Class>) {
-        entries.push_back({StringName(name), hash,
-                           [](GDExtensionClassInstancePtr instance,
-                              const GDExtensionConstTypePtr *arguments, GDExtensionTypePtr result) {
-                               T *self = static_cast<T *>(static_cast<Wrapped *>(instance));
-                               answer_pointer_call<typename Method::Return,
-                                                   typename Method::Arguments>(
-                                   [self](const auto &...values) {
-                                       return (self->*kMethod)(values...);
-                                   },
-                                   arguments, result);
-                           }});
+        entries.push_back(
+            {StringName(name), hash,
+             [](GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr *arguments,
+                GDExtensionTypePtr result) {
+                 T *self = static_cast<T *>(static_cast<Wrapped *>(instance));
+                 answer_pointer_call<typename Method::Return, typename Method::Arguments>(
+                     [self](const auto &...values) { return (self->*kMethod)(values...); },
+                     arguments, result);
+             }});
     }
 }
 

@@ -65,7 +65,8 @@ struct BoundMethod : MethodRecord {
     }
 
     static void call_with_pointers(void *userdata, GDExtensionClassInstancePtr instance,
-                                   const GDExtensionConstTypePtr *given, GDExtensionTypePtr result) {
+                                   const GDExtensionConstTypePtr *given,
+                                   GDExtensionTypePtr result) {
         const auto &bound = *static_cast<const BoundMethod *>(userdata);
         answer_pointer_call<Return, Arguments>(bound.on(instance), given, result);
     }
@@ -94,8 +95,8 @@ struct BoundMethod : MethodRecord {
                             std::index_sequence<I...>) {
         int misfit = -1;
         static_cast<void>(values);
-        static_cast<void>(((ObjectFits<A>::test(*values[I]) || (misfit = static_cast<int>(I), false)) &&
-                           ...));
+        static_cast<void>(
+            ((ObjectFits<A>::test(*values[I]) || (misfit = static_cast<int>(I), false)) && ...));
         return misfit;
     }
 

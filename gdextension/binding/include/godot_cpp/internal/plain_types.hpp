@@ -39,10 +39,10 @@ namespace internal {
 template <class T>
 struct PlainType;
 
-#define GODOT_BINDING_PLAIN(m_class, m_type)                                                    \
-    template <>                                                                                 \
-    struct PlainType<m_class> {                                                                 \
-        static constexpr GDExtensionVariantType value = GDEXTENSION_VARIANT_TYPE_##m_type;      \
+#define GODOT_BINDING_PLAIN(m_class, m_type)                                                       \
+    template <>                                                                                    \
+    struct PlainType<m_class> {                                                                    \
+        static constexpr GDExtensionVariantType value = GDEXTENSION_VARIANT_TYPE_##m_type;         \
     }
 GODOT_BINDING_PLAIN(Vector2, VECTOR2);
 GODOT_BINDING_PLAIN(Vector3, VECTOR3);
@@ -67,7 +67,9 @@ GODOT_BINDING_PLAIN(PackedVector3Array, PACKED_VECTOR3_ARRAY);
 #undef GODOT_BINDING_PLAIN
 
 template <class T>
-concept Plain = requires { PlainType<T>::value; };
+concept Plain = requires {
+    PlainType<T>::value;
+};
 
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;

@@ -64,8 +64,7 @@ struct Quaternion {
                Math::is_equal_approx(z, o.z) && Math::is_equal_approx(w, o.w);
     }
     bool is_finite() const {
-        return Math::is_finite(x) && Math::is_finite(y) && Math::is_finite(z) &&
-               Math::is_finite(w);
+        return Math::is_finite(x) && Math::is_finite(y) && Math::is_finite(z) && Math::is_finite(w);
     }
 };
 

@@ -67,8 +67,7 @@ public:
     Variant(const Object *object);
 
     template <class T>
-        requires internal::Number<T>
-    Variant(T value) {
+    requires internal::Number<T> Variant(T value) {
         if constexpr (std::is_same_v<T, bool>) {
             const GDExtensionBool wire = value ? 1 : 0;
             fill(GDEXTENSION_VARIANT_TYPE_BOOL, &wire);
@@ -82,8 +81,7 @@ public:
     }
 
     template <class T>
-        requires internal::Plain<T>
-    Variant(const T &value) {
+    requires internal::Plain<T> Variant(const T &value) {
         fill(internal::PlainType<T>::value, &value);
     }
 
@@ -102,7 +100,7 @@ public:
 
     // Converts as GDScript does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
     template <class T>
-        requires internal::Number<T>
+    requires internal::Number<T>
     explicit operator T() const {
         if constexpr (std::is_same_v<T, bool>) {
             return booleanize();
@@ -118,7 +116,7 @@ public:
     }
 
     template <class T>
-        requires internal::Plain<T>
+    requires internal::Plain<T>
     explicit operator T() const {
         // The engine constructs over what is there: a default value, which owns nothing lasting.
         union Uninitialized {
