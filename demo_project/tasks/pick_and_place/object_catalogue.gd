@@ -30,7 +30,7 @@ static func all() -> Array[ObjectSpec]:
 			ObjectSpec.Stand.RING
 		),
 		ObjectSpec.make(
-			"bone_stick", box, Vector3(0.012, 0.012, 0.070), 0.050, DemoPalette.BONE,
+			"bone_stick", box, Vector3(0.012, 0.012, 0.060), 0.050, DemoPalette.BONE,
 			ObjectSpec.Stand.RACK
 		),
 	]

@@ -15,8 +15,10 @@ const SETTLE_S := 0.6
 ## Hefting: slowly up and down again this far. The strings' friction pulls down on the way up and up on
 ## the way down, so the mean of both is the weight alone.
 const HEFT_M := 0.012
+## Objects are hefted nearer to the middle, where the strings pull best: this share of the way out.
+const HEFT_PLACE := 0.6
 const HEFT_S := 0.6
-const CLOSE_RAD_S := deg_to_rad(35.0)
+const CLOSE_RAD_S := deg_to_rad(25.0)
 ## The hand never aims past this angle; it squeezes by aiming past the object's width.
 const AIM_LIMIT_RAD := deg_to_rad(85.0)
 const GRASP_LIMIT_RAD := deg_to_rad(53.0)
@@ -73,6 +75,7 @@ func _pick(object: TaskObject) -> bool:
 		await pictures.take("grasp")
 		await _take_close_picture("grasp_close")
 	await hand.move_to(_at_travel_height(hand.wanted), REACH_S)
+	await hand.move_to(_heft_pose(), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if tool_hand.get_held_body() != object:
 		return false
@@ -165,6 +168,12 @@ func _pick_pose(object: TaskObject) -> Transform3D:
 		Basis(Vector3.UP, yaw),
 		object.global_position + Vector3.UP * object.spec.grasp_above_centre_m
 	)
+
+
+func _heft_pose() -> Transform3D:
+	var place := spidar.to_local(hand.wanted.origin)
+	place *= Vector3(HEFT_PLACE, 1.0, HEFT_PLACE)
+	return Transform3D(spidar.global_basis.orthonormalized(), spidar.to_global(place))
 
 
 func _at_travel_height(pose: Transform3D) -> Transform3D:

@@ -2,10 +2,11 @@ class_name TaskLayout
 extends RefCounted
 ## Where everything starts and where it has to go, from a seed alone: same seed, same layout.
 
-## Cells of the table. The pitch leaves room for the opened fingers (x) beside a neighbour.
+## Cells of the table. The pitch leaves room for the opened fingers (x) beside a neighbour, and keeps
+## all of them where the strings can give weight and squeeze together.
 const COLUMNS := 4
 const ROWS := 4
-const PITCH_M := Vector2(0.096, 0.072)
+const PITCH_M := Vector2(0.083, 0.065)
 const JITTER_M := 0.003
 const YAW_RAD := deg_to_rad(12.0)
 
