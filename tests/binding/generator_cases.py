@@ -9,6 +9,7 @@ from pathlib import Path
 
 BINDING = Path(__file__).resolve().parent.parent.parent / "gdextension" / "binding"
 sys.path.insert(0, str(BINDING))
+import api_dump  # noqa: E402
 import generate  # noqa: E402
 
 
@@ -26,7 +27,7 @@ def small_api():
         "builtin_class_sizes": [{"build_configuration": "float_64",
                                  "sizes": [{"name": "Variant", "size": 24}]}],
         "global_enums": [], "utility_functions": [], "singletons": [],
-        "builtin_classes": [opaque(name) for name in generate.OPAQUE_TYPES],
+        "builtin_classes": [opaque(name) for name in api_dump.OPAQUE_TYPES],
         "classes": [{"name": "Object", "methods": [method, {
             "name": "odd", "hash": 8, "arguments": [{"name": "where", "type": "AABB"}]}]}],
     }

@@ -40,9 +40,7 @@ struct ClassRecord {
     StringName name;
     StringName parent;
     StringName engine_base;
-    bool is_virtual = false;
     bool is_abstract = false;
-    bool is_exposed = true;
     GDExtensionInitializationLevel level = GDEXTENSION_INITIALIZATION_SCENE;
 
     Wrapped *(*construct)(const ClassRecord &, GodotObject *) = nullptr;

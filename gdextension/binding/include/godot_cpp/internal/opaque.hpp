@@ -43,10 +43,6 @@ protected:
 
     ~Opaque() { lifecycle().destroy(bytes_.data()); }
 
-    // For constructors that fill the bytes themselves.
-    struct Unfilled {};
-    explicit Opaque(Unfilled) {}
-
     bool equals(const Opaque &other) const {
         static const GDExtensionPtrOperatorEvaluator evaluate =
             api.variant_get_ptr_operator_evaluator(GDEXTENSION_VARIANT_OP_EQUAL, kType, kType);
