@@ -2,28 +2,28 @@ class_name HelpOverlay
 extends PanelContainer
 ## The keys, on screen.
 
-const KEYS: Array[PackedStringArray] = [
-	["Mouse", "moves the grip in the view plane"],
-	["Wheel", "moves it in depth"],
-	["Right button + drag", "turns it"],
-	["Left button", "closes the grasp while held"],
-	["Middle button + drag", "looks round"],
-	["W A S D, Q E", "move the grip, down and up"],
-	["Arrows, Page Up/Down", "turn the grip"],
-	["F", "forces on and off"],
-	["Space", "panic stop: forces off at once"],
-	["R", "starts again, same layout"],
-	["Tab", "display: off, short, full"],
-	["H", "this help"],
-	["Esc", "quits"],
-]
+const KEYS: Dictionary[String, String] = {
+	"Mouse": "moves the grip in the view plane",
+	"Wheel": "moves it in depth",
+	"Right button + drag": "turns it",
+	"Left button": "closes the grasp while held",
+	"Middle button + drag": "looks round",
+	"W A S D, Q E": "move the grip, down and up",
+	"Arrows, Page Up/Down": "turn the grip",
+	"F": "forces on and off",
+	"Space": "panic stop: forces off at once",
+	"R": "starts again, same layout",
+	"Tab": "display: off, short, full",
+	"H": "this help",
+	"Esc": "quits",
+}
 
 
 func _ready() -> void:
 	var grid: GridContainer = $Rows/Grid
-	for pair in KEYS:
-		_add(grid, pair[0], DemoPalette.ACCENT)
-		_add(grid, pair[1], DemoPalette.TEXT)
+	for key in KEYS:
+		_add(grid, key, DemoPalette.ACCENT)
+		_add(grid, KEYS[key], DemoPalette.TEXT)
 
 
 func _add(grid: GridContainer, text: String, colour: Color) -> void:

@@ -6,6 +6,10 @@ extends CanvasLayer
 enum Mode { OFF, SHORT, FULL }
 
 const HINT_FORCES_OFF := "Forces are off.  F  turns them on (they ramp up while the device arms).   H  help"
+## In the order of SpidarG.State.
+const STATE_NAMES: PackedStringArray = [
+	"closed", "connected", "arming", "active", "fading", "fault"
+]
 const HINT_ON := "Left button  closes the grasp    Space  stops the forces    H  help"
 
 @export var mode := Mode.FULL
@@ -65,7 +69,7 @@ func show_result(text: String) -> void:
 
 func show_task(title: String, time_s: float, placed: int, total: int, seed_number: int) -> void:
 	_title.text = "%s   seed %d" % [title, seed_number]
-	_time.text = "%d:%04.1f" % [int(time_s) / 60, fmod(time_s, 60.0)]
+	_time.text = "%d:%04.1f" % [floori(time_s / 60.0), fmod(time_s, 60.0)]
 	_placed.text = "%d of %d placed" % [placed, total]
 
 
@@ -76,7 +80,7 @@ func _process(_delta: float) -> void:
 		return
 	_hint_panel.visible = true
 	_hint.text = _hint_text()
-	_state.text = _spidar.get_state_text()
+	_state.text = STATE_NAMES[_spidar.get_state()]
 	_dot.color = _state_colour()
 	var statistics := _spidar.get_statistics()
 	_servo.text = "servo %.0f Hz" % float(statistics.get("servo_rate_hz", 0.0))

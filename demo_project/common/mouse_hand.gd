@@ -1,7 +1,7 @@
 class_name MouseHand
 extends Node
-## Mouse and keyboard drive the simulated hand: the mouse moves the grip in the view plane, the wheel
-## in depth, dragging with the right button turns it, the left button closes the grasp.
+## Mouse and keyboard drive the simulated hand: the grip follows the cursor in the view plane, the wheel
+## moves it in depth, dragging with the right button turns it, the left button closes the grasp.
 
 const KEY_SPEED_M_S := 0.12
 const KEY_TURN_RAD_S := 0.9
@@ -72,12 +72,11 @@ func _on_motion(motion: InputEventMouseMotion) -> void:
 		yaw_rad += motion.relative.x * DRAG_RAD_PER_PIXEL
 		pitch_rad += motion.relative.y * DRAG_RAD_PER_PIXEL
 		return
-	# The grip goes as far on the screen as the cursor does, at its own depth.
-	var here := spidar.to_global(position_m)
-	var depth := -camera.to_local(here).z
-	var from := camera.project_position(motion.position - motion.relative, depth)
-	var to := camera.project_position(motion.position, depth)
-	position_m += spidar.global_basis.orthonormalized().inverse() * (to - from) / spidar.workspace_scale
+	# The grip is under the cursor, at the depth where it is.
+	var depth := -camera.to_local(spidar.to_global(position_m * spidar.workspace_scale)).z
+	var under := camera.project_position(motion.position, depth)
+	position_m = spidar.to_local(under) / spidar.workspace_scale
+	_clamp()
 
 
 func _on_button(button: InputEventMouseButton) -> void:

@@ -44,7 +44,11 @@ func _draw() -> void:
 		_draw_bar(middle, top + 2, 5.0, asked[axis] / full * half, half, DemoPalette.ASKED)
 		_draw_bar(middle, top + 8, 7.0, given[axis] / full * half, half, DemoPalette.GIVEN)
 		draw_rect(Rect2(middle - 0.5, top, 1, 17), DemoPalette.TEXT_SOFT)
-		var value := "%.2f N" % given[axis] if axis < 3 else "%.0f mNm" % (given[axis] * 1000.0)
+		# Adding zero turns a rounded -0 into 0.
+		var value := (
+			"%.2f N" % (snappedf(given[axis], 0.01) + 0.0) if axis < 3
+			else "%.0f mNm" % (roundf(given[axis] * 1000.0) + 0.0)
+		)
 		draw_string(
 			font, Vector2(size.x - VALUE_WIDTH, top + 13), value, HORIZONTAL_ALIGNMENT_RIGHT,
 			VALUE_WIDTH, 12, DemoPalette.TEXT

@@ -61,10 +61,8 @@ func _physics_process(delta: float) -> void:
 	var placed := _judge()
 	_hud.show_task(TITLE, logger.task_time_s, placed, objects.size(), arguments.seed_number)
 	if not _running:
-		# The clock starts when the device is armed.
-		if _spidar.get_state() == SpidarG.STATE_ACTIVE and not _finished:
-			_running = true
-			logger.start(_spidar)
+		if _spidar.get_state() == SpidarG.STATE_ACTIVE:
+			_start_clock()
 		return
 	logger.sample(_spidar, delta)
 	_placed_for_s = _placed_for_s + delta if placed == objects.size() else 0.0
@@ -72,6 +70,18 @@ func _physics_process(delta: float) -> void:
 		_finish("")
 	elif arguments.scripted() and logger.task_time_s > TIME_LIMIT_S:
 		_scripted_hand.stopped = true
+
+
+## When the device is armed; at the first grasp for a person who plays without forces.
+func _start_clock() -> void:
+	if not _running and not _finished:
+		_running = true
+		logger.start(_spidar)
+
+
+func _stop_clock() -> void:
+	_running = false
+	_finished = true
 
 
 ## How many objects lie where they belong, now.
@@ -145,6 +155,8 @@ func _start_script() -> void:
 		await _player.play()
 		if _scripted_hand.stopped:
 			reason = "time limit of %d s simulated time" % int(TIME_LIMIT_S)
+	_stop_clock()
+	_hud.show_result("Played by script in %.1f s" % logger.task_time_s)
 	await _pictures.take("done")
 	_finish(reason)
 
@@ -163,8 +175,7 @@ func _wait_until_ready() -> String:
 
 
 func _finish(reason: String) -> void:
-	_running = false
-	_finished = true
+	_stop_clock()
 	var results := TrialResults.new(self, _player, _spidar)
 	if not arguments.scripted():
 		_hud.show_result(results.save_interactive())
@@ -187,6 +198,7 @@ func _on_closed() -> void:
 
 
 func _on_body_grasped(body: RigidBody3D) -> void:
+	_start_clock()
 	_on_closed()
 	logger.note_grasp()
 	if body is TaskObject:

@@ -43,7 +43,8 @@ func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
 	for object in objects:
 		records[object] = FeltRecord.new()
-	await pictures.take("start")
+	# Nobody waits for a picture: the play is the same with pictures and without.
+	pictures.take("start")
 	for object in objects:
 		while object.attempts < MAX_ATTEMPTS and _worth_trying(object):
 			object.attempts += 1
@@ -72,8 +73,7 @@ func _pick(object: TaskObject) -> bool:
 		await hand.turn_grasp_to(open_rad, 0.3)
 		return false
 	if object == objects[0]:
-		await pictures.take("grasp")
-		await _take_close_picture("grasp_close")
+		_take_pictures("grasp")
 	await hand.move_to(_at_travel_height(hand.wanted), REACH_S)
 	await hand.move_to(_heft_pose(), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
@@ -138,17 +138,18 @@ func _place(object: TaskObject) -> void:
 	await hand.move_to(_at_travel_height(goal), REACH_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	if object == objects[1]:
-		await pictures.take("carry")
-		await _take_close_picture("carry_close")
+		_take_pictures("carry")
 	await hand.move_to(goal, LOWER_S)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
 	await hand.turn_grasp_to(_angle_for(object.spec.size_m.x + CLEARANCE_M), 0.4)
 	await hand.wait(0.1)
 
 
-func _take_close_picture(picture_name: String) -> void:
-	camera_rig.look_closely(spidar.get_grip_transform().origin)
+## The whole table, then the grip from near by.
+func _take_pictures(picture_name: String) -> void:
 	await pictures.take(picture_name)
+	camera_rig.look_closely(spidar.get_grip_transform().origin)
+	await pictures.take(picture_name + "_close")
 	camera_rig.look_at_all()
 
 

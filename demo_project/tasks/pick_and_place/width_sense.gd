@@ -33,7 +33,7 @@ func free_torque_nm() -> float:
 	if free.is_empty():
 		return NAN
 	free.sort()
-	return free[free.size() / 2]
+	return free[free.size() >> 1]
 
 
 ## Push of the last sample, above free closing.
