@@ -1,7 +1,7 @@
 ## SpidarGHand under a hand that flails among bodies: whatever it does, forces stay finite and bounded, nothing is thrown.
 extends "res://hand_scene.gd"
 
-const SEEDS: int = 3
+const SEEDS: int = 4
 const FRAMES: int = 600
 ## A body this fast was thrown by the solver, not by a hand that moves below 1 m/s (device default: cut at 2 m/s).
 const MOST_SPEED_M_S: float = 4.0
@@ -15,6 +15,7 @@ func test_a_flailing_hand_stays_bounded() -> void:
 		at = Vector3.ZERO
 		angle = 0.0
 		elastic = true
+		friction_n = 0.05  # The device as it comes; without any, squeezing hard in a far corner saturates and faults.
 		await set_up(Vector3.ZERO)
 		var bodies: Array[RigidBody3D] = []
 		for i: int in 6:
