@@ -5,9 +5,10 @@ extends RefCounted
 
 ## Acceleration is differenced at game rate; above this it is noise and delay.
 const ACCELERATION_CUTOFF_HZ: float = 10.0
-## A game-rate inertia force acts about 30 ms late, like a mass added with delay. Rendered masses above the hand's
-## own would swing; 0.1 kg keeps a light hand's loop (0.16 kg with grip and rotors) at a gain margin above 2.
-const MAX_INERTIA_MASS_KG: float = 0.1
+## A game-rate inertia force acts about 30 ms late, like a mass added with delay: it swings when it nears the hand's own
+## mass. A light hand with grip and rotors has 0.16 kg (gain margin above 4); at 0.1 kg a normal hand that squeezes hard in
+## a far corner, where a string nears its limit, swung into the speed limit in simulation.
+const MAX_INERTIA_MASS_KG: float = 0.05
 ## Part of the device's greatest force that inertia may use, so that weight is never masked by a jerk.
 const INERTIA_FORCE_SHARE: float = 0.3
 ## Weight comes on over this time: a step would be felt as a knock.
@@ -22,13 +23,15 @@ var with_inertia: bool = true
 
 var force_n: Vector3 = Vector3.ZERO
 var moment_nm: Vector3 = Vector3.ZERO
+var _grip_centre: Vector3 = Vector3.ZERO
 var _velocity: Vector3 = Vector3.ZERO
 var _acceleration: Vector3 = Vector3.ZERO
 var _age_s: float = 0.0
 
 
-## A body has just been caught. velocity: of the grip, scene m/s.
-func reset(velocity: Vector3) -> void:
+## A body has just been caught. grip_centre in the scene; velocity of the grip, scene m/s.
+func reset(grip_centre: Vector3, velocity: Vector3) -> void:
+	_grip_centre = grip_centre
 	_velocity = velocity
 	_acceleration = Vector3.ZERO
 	_age_s = 0.0
@@ -36,12 +39,15 @@ func reset(velocity: Vector3) -> void:
 	moment_nm = Vector3.ZERO
 
 
-## Once a physics frame. grip_centre and velocity of the grip: scene; workspace_scale: scene metres per device metre.
+## Once a physics frame. grip_centre in the scene; workspace_scale: scene metres per device metre.
 func advance(
-	delta_s: float, body: RigidBody3D, grip_centre: Vector3, velocity: Vector3, workspace_scale: float
+	delta_s: float, body: RigidBody3D, grip_centre: Vector3, workspace_scale: float
 ) -> void:
 	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
 	var blend: float = delta_s / (delta_s + 1.0 / (TAU * ACCELERATION_CUTOFF_HZ))
+	# The mean velocity over the frame: the device's own twist, sampled at game rate, would alias the strings' 100 Hz.
+	var velocity: Vector3 = (grip_centre - _grip_centre) / delta_s
+	_grip_centre = grip_centre
 	_acceleration += blend * ((velocity - _velocity) / delta_s - _acceleration)
 	_velocity = velocity
 	_age_s += delta_s

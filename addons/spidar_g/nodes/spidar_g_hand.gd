@@ -254,7 +254,7 @@ func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 	_hold.attach(body, grip, _jaw.centre_offset_m)
 	_held_width_m = _jaw.width_m
 	_overload_s = 0.0
-	_load.reset(spidar.get_linear_velocity())
+	_load.reset(grip.origin, spidar.get_linear_velocity())
 	body.tree_exiting.connect(release)
 	body_grasped.emit(body)
 
@@ -338,7 +338,7 @@ func _request_load(grip: Transform3D, delta: float) -> void:
 	_load.max_force_n = _settings().max_force
 	_load.with_weight = render_weight
 	_load.with_inertia = render_inertia
-	_load.advance(delta, _hold.body, grip.origin, spidar.get_linear_velocity(), spidar.workspace_scale)
+	_load.advance(delta, _hold.body, grip.origin, spidar.workspace_scale)
 	_load_requested = spidar.request_wrench(_load.force_n, _load.moment_nm, 0.0)
 
 

@@ -16,6 +16,7 @@ var device: SpidarG
 var hand: Hand
 ## Of the simulated device, before set_up().
 var elastic: bool = false
+var friction_n: float = 0.0
 var firmness: SpidarG.HandFirmness = SpidarG.HAND_NORMAL
 var at: Vector3 = Vector3.ZERO
 var angle: float = 0.0
@@ -25,6 +26,7 @@ var angle: float = 0.0
 func set_up(start: Vector3, forces: bool = true) -> void:
 	device = ideal_device()
 	device.config.simulated_elastic = elastic
+	device.config.simulated_friction = friction_n
 	device.config.simulated_hand_firmness = firmness
 	device.forces_enabled = forces
 	hand = Hand.new()

@@ -41,6 +41,40 @@ func test_a_body_off_centre_pulls_with_its_lever() -> void:
 	check_near(felt[3], expected.x, 0.15 * expected.x, "moment about x")
 
 
+func test_inertia_opposes_the_start_and_the_stop_of_a_motion() -> void:
+	for with_inertia: bool in [true, false]:
+		at = Vector3.ZERO
+		angle = 0.0
+		await set_up(Vector3.ZERO)
+		hand.render_inertia = with_inertia
+		var body: RigidBody3D = add_free_box(Vector3(0.03, 0.04, 0.03), 0.2)
+		await physics_frames(10)
+		await grasp(body)
+		await move_to(at + Vector3(0.0, 0.06, 0.0), SQUEEZE_ANGLE, 40)
+		await physics_frames(40)
+		var start: float = 0.0
+		var stop: float = 0.0
+		for i: int in 60:
+			# Half a second there, at constant acceleration and deceleration.
+			var part: float = minf(i / 30.0, 1.0)
+			var x: float = 2.0 * part * part if part < 0.5 else 1.0 - 2.0 * (1.0 - part) * (1.0 - part)
+			var target := Transform3D(Basis.IDENTITY, at + Vector3(0.1 * x, 0.0, 0.0))
+			device.simulated_hand_target(target, SQUEEZE_ANGLE)
+			await physics_frames(1)
+			start = minf(start, device.get_requested_wrench()[0])
+			stop = maxf(stop, device.get_requested_wrench()[0])
+		print("INFO inertia %s: %.3f N at the start, %.3f N at the stop" % [with_inertia, start, stop])
+		if with_inertia:
+			# 0.1 m in 0.5 s is 1.6 m/s^2: 0.08 N for the 0.05 kg that is rendered.
+			check(start < -0.04 and start > -0.4, "pulls back at the start: %f N" % start)
+			check(stop > 0.04 and stop < 0.4, "pulls on at the stop: %f N" % stop)
+		else:
+			check(start > -0.02 and stop < 0.02, "switched off: %f, %f N" % [start, stop])
+		device.queue_free()
+		body.queue_free()
+		await physics_frames(2)
+
+
 func test_pressing_too_hard_tears_the_body_off() -> void:
 	await set_up(Vector3.ZERO)
 	hand.break_force_n = 1.5
