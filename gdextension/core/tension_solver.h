@@ -52,7 +52,7 @@ struct TensionSettings {
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // uniqueness only
     double reference_weight = 1e-4;    // pull towards tau_ref
-    double change_weight = 1e-3;       // against jumps from tick to tick
+    double change_weight = 1e-2;       // against jumps from tick to tick
     std::uint8_t broken_mask = 0;      // bit i: string i is broken, its tension is 0
 };
 

@@ -22,7 +22,7 @@ func check_near(actual: float, expected: float, tolerance: float, message: Strin
 	# Written so that NaN fails.
 	return check(
 		absf(actual - expected) <= tolerance,
-		"%s: got %.9g, expected %.9g within %.3g" % [message, actual, expected, tolerance]
+		"%s: got %.9f, expected %.9f within %.9f" % [message, actual, expected, tolerance]
 	)
 
 
