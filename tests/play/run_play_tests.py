@@ -9,6 +9,7 @@ import argparse
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -173,8 +174,27 @@ def check_bad_arguments(checks, godot):
         checks.check(named in run.output, f"{words}: the message does not name {named}")
 
 
+def check_parts(checks, godot):
+    """The demo's own mathematics, inside Godot; its counts are added."""
+    command = [godot, "--headless", "--path", DEMO, "-s", os.path.join(HERE, "check_parts.gd")]
+    try:
+        output = subprocess.run(
+            command, timeout=RUN_LIMIT_S, text=True, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
+        ).stdout
+    except subprocess.TimeoutExpired:
+        output = "FAIL parts: not finished in time"
+    totals = re.findall(r"^(\d+) passed, (\d+) failed$", output, re.M)
+    print("\n".join(line for line in output.splitlines() if line.startswith("FAIL")), end="")
+    checks.check(len(totals) == 1, f"parts: no totals\n{output[-2000:]}")
+    for passed, failed in totals:
+        checks.passed += int(passed)
+        checks.failed += int(failed)
+
+
 def run_all(godot, seeds):
     checks = Checks()
+    check_parts(checks, godot)
     runs = []
     for seed in range(1, seeds + 1):
         runs.append(play(godot, f"seed_{seed}", seed))
