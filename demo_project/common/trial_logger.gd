@@ -35,6 +35,7 @@ var _peak_torque_nm := 0.0
 var _peak_grasp_nm := 0.0
 var _residual_square_sum := 0.0
 var _ticks_at_start := 0
+var _ticks := 0
 var _samples_at_limit := 0
 
 
@@ -59,7 +60,9 @@ func sample(spidar: SpidarG, delta: float) -> void:
 	var given := spidar.get_achieved_wrench()
 	var force := Vector3(given[0], given[1], given[2]).length()
 	_samples += 1
-	_samples_at_limit += int(int(spidar.get_statistics().get("at_max_mask", 0)) != 0)
+	var statistics := spidar.get_statistics()
+	_samples_at_limit += int(int(statistics.get("at_max_mask", 0)) != 0)
+	_ticks = int(statistics.get("ticks", 0)) - _ticks_at_start
 	_force_sum_n += force
 	_peak_force_n = maxf(_peak_force_n, force)
 	_peak_torque_nm = maxf(_peak_torque_nm, Vector3(given[3], given[4], given[5]).length())
@@ -80,7 +83,6 @@ func note_grasp() -> void:
 ## ideal_path_m: sum of the straight ways of what was carried; 0 when nothing was.
 func finish(spidar: SpidarG, ideal_path_m: float) -> void:
 	var statistics := spidar.get_statistics()
-	var ticks: int = int(statistics.get("ticks", 0)) - _ticks_at_start
 	row["task_time_s"] = task_time_s
 	row["grasp_attempts"] = grasp_attempts
 	row["grasp_successes"] = grasp_successes
@@ -100,7 +102,7 @@ func finish(spidar: SpidarG, ideal_path_m: float) -> void:
 	if spidar.drive_mode == SpidarG.DRIVE_STEPPED:
 		# Simulated time: the rate is cycles per simulated second, and there is no clock to be late by.
 		if task_time_s > 0.0:
-			row["servo_hz_mean"] = ticks / task_time_s
+			row["servo_hz_mean"] = _ticks / task_time_s
 	else:
 		row["servo_hz_mean"] = statistics.get("servo_rate_hz")
 		row["servo_period_p99_us"] = _period_p99_us(spidar, statistics)
