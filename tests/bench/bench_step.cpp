@@ -38,15 +38,16 @@ Mat3 turn(double x, double y, double z) {
 GripPose moving_pose(const GripGeometry &grip, double t) {
     const Vec3 position(0.15 * std::sin(3.1 * t), 0.15 * std::sin(2.3 * t + 1.0),
                         0.12 * std::sin(2.9 * t + 2.0));
-    return make_pose(grip, position,
-                     turn(0.6 * std::sin(4.1 * t), 0.6 * std::sin(3.7 * t + 1.0),
-                          0.5 * std::sin(3.3 * t + 2.0)),
-                     -0.5 * std::sin(2.1 * t));
+    return make_pose(
+        grip, position,
+        turn(0.6 * std::sin(4.1 * t), 0.6 * std::sin(3.7 * t + 1.0), 0.5 * std::sin(3.3 * t + 2.0)),
+        -0.5 * std::sin(2.1 * t));
 }
 
 CountArray counts_of(const ServoSettings &settings, const GripPose &pose) {
     const StringArray lengths = string_lengths(settings.frame, settings.grip, pose);
-    const StringArray home = string_lengths(settings.frame, settings.grip, rest_pose(settings.grip));
+    const StringArray home =
+        string_lengths(settings.frame, settings.grip, rest_pose(settings.grip));
     CountArray counts{};
     for (std::size_t i = 0; i < counts.size(); ++i) {
         counts[i] =
@@ -57,9 +58,9 @@ CountArray counts_of(const ServoSettings &settings, const GripPose &pose) {
 
 ServoSettings ideal_settings() {
     ServoSettings settings;
-    settings.strings = calibrate_at_home(
-        string_lengths(settings.frame, settings.grip, rest_pose(settings.grip)), {},
-        kPaperMetresPerCount);
+    settings.strings =
+        calibrate_at_home(string_lengths(settings.frame, settings.grip, rest_pose(settings.grip)),
+                          {}, kPaperMetresPerCount);
     return settings;
 }
 
@@ -94,17 +95,15 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
     DeviceReading reading;
     std::size_t allocated = 0;
     for (int tick = 0; tick < kWarmUpTicks + kTicks; ++tick) {
-        reading.counts =
-            counts_of(settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
+        reading.counts = counts_of(
+            settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
         if (tick % 16 == 0 && step_case.forces) {
             ++command.wrench_sequence;
             command.wrench = {Vec3(std::sin(0.01 * tick), 1.0, 0.0), Vec3(0.0, 0.02, 0.0), 0.01};
             command.wrench_duration_s = 0.1;
             ++command.contacts_sequence;
         }
-        const auto call = [&] {
-            step->step(Status::ok, reading, command, kPeriod_s, true);
-        };
+        const auto call = [&] { step->step(Status::ok, reading, command, kPeriod_s, true); };
         if (tick < kWarmUpTicks) {
             call();
             continue;
@@ -137,8 +136,8 @@ void run_computations(const ServoSettings &settings) {
     SampleTimes tension(kTicks);
     for (int tick = 0; tick < kTicks; ++tick) {
         const double t = kPeriod_s * tick;
-        const StringArray lengths =
-            lengths_from_counts(settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
+        const StringArray lengths = lengths_from_counts(
+            settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
         KinematicsResult result;
         warm.time([&] { result = kinematics.update(lengths); });
         ForwardKinematics fresh = kinematics;
@@ -146,7 +145,8 @@ void run_computations(const ServoSettings &settings) {
         WrenchMatrix matrix;
         matrix_times.time(
             [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
-        const DofArray wrench = {2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
+        const DofArray wrench = {
+            2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
         tension.time([&] { solver.update(matrix, wrench); });
     }
     print_row("forward kinematics, warm", warm);
