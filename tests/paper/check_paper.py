@@ -42,7 +42,9 @@ FIGURES = {
     "closure_share_percent/20 cm cube; tilt 30 deg; grasp 30 deg": (38, 1.5),
     "closure_share_percent/40 cm cube; tilt 30 deg; grasp 30 deg": (9.9, 1),
     "scaling_share_percent/both 0.48 m; 4.0 cm": (21.6067, 0.01),
-    "connections/all": (2520, 0), "connections/better_and_closed": (0, 0),
+    "connections/paper_determinant": (127.1233, 1e-3), "connections/best_determinant": (364.9892, 1e-3),
+    "connections/closed": (32, 0), "connections/better_than_paper": (32, 0),
+    "connections/full_rank": (2208, 0), "connections/all": (2520, 0), "connections/better_and_closed": (0, 0),
     "table1/affine_offset_cm": (0.48200, 1e-5), "table1/affine_slope_cm": (0.00262225, 1e-8),
     "table1/affine_rms_cm": (.075, 5e-4), "table1/affine_max_cm": (.136, 1e-3),
     "table1/effective_radius_mm": (8.347, 1e-3), "table1/m2_effective_radius_mm": (8.37, 5e-3),
@@ -115,6 +117,17 @@ def symmetries(t):
     yield "the paper's connection leads the closed ones", closed[0]["of_paper"] == "1", closed[0]
 
 
+def well_formed(t):
+    """Every row of a table of the page has as many cells as its head."""
+    width = 0
+    for line in write_page.page(t).splitlines():
+        cells = line.count("|") if line.startswith("|") else 0
+        if cells and width and cells != width:
+            yield "cells of a table's row", False, line
+        width = cells
+    yield "tables of the page", True, ""
+
+
 def page_is_fresh(t, path):
     """The committed page says what was computed now: same words, numbers within rounding."""
     number = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -137,7 +150,8 @@ def close(read, values, tolerance):
 def main():
     t = Tables(sys.argv[1])
     passed = failed = 0
-    for name, good, read in (*known_answers(t), *symmetries(t), *page_is_fresh(t, sys.argv[2])):
+    for name, good, read in (*known_answers(t), *symmetries(t), *well_formed(t),
+                               *page_is_fresh(t, sys.argv[2])):
         passed += good
         failed += not good
         if not good:

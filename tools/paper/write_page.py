@@ -79,7 +79,7 @@ def claims(t):
         ("precise position by four operations", "IV, Index 1", "holds in part",
          "exact lengths only; see [paper_notes.md](paper_notes.md)"),
         ("smooth force", "abstract", "holds in part",
-         f"in the simulation tensions change by at most {gentle:.3f} N in 0.1 mm while |x| <= 8 cm; at "
+         f"in the simulation tensions change by at most {gentle:.3f} N in 0.1 mm within 8 cm of the centre; at "
          f"the closure border along X one string jumps by {n('smooth_step_outside_n'):.1f} N within 0.1 mm, "
          "which the slew limit spreads over time"),
         ("minimized inertia", "abstract", "cannot be judged",
