@@ -61,6 +61,10 @@ FIGURES = {
     "rotation_rms_deg/3 mm common; tilt 30 deg": (13, 1.5),
     "capacity_grasp_smallest": (1, 1e-5),
     "grasp_good_percent/exact; upright": (100, 0), "grasp_good_percent/M2; upright": (100, 0),
+    # Grip and rotors: 0.06 + 0.017 * (A A^T)_11, and the like.
+    "centre_inertia/x": (0.06 + 0.017 * 2.51546, 1e-6),
+    "centre_inertia/z": (0.06 + 0.017 * 2.96907, 1e-6),
+    "centre_inertia/grasp_angle": (1e-5 + 0.017 * 2.96907 * 0.04**2 / 4, 1e-9),
     "free_hand_least_tension_n/40 cm cube; tilt 30 deg": (0.3, 1e-9),
 }
 

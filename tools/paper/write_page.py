@@ -77,7 +77,8 @@ def claims(t):
          f"grasp is *felt* in full (g = 0.1 N m) is so at {n('grasp_felt/full_percent'):.0f} % of them, at the "
          f"others at least {n('grasp_felt/smallest'):.2f} of it"),
         ("precise position by four operations", "IV, Index 1", "holds in part",
-         "exact lengths only; see [paper_notes.md](paper_notes.md)"),
+         "with exact lengths; with errors the two polynomials have no common root "
+         "([paper_notes.md](paper_notes.md))"),
         ("smooth force", "abstract", "holds in part",
          f"in the simulation tensions change by at most {gentle:.3f} N in 0.1 mm within 8 cm of the centre; at "
          f"the closure border along X one string jumps by {n('smooth_step_outside_n'):.1f} N within 0.1 mm, "
