@@ -64,9 +64,9 @@ ServoSettings ideal_settings() {
     return settings;
 }
 
-void print_row(const char *name, SampleTimes &times) {
-    std::printf("%-46s %9.0f %9.0f %9.0f %9.0f\n", name, times.quantile_ns(0.5),
-                times.quantile_ns(0.99), times.quantile_ns(0.999), times.quantile_ns(1.0));
+void add_row(std::vector<BenchRow> &rows, const char *name, const char *mode, SampleTimes &times) {
+    rows.push_back(make_row(name, "step", mode, times));
+    print_row(rows.back());
 }
 
 struct StepCase {
@@ -76,7 +76,8 @@ struct StepCase {
     int contacts;
 };
 
-bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
+bool run_step_case(const ServoSettings &settings, const StepCase &step_case,
+                   std::vector<BenchRow> &rows) {
     auto step = std::make_unique<ServoStep>();
     if (!usable(step->configure(settings))) {
         return false;
@@ -112,7 +113,7 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
         times.time(call);
         allocated += allocations().count - before;
     }
-    print_row(step_case.name, times);
+    add_row(rows, step_case.name, step_case.moving ? "moving" : "at rest", times);
     if (allocated > kAllocationsAllowed) {
         std::printf("  FAILED: %zu allocations inside the steps\n", allocated);
         return false;
@@ -125,7 +126,7 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
     return true;
 }
 
-void run_computations(const ServoSettings &settings) {
+void run_computations(const ServoSettings &settings, std::vector<BenchRow> &rows) {
     ForwardKinematics kinematics;
     TensionSolver solver;
     kinematics.configure(settings.frame, settings.grip);
@@ -149,10 +150,10 @@ void run_computations(const ServoSettings &settings) {
             2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
         tension.time([&] { solver.update(matrix, wrench); });
     }
-    print_row("forward kinematics, warm", warm);
-    print_row("forward kinematics, cold (closed form)", cold);
-    print_row("wrench matrix", matrix_times);
-    print_row("tension solver, warm", tension);
+    add_row(rows, "forward kinematics", "warm", warm);
+    add_row(rows, "forward kinematics, closed form", "cold", cold);
+    add_row(rows, "wrench matrix", "-", matrix_times);
+    add_row(rows, "tension solver", "warm", tension);
 }
 
 bool report_memory(const ServoSettings &settings) {
@@ -175,25 +176,23 @@ bool report_memory(const ServoSettings &settings) {
 
 } // namespace
 
-int bench_step() {
+int bench_step(std::vector<BenchRow> &rows) {
     const ServoSettings settings = ideal_settings();
-    std::printf("%-46s %9s %9s %9s %9s   (ns, %d calls each)\n", "one servo step", "median", "p99",
-                "p99.9", "max", kTicks);
+    print_header("one servo step, and its parts");
     bool good = true;
     for (const StepCase &step_case :
-         {StepCase{"hand at rest, forces off", false, false, 0},
-          StepCase{"hand moving, forces off", true, false, 0},
-          StepCase{"hand at rest, wrench", false, true, 0},
-          StepCase{"hand moving, wrench", true, true, 0},
-          StepCase{"hand moving, wrench and 8 contacts", true, true, kMaxContacts}}) {
-        good = run_step_case(settings, step_case) && good;
+         {StepCase{"step, forces off", false, false, 0},
+          StepCase{"step, forces off", true, false, 0}, StepCase{"step, wrench", false, true, 0},
+          StepCase{"step, wrench", true, true, 0},
+          StepCase{"step, wrench and 8 contacts", true, true, kMaxContacts}}) {
+        good = run_step_case(settings, step_case, rows) && good;
     }
-    run_computations(settings);
+    run_computations(settings, rows);
     SampleTimes empty(kTicks);
     for (int i = 0; i < kTicks; ++i) {
         empty.time([] {});
     }
-    print_row("(an empty call: the clock itself)", empty);
+    add_row(rows, "(an empty call: the clock itself)", "-", empty);
     good = report_memory(settings) && good;
     return good ? 0 : 1;
 }
