@@ -16,7 +16,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # Headers of the standard library have no folder and no suffix: <vector>, <cmath>.
 STANDARD = r"<[a-z_0-9]+>"
 MAY_INCLUDE = {
-    "gdextension/core": (r'"core/', r"<glm/", STANDARD),
+    # The vector kernels of the core use the compiler's own names of x86 instructions.
+    "gdextension/core": (r'"core/', r"<glm/", r"<immintrin\.h>", STANDARD),
     # The device layer talks to the operating system (threads, clocks) and to hidapi.
     "gdextension/device": (
         r'"core/', r'"device/', r"<glm/", r"<hidapi", STANDARD,

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/box_least_squares.h"
+#include "core/fast_tension.h"
 #include "core/tension_solver.h"
 
 namespace spidar {
@@ -311,6 +312,15 @@ TensionSolution refused(const TensionProblem &problem, Status status) noexcept {
 
 TensionSolution solve_tension_problem(const TensionProblem &problem,
                                       const ActiveSet *warm) noexcept {
+    TensionSolution fast;
+    if (solve_fast(problem, warm, fast)) {
+        return fast;
+    }
+    return solve_tension_problem_safely(problem, warm);
+}
+
+TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
+                                             const ActiveSet *warm) noexcept {
     const Status status = check_problem(problem);
     if (!usable(status)) {
         return refused(problem, status);

@@ -43,6 +43,10 @@ struct TensionSolution {
 [[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
                                                     const ActiveSet *warm) noexcept;
 
+// The same by the slow search that the fast path falls back to: any weights, lost rank, zero multipliers.
+[[nodiscard]] TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
+                                                           const ActiveSet *warm) noexcept;
+
 struct TensionSettings {
     double min_tension_n = 0.3;
     double max_tension_n = 10.0;

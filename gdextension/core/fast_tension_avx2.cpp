@@ -1,0 +1,37 @@
+// The same kernel for AVX2 and FMA. Everything shared is included before the target changes: no inline function that
+// another source may call is compiled for AVX2 here.
+#include "core/fast_tension.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include <immintrin.h>
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC target("avx2,fma") // to the end of this file: templates are compiled there
+#endif
+
+#include "core/simd_four_avx2.h"
+
+#include "core/fast_tension_kernel.h"
+
+namespace spidar {
+
+bool solve_fast_avx2(const TensionProblem &problem, const ActiveSet *warm,
+                     TensionSolution &solution) noexcept {
+    FastTension<FourAvx2> kernel(problem);
+    return kernel.run(warm, solution);
+}
+
+} // namespace spidar
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+#endif

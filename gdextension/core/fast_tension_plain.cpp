@@ -1,0 +1,30 @@
+#include "core/fast_tension.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/simd_four_plain.h"
+#include "core/simd_level.h"
+
+#include "core/fast_tension_kernel.h"
+
+namespace spidar {
+
+bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
+                      TensionSolution &solution) noexcept {
+    FastTension<FourPlain> kernel(problem);
+    return kernel.run(warm, solution);
+}
+
+bool solve_fast(const TensionProblem &problem, const ActiveSet *warm,
+                TensionSolution &solution) noexcept {
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (simd_level() == SimdLevel::avx2) {
+        return solve_fast_avx2(problem, warm, solution);
+    }
+#endif
+    return solve_fast_plain(problem, warm, solution);
+}
+
+} // namespace spidar
