@@ -39,12 +39,13 @@ constexpr std::size_t kStrings = 8;
 constexpr std::size_t kDofs = 7;
 constexpr std::uint64_t kOn = ~std::uint64_t{0};
 alignas(32) constexpr std::uint64_t kLanes[16][4] = {
-    {0, 0, 0, 0},    {kOn, 0, 0, 0},    {0, kOn, 0, 0},    {kOn, kOn, 0, 0},
-    {0, 0, kOn, 0},  {kOn, 0, kOn, 0},  {0, kOn, kOn, 0},  {kOn, kOn, kOn, 0},
-    {0, 0, 0, kOn},  {kOn, 0, 0, kOn},  {0, kOn, 0, kOn},  {kOn, kOn, 0, kOn},
+    {0, 0, 0, 0},     {kOn, 0, 0, 0},     {0, kOn, 0, 0},     {kOn, kOn, 0, 0},
+    {0, 0, kOn, 0},   {kOn, 0, kOn, 0},   {0, kOn, kOn, 0},   {kOn, kOn, kOn, 0},
+    {0, 0, 0, kOn},   {kOn, 0, 0, kOn},   {0, kOn, 0, kOn},   {kOn, kOn, 0, kOn},
     {0, 0, kOn, kOn}, {kOn, 0, kOn, kOn}, {0, kOn, kOn, kOn}, {kOn, kOn, kOn, kOn}};
 
-template <class Four> class FastTension {
+template <class Four>
+class FastTension {
 public:
     explicit FastTension(const TensionProblem &problem) noexcept : p_(problem) {}
 
@@ -76,7 +77,10 @@ public:
                 gradient();
                 step(free_);
                 const double d = largest_step_;
-if (getenv("DBG")) printf("table %x free %x inv %d corr %d before %g d %g soft %g g %g %g\n", table, free_, inversions, correction, before, d, -table_[0][0], gradient_.a.largest(), gradient_.b.largest());
+                if (getenv("DBG"))
+                    printf("table %x free %x inv %d corr %d before %g d %g soft %g g %g %g\n",
+                           table, free_, inversions, correction, before, d, -table_[0][0],
+                           gradient_.a.largest(), gradient_.b.largest());
                 const bool settled = d <= kStep_n || (d <= kShort_n && d * d <= kLeft_n * before);
                 before = d;
                 if (!settled) {
@@ -265,10 +269,14 @@ private:
         }
     }
 
-    template <int kPair> static Four &half(Row &r) noexcept { return kPair < 4 ? r.a : r.b; }
+    template <int kPair>
+    static Four &half(Row &r) noexcept {
+        return kPair < 4 ? r.a : r.b;
+    }
 
     // Sweeps rows kPair and kPair + 1 together. T_RR - T_RP adj(T_PP) T_PR / det: the products do not wait for 1 / det.
-    template <int kPair> static void sweep_pair(Row (&t)[kStrings], Four &smallest) noexcept {
+    template <int kPair>
+    static void sweep_pair(Row (&t)[kStrings], Four &smallest) noexcept {
         constexpr int kLane = kPair & 3;
         const Row p = t[kPair];
         const Row q = t[kPair + 1];
@@ -347,9 +355,8 @@ private:
             const Row y = Row::load(y_);
             const Row least = Row::load(least_);
             const Row most = Row::load(most_);
-            unsigned out =
-                bits(tolerance < Four::max(least.a - y.a, y.a - most.a),
-                     tolerance < Four::max(least.b - y.b, y.b - most.b));
+            unsigned out = bits(tolerance < Four::max(least.a - y.a, y.a - most.a),
+                                tolerance < Four::max(least.b - y.b, y.b - most.b));
             if (out == 0) {
                 const Row mask = strings(held_in_table_);
                 const Row x = Row::load(x_);

@@ -12,33 +12,19 @@ public:
     void store(double *p) const noexcept { _mm256_storeu_pd(p, v_); }
     static FourAvx2 all(double v) noexcept { return _mm256_set1_pd(v); }
 
-    FourAvx2 operator+(FourAvx2 y) const noexcept {
-        return _mm256_add_pd(v_, y.v_);
-    }
-    FourAvx2 operator-(FourAvx2 y) const noexcept {
-        return _mm256_sub_pd(v_, y.v_);
-    }
-    FourAvx2 operator*(FourAvx2 y) const noexcept {
-        return _mm256_mul_pd(v_, y.v_);
-    }
-    FourAvx2 operator/(FourAvx2 y) const noexcept {
-        return _mm256_div_pd(v_, y.v_);
-    }
+    FourAvx2 operator+(FourAvx2 y) const noexcept { return _mm256_add_pd(v_, y.v_); }
+    FourAvx2 operator-(FourAvx2 y) const noexcept { return _mm256_sub_pd(v_, y.v_); }
+    FourAvx2 operator*(FourAvx2 y) const noexcept { return _mm256_mul_pd(v_, y.v_); }
+    FourAvx2 operator/(FourAvx2 y) const noexcept { return _mm256_div_pd(v_, y.v_); }
     static FourAvx2 mul_add(FourAvx2 x, FourAvx2 y, FourAvx2 z) noexcept {
         return _mm256_fmadd_pd(x.v_, y.v_, z.v_);
     }
     static FourAvx2 sub_mul(FourAvx2 x, FourAvx2 y, FourAvx2 z) noexcept {
         return _mm256_fnmadd_pd(x.v_, y.v_, z.v_);
     }
-    FourAvx2 operator&(FourAvx2 y) const noexcept {
-        return _mm256_and_pd(v_, y.v_);
-    }
-    FourAvx2 operator<(FourAvx2 y) const noexcept {
-        return _mm256_cmp_pd(v_, y.v_, _CMP_LT_OQ);
-    }
-    FourAvx2 operator<=(FourAvx2 y) const noexcept {
-        return _mm256_cmp_pd(v_, y.v_, _CMP_LE_OQ);
-    }
+    FourAvx2 operator&(FourAvx2 y) const noexcept { return _mm256_and_pd(v_, y.v_); }
+    FourAvx2 operator<(FourAvx2 y) const noexcept { return _mm256_cmp_pd(v_, y.v_, _CMP_LT_OQ); }
+    FourAvx2 operator<=(FourAvx2 y) const noexcept { return _mm256_cmp_pd(v_, y.v_, _CMP_LE_OQ); }
     static FourAvx2 select(FourAvx2 mask, FourAvx2 yes, FourAvx2 no) noexcept {
         return _mm256_blendv_pd(no.v_, yes.v_, mask.v_);
     }
@@ -50,10 +36,12 @@ public:
     [[nodiscard]] unsigned bits() const noexcept {
         return static_cast<unsigned>(_mm256_movemask_pd(v_));
     }
-    template <int kLane> [[nodiscard]] FourAvx2 lane() const noexcept {
+    template <int kLane>
+    [[nodiscard]] FourAvx2 lane() const noexcept {
         return _mm256_permute4x64_pd(v_, kLane * 0x55);
     }
-    template <int kLane> [[nodiscard]] FourAvx2 with_pair(FourAvx2 x, FourAvx2 y) const noexcept {
+    template <int kLane>
+    [[nodiscard]] FourAvx2 with_pair(FourAvx2 x, FourAvx2 y) const noexcept {
         const __m256d one = _mm256_blend_pd(v_, x.v_, 1 << kLane);
         return _mm256_blend_pd(one, y.v_, 2 << kLane);
     }
@@ -80,7 +68,8 @@ public:
     FourAvx2() noexcept = default;
 
 private:
-    FourAvx2(__m256d v) noexcept : v_(v) {} // NOLINT: implicit, so that each line above is one operation
+    FourAvx2(__m256d v) noexcept
+        : v_(v) {} // NOLINT: implicit, so that each line above is one operation
     __m256d v_ = _mm256_setzero_pd();
 };
 

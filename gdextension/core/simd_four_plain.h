@@ -34,13 +34,9 @@ public:
         return {x.a_ / y.a_, x.b_ / y.b_};
     }
     // x y + z
-    static FourPlain mul_add(FourPlain x, FourPlain y, FourPlain z) noexcept {
-        return x * y + z;
-    }
+    static FourPlain mul_add(FourPlain x, FourPlain y, FourPlain z) noexcept { return x * y + z; }
     // z - x y
-    static FourPlain sub_mul(FourPlain x, FourPlain y, FourPlain z) noexcept {
-        return z - x * y;
-    }
+    static FourPlain sub_mul(FourPlain x, FourPlain y, FourPlain z) noexcept { return z - x * y; }
     friend FourPlain operator&(FourPlain x, FourPlain y) noexcept {
         return {Pair(Bits(x.a_) & Bits(y.a_)), Pair(Bits(x.b_) & Bits(y.b_))};
     }
@@ -78,7 +74,8 @@ public:
         return static_cast<unsigned>((a[0] & 1) | (a[1] & 2) | (b[0] & 4) | (b[1] & 8));
 #endif
     }
-    template <int kLane> [[nodiscard]] FourPlain lane() const noexcept {
+    template <int kLane>
+    [[nodiscard]] FourPlain lane() const noexcept {
         const double v = kLane < 2 ? a_[kLane & 1] : b_[kLane & 1];
         return all(v);
     }
@@ -106,7 +103,9 @@ public:
         const Pair m = a_ + b_;
         return m[0] + m[1];
     }
-    [[nodiscard]] double first() const noexcept { return a_[0]; }
+    [[nodiscard]] double first() const noexcept {
+        return a_[0];
+    }
 
     FourPlain() noexcept = default;
 

@@ -1,5 +1,6 @@
 #include "bench/bench_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -9,6 +10,8 @@
 namespace spidar::bench {
 
 namespace {
+
+std::size_t row_limit = 0;
 
 bool exists(double figure) {
     return figure >= 0.0; // false for NaN too
@@ -82,6 +85,14 @@ void print_row(const BenchRow &row) {
                 text_of("%.0f", row.max_ns).c_str(), text_of("%.3f", row.ratio_to_daqp).c_str(),
                 text_of("%.2e", row.worst_error).c_str(), row.failures);
     std::fflush(stdout);
+}
+
+void set_row_limit(std::size_t rows) {
+    row_limit = rows;
+}
+
+std::size_t limited(std::size_t rows) {
+    return row_limit == 0 ? rows : std::min(rows, row_limit);
 }
 
 std::string describe_machine() {

@@ -2,6 +2,7 @@
 // The file has one JSON object a line, a row each, with the keys of BenchRow; a number that does not exist is null.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct BenchRow {
 
 void print_header(const char *title);
 void print_row(const BenchRow &row);
+
+// --rows N: no set has more than this many problems (a quick look; 0 = all of them).
+void set_row_limit(std::size_t rows);
+[[nodiscard]] std::size_t limited(std::size_t rows);
 
 // Processor, cores, load and compiler: what a committed result must say. One line.
 [[nodiscard]] std::string describe_machine();

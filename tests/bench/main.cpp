@@ -1,12 +1,14 @@
-// spidar_bench tension|step [--json FILE]: times against error, peers in the same process.
+// spidar_bench tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include "bench/bench_report.h"
 #include "bench/bench_step.h"
+#include "bench/bench_tension.h"
 
 namespace {
 
@@ -19,10 +21,11 @@ struct Problem {
 
 constexpr Problem kProblems[] = {
     {"step", spidar::bench::bench_step},
+    {"tension", spidar::bench::bench_tension},
 };
 
 int usage() {
-    std::fprintf(stderr, "usage: spidar_bench [PROBLEM] [--json FILE], PROBLEM one of:");
+    std::fprintf(stderr, "usage: spidar_bench [PROBLEM] [--json FILE] [--rows N], PROBLEM one of:");
     for (const Problem &problem : kProblems) {
         std::fprintf(stderr, " %s", problem.name);
     }
@@ -38,6 +41,8 @@ int main(int argc, char **argv) {
     for (int i = 1; i < argc; ++i) {
         if (std::strcmp(argv[i], "--json") == 0 && i + 1 < argc) {
             json = argv[++i];
+        } else if (std::strcmp(argv[i], "--rows") == 0 && i + 1 < argc) {
+            spidar::bench::set_row_limit(std::strtoull(argv[++i], nullptr, 10));
         } else if (i == 1 && argv[i][0] != '-') {
             name = argv[i];
         } else {

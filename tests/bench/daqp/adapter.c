@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "api.h"
+#include "daqp.h"
 #include "utils.h"
 
 enum { N = 8 };
@@ -13,7 +14,6 @@ typedef struct {
     DAQPResult result;
     int sense[N];
     double x[N];
-    double lam[N];
 } Peer;
 
 /* h: row-major 8 x 8. The arrays are kept and read at each solve. */
@@ -28,7 +28,7 @@ void *peer_create(double *h, double *f, double *upper, double *lower) {
     peer->qp.blower = lower;
     peer->qp.sense = peer->sense;
     peer->result.x = peer->x;
-    peer->result.lam = peer->lam;
+    peer->result.lam = NULL; /* nobody reads the multipliers */
     if (setup_daqp(&peer->qp, &peer->work, NULL) < 0) {
         return NULL;
     }
@@ -42,9 +42,7 @@ int peer_solve(void *handle, int warm, int quick, double *x) {
     int mask = DAQP_UPDATE_Rinv | DAQP_UPDATE_M | DAQP_UPDATE_v | DAQP_UPDATE_d;
     if (!warm) {
         mask |= DAQP_UPDATE_sense;
-        peer->work.n_active = 0;
-        peer->work.reuse_ind = 0;
-        peer->work.sing_ind = -1;
+        reset_daqp_workspace(&peer->work);
     }
     if (quick) {
         mask |= DAQP_UPDATE_unconstrained;

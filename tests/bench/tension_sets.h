@@ -1,0 +1,21 @@
+// The problem sets that the figures refer to: S1 random feasible, S2 a smooth 1 kHz trajectory of contacts, S3
+// saturated or infeasible, S4a-e the hard ones, and S2 at the shipped settings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/tension_solver.h"
+
+namespace spidar::bench {
+
+struct TensionSet {
+    std::string name;
+    bool smooth = false; // each problem follows from the one before: solved warm too
+    std::vector<TensionProblem> problems;
+};
+
+// Seeded: the same problems in each run.
+[[nodiscard]] std::vector<TensionSet> tension_sets();
+
+} // namespace spidar::bench
