@@ -3,6 +3,7 @@
 #include "core/fast_tension.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 

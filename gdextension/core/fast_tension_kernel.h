@@ -141,10 +141,12 @@ private:
         low_ = ~movable_ & 0xFFU;
         high_ = 0;
         if (warm != nullptr) {
-            for (std::size_t i = 0; i < kStrings; ++i) {
-                low_ |= static_cast<unsigned>((*warm)[i] == StringBound::at_lower) << i;
-                high_ |= static_cast<unsigned>((*warm)[i] == StringBound::at_upper) << i;
-            }
+            // One byte a string, 1 or 2: the product gathers the lowest bits of all eight in its top byte.
+            const auto guess = std::bit_cast<std::uint64_t>(*warm);
+            constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
+            constexpr std::uint64_t kGather = 0x0102040810204080ULL;
+            low_ |= static_cast<unsigned>(((guess & kLowBits) * kGather) >> 56U);
+            high_ |= static_cast<unsigned>((((guess >> 1U) & kLowBits) * kGather) >> 56U);
             high_ &= ~low_;
         }
         const Row at_low = strings(low_);
@@ -181,49 +183,51 @@ private:
         (d3 * Four::all(w[6])).store(&rows_[6][first]);
     }
 
-    // W (A x - q), at x_, lanes as in a column of A: DOF 0-3 and 3-6.
-    void residual(Four &front, Four &back) const noexcept {
-        Four f0 = Four::all(0.0);
-        Four f1 = Four::all(0.0);
-        Four b0 = Four::all(0.0);
-        Four b1 = Four::all(0.0);
-        for (std::size_t i = 0; i < kStrings; i += 2) {
-            const Four x0 = Four::all(x_[i]);
-            const Four x1 = Four::all(x_[i + 1]);
-            f0 = Four::mul_add(Four::load(&p_.matrix.columns[i][0]), x0, f0);
-            f1 = Four::mul_add(Four::load(&p_.matrix.columns[i + 1][0]), x1, f1);
-            b0 = Four::mul_add(Four::load(&p_.matrix.columns[i][3]), x0, b0);
-            b1 = Four::mul_add(Four::load(&p_.matrix.columns[i + 1][3]), x1, b1);
-        }
-        front = Four::load(&p_.weights[0]) * ((f0 - Four::load(&p_.wrench[0])) + f1);
-        back = Four::load(&p_.weights[3]) * ((b0 - Four::load(&p_.wrench[3])) + b1);
+    // Two strings' share of A x.
+    template <int kFirst, int kLane>
+    void add_columns(Four x, Four &f0, Four &f1, Four &b0, Four &b1) const noexcept {
+        const Four x0 = x.template lane<kLane>();
+        const Four x1 = x.template lane<kLane + 1>();
+        f0 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst][0]), x0, f0);
+        f1 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst + 1][0]), x1, f1);
+        b0 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst][3]), x0, b0);
+        b1 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst + 1][3]), x1, b1);
+    }
+
+    // Two DOF's share of R'f.
+    template <int kFirst, int kLane>
+    void add_rows(Four force, Row &g, Row &h) const noexcept {
+        const Four even = force.template lane<kLane>();
+        const Four odd = force.template lane<kLane + 1>();
+        g.a = Four::mul_add(Four::load(&rows_[kFirst][0]), even, g.a);
+        g.b = Four::mul_add(Four::load(&rows_[kFirst][4]), even, g.b);
+        h.a = Four::mul_add(Four::load(&rows_[kFirst + 1][0]), odd, h.a);
+        h.b = Four::mul_add(Four::load(&rows_[kFirst + 1][4]), odd, h.b);
     }
 
     // Half the gradient at x_, every string, from A itself.
     void gradient() noexcept {
-        Four front;
-        Four back;
-        residual(front, back);
-        force_size_ = Four::max(front.absolute(), back.absolute());
-        alignas(32) double force[kStrings];
-        front.store(force);
-        back.store(force + 3);
-        const Four w = Four::all(p_.proximal_weight);
         const Row x = Row::load(x_);
+        Four f0 = Four::all(0.0) - Four::load(&p_.wrench[0]);
+        Four f1 = Four::all(0.0);
+        Four b0 = Four::all(0.0) - Four::load(&p_.wrench[3]);
+        Four b1 = Four::all(0.0);
+        add_columns<0, 0>(x.a, f0, f1, b0, b1);
+        add_columns<2, 2>(x.a, f0, f1, b0, b1);
+        add_columns<4, 0>(x.b, f0, f1, b0, b1);
+        add_columns<6, 2>(x.b, f0, f1, b0, b1);
+        front_ = Four::load(&p_.weights[0]) * (f0 + f1); // DOF 0-3
+        back_ = Four::load(&p_.weights[3]) * (b0 + b1);  // DOF 3-6
+        const Four w = Four::all(p_.proximal_weight);
         const Row t = Row::load(p_.proximal_target_n.data());
         Row g{w * (x.a - t.a), w * (x.b - t.b)};
         Row h{Four::all(0.0), Four::all(0.0)};
-        for (std::size_t k = 0; k < 6; k += 2) {
-            const Four even = Four::all(force[k]);
-            const Four odd = Four::all(force[k + 1]);
-            g.a = Four::mul_add(Four::load(&rows_[k][0]), even, g.a);
-            g.b = Four::mul_add(Four::load(&rows_[k][4]), even, g.b);
-            h.a = Four::mul_add(Four::load(&rows_[k + 1][0]), odd, h.a);
-            h.b = Four::mul_add(Four::load(&rows_[k + 1][4]), odd, h.b);
-        }
-        const Four last = Four::all(force[6]);
-        g.a = Four::mul_add(Four::load(&rows_[6][0]), last, g.a);
-        g.b = Four::mul_add(Four::load(&rows_[6][4]), last, g.b);
+        add_rows<0, 0>(front_, g, h);
+        add_rows<2, 2>(front_, g, h);
+        add_rows<5, 2>(back_, g, h);
+        const Four last = back_.template lane<1>();
+        g.a = Four::mul_add(Four::load(&rows_[4][0]), last, g.a);
+        g.b = Four::mul_add(Four::load(&rows_[4][4]), last, g.b);
         gradient_ = {g.a + h.a, g.b + h.b};
     }
 
@@ -245,8 +249,9 @@ private:
             t[i].a = i < 4 ? diagonal.a & own : Four::all(0.0);
             t[i].b = i < 4 ? Four::all(0.0) : diagonal.b & own;
         }
-#pragma GCC unroll 4
-        for (std::size_t i = 0; i < kStrings; i += 2) {
+        // The lower left quarter is the upper right one turned over: it is left out until a pivot row needs it.
+#pragma GCC unroll 2
+        for (std::size_t i = 0; i < 4; i += 2) {
 #pragma GCC unroll 7
             for (std::size_t k = 0; k < kDofs; ++k) {
                 const Row r = Row::load(m[k]);
@@ -258,9 +263,22 @@ private:
                 t[i + 1].b = Four::mul_add(r.b, v, t[i + 1].b);
             }
         }
+#pragma GCC unroll 7
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            const Four r = Four::load(&m[k][4]);
+            t[4].b = Four::mul_add(r, Four::all(m[k][4]), t[4].b);
+            t[5].b = Four::mul_add(r, Four::all(m[k][5]), t[5].b);
+            t[6].b = Four::mul_add(r, Four::all(m[k][6]), t[6].b);
+            t[7].b = Four::mul_add(r, Four::all(m[k][7]), t[7].b);
+        }
         Four smallest = Four::all(kLargest);
         sweep_pair<0>(t, smallest);
         sweep_pair<2>(t, smallest);
+        t[4].a = t[0].b;
+        t[5].a = t[1].b;
+        t[6].a = t[2].b;
+        t[7].a = t[3].b;
+        Four::transpose(t[4].a, t[5].a, t[6].a, t[7].a);
         sweep_pair<4>(t, smallest);
         sweep_pair<6>(t, smallest);
         smallest_pivot_ = smallest.first();
@@ -293,7 +311,7 @@ private:
         half<kPair>(v) = half<kPair>(v).template with_pair<kLane>(b, zero - a);
 #pragma GCC unroll 8
         for (int r = 0; r < 8; ++r) {
-            if (r == kPair || r == kPair + 1) {
+            if (r == kPair || r == kPair + 1 || (kPair < 4 && r >= 4)) {
                 continue;
             }
             const Four x = half<kPair>(t[r]).template lane<kLane>();
@@ -302,29 +320,48 @@ private:
             t[r].a = Four::sub_mul(inverse, Four::mul_add(x, u.a, y * v.a), t[r].a);
             t[r].b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), t[r].b);
         }
+        if (kPair < 4) { // T_rP = T_Pr
+            sweep_lower<0>(t[4].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<1>(t[5].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<2>(t[6].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<3>(t[7].b, p.b, q.b, u.b, v.b, inverse);
+        }
         t[kPair] = {inverse * u.a, inverse * u.b};
         t[kPair + 1] = {inverse * v.a, inverse * v.b};
+    }
+
+    template <int kLane>
+    static void sweep_lower(Four &row, Four p, Four q, Four u, Four v, Four inverse) noexcept {
+        const Four x = p.template lane<kLane>();
+        const Four y = q.template lane<kLane>();
+        row = Four::sub_mul(inverse, Four::mul_add(x, u, y * v), row);
+    }
+
+    template <int kFirst, int kLane>
+    void add_table(Four g, Row &even, Row &odd) const noexcept {
+        const Four u = g.template lane<kLane>();
+        const Four v = g.template lane<kLane + 1>();
+        even.a = Four::mul_add(Four::load(&table_[kFirst][0]), u, even.a);
+        even.b = Four::mul_add(Four::load(&table_[kFirst][4]), u, even.b);
+        odd.a = Four::mul_add(Four::load(&table_[kFirst + 1][0]), v, odd.a);
+        odd.b = Four::mul_add(Four::load(&table_[kFirst + 1][4]), v, odd.b);
     }
 
     // x_ += Newton step of the `free` strings from gradient_.
     void step(unsigned free) noexcept {
         const Row mask = strings(free);
-        alignas(32) double g[kStrings];
-        Row{gradient_.a & mask.a, gradient_.b & mask.b}.store(g);
+        const Row g{gradient_.a & mask.a, gradient_.b & mask.b};
         Row even{Four::all(0.0), Four::all(0.0)};
         Row odd = even;
-        for (std::size_t j = 0; j < kStrings; j += 2) {
-            const Row r = Row::load(table_[j]);
-            const Row s = Row::load(table_[j + 1]);
-            const Four u = Four::all(g[j]);
-            const Four v = Four::all(g[j + 1]);
-            even.a = Four::mul_add(r.a, u, even.a);
-            even.b = Four::mul_add(r.b, u, even.b);
-            odd.a = Four::mul_add(s.a, v, odd.a);
-            odd.b = Four::mul_add(s.b, v, odd.b);
-        }
+        add_table<0, 0>(g.a, even, odd);
+        add_table<2, 2>(g.a, even, odd);
+        add_table<4, 0>(g.b, even, odd);
+        add_table<6, 2>(g.b, even, odd);
         const Row d{(even.a + odd.a) & mask.a, (even.b + odd.b) & mask.b};
+        gain_ =
+            Four::mul_add(g.a, d.a, g.b * d.b); // g'd is what the objective changes by: H d = -g
         const Row x = Row::load(x_);
+        where_ = x;
         Row{x.a + d.a, x.b + d.b}.store(x_);
         largest_step_ = Four::max(d.a.absolute(), d.b.absolute()).largest();
     }
@@ -449,7 +486,7 @@ private:
         diagonal_b = Four::select(lanes(8), Four::load(table_[7] + 4), diagonal_b);
         const double softest =
             Four::max(diagonal_a.absolute() & mask.a, diagonal_b.absolute() & mask.b).largest();
-        const double noise = kNoise * force_size_.largest();
+        const double noise = kNoise * Four::max(front_.absolute(), back_.absolute()).largest();
         if (!(noise * softest <= kNoiseMove_n)) {
             return Verdict::in_doubt;
         }
@@ -493,25 +530,26 @@ private:
         return (even + odd).sum() + 8.0 * p_.proximal_weight;
     }
 
+    // Bit i to the lowest bit of byte i.
+    static std::uint64_t spread(unsigned mask) noexcept {
+        const std::uint64_t copies = (mask & 0xFFU) * std::uint64_t{0x0101010101010101};
+        const std::uint64_t picked = copies & 0x8040201008040201ULL;
+        return ((picked + 0x7F7F7F7F7F7F7F7FULL) >> 7U) & 0x0101010101010101ULL;
+    }
+
     // False when the objective overflows.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
-        for (std::size_t i = 0; i < kStrings; ++i) {
-            solution.active[i] = has(low_, i)    ? StringBound::at_lower
-                                 : has(high_, i) ? StringBound::at_upper
-                                                 : StringBound::free;
-        }
-        Four front;
-        Four back;
-        residual(front, back);
-        const Four three = lanes(14); // DOF 3 is in both
-        back = back & three;
-        const Row x = Row::load(x_);
+        solution.active = std::bit_cast<ActiveSet>(spread(low_) | (spread(high_) << 1U));
+        const Four back = back_ & lanes(14); // DOF 3 is in both
+        const Row x = where_;
         const Row t = Row::load(p_.proximal_target_n.data());
         const Four da = x.a - t.a;
         const Four db = x.b - t.b;
-        solution.objective = Four::mul_add(front, front, back * back).sum() +
-                             p_.proximal_weight * Four::mul_add(da, da, db * db).sum();
+        const Four squares = Four::mul_add(front_, front_, back * back);
+        const Four away = Four::mul_add(da, da, db * db);
+        solution.objective =
+            (Four::mul_add(away, Four::all(p_.proximal_weight), squares) + gain_).sum();
         solution.iterations = iterations;
         solution.status = Status::ok;
         return solution.objective < kOpen;
@@ -525,7 +563,10 @@ private:
     alignas(32) double least_[kStrings];
     alignas(32) double most_[kStrings];
     Row gradient_{};
-    Four force_size_{};
+    Row where_{};  // x_ before the last step
+    Four front_{}; // W (A x - q) where gradient_ was taken
+    Four back_{};
+    Four gain_{}; // g'd of the last step
     double largest_step_ = 0.0;
     double stiffness_ = 0.0; // trace of H
     double smallest_pivot_ = 0.0;

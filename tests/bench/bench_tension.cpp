@@ -16,6 +16,8 @@ namespace spidar::bench {
 namespace {
 
 constexpr int kRuns = 4; // the least of them counts: it was not interrupted
+// The methods take turns at this many problems: the machine's moods meet all alike, and each runs with warm caches.
+constexpr std::size_t kBlock = 200;
 // A tension further from the optimum than this is a failure, whatever the method says of itself.
 constexpr double kWrong_n = 1e-3;
 
@@ -73,6 +75,19 @@ void include_error(Record &record, const TensionProblem &problem, bool solved,
     record.failures += solved && in_bounds && error <= kWrong_n ? 0 : 1;
 }
 
+void time_one(const TensionProblem &problem, const StringArray &exact_n, bool warm, bool judge,
+              std::size_t place, TensionMethod &method, Record &record) {
+    static const std::uint64_t nothing = empty_call();
+    StringArray tensions{};
+    const std::uint64_t from = ticks();
+    const bool solved = method.solve(problem, warm, tensions);
+    const std::uint64_t spent = ticks() - from;
+    record.ticks[place] = std::min(record.ticks[place], spent > nothing ? spent - nothing : 0);
+    if (judge) {
+        include_error(record, problem, solved, tensions, exact_n);
+    }
+}
+
 double quantile(std::vector<double> &sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
 }
@@ -88,23 +103,17 @@ bool is_ours(const std::string &name) {
 long run_set(const TensionSet &set, const std::vector<StringArray> &exact, bool warm,
              std::vector<std::unique_ptr<TensionMethod>> &methods, double tick_ns,
              std::vector<BenchRow> &rows) {
-    const std::uint64_t nothing = empty_call();
     std::vector<Record> records(methods.size());
+    for (auto &record : records) {
+        record.ticks.assign(set.problems.size(), ~std::uint64_t{0});
+    }
     for (int run = 0; run < kRuns; ++run) {
-        for (std::size_t p = 0; p < set.problems.size(); ++p) {
-            const TensionProblem &problem = set.problems[p];
+        for (std::size_t from = 0; from < set.problems.size(); from += kBlock) {
+            const std::size_t to = std::min(from + kBlock, set.problems.size());
             for (std::size_t m = 0; m < methods.size(); ++m) {
-                StringArray tensions{};
-                const std::uint64_t from = ticks();
-                const bool solved = methods[m]->solve(problem, warm && p > 0, tensions);
-                const std::uint64_t spent = ticks() - from;
-                Record &record = records[m];
-                const std::uint64_t net = spent > nothing ? spent - nothing : 0;
-                if (run == 0) {
-                    record.ticks.push_back(net);
-                    include_error(record, problem, solved, tensions, exact[p]);
-                } else {
-                    record.ticks[p] = std::min(record.ticks[p], net);
+                for (std::size_t p = from; p < to; ++p) {
+                    time_one(set.problems[p], exact[p], warm && p > 0, run == 0, p, *methods[m],
+                             records[m]);
                 }
             }
         }
