@@ -4,7 +4,8 @@
 #include <immintrin.h>
 
 namespace spidar {
-namespace {
+
+namespace { // each source compiles its own, for its own target
 
 class FourAvx2 {
 public:
@@ -74,4 +75,5 @@ private:
 };
 
 } // namespace
+
 } // namespace spidar

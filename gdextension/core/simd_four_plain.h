@@ -3,7 +3,8 @@
 #pragma once
 
 namespace spidar {
-namespace {
+
+namespace { // each source compiles its own, for its own target
 
 class FourPlain {
     typedef double Pair __attribute__((vector_size(16)));
@@ -116,4 +117,5 @@ private:
 };
 
 } // namespace
+
 } // namespace spidar
