@@ -28,8 +28,8 @@ constexpr double kUnreachableShare = 0.05;
 // Above this a setting is a slip of units, and squares of it lose the digits of the rest.
 constexpr double kLargestSetting = 1e6;
 
-// Newton steps of an unbounded solve: one solves, the second removes the rounding of the first.
-constexpr int kUnboundedSteps = 2;
+// A bound that no string ever meets.
+constexpr double kNoBound_n = 1e9;
 
 bool finite(const DofArray &values) noexcept {
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -65,37 +65,15 @@ DofArray difference(const DofArray &a, const DofArray &b) noexcept {
 }
 
 // The optimum of the problem without its bounds; strings outside `free` stay at 0.
-class UnboundedSolve {
-public:
-    UnboundedSolve(const TensionProblem &problem, StringMask free) noexcept : system_(problem) {
-        system_.factor(free);
-        for (int i = 0; i < kUnboundedSteps; ++i) {
-            step(system_.gradient(tensions_, false).values);
-        }
+StringArray unbounded_optimum(const TensionProblem &problem, StringMask free) noexcept {
+    TensionProblem open = problem;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const double reach = has_string(free, i) ? kNoBound_n : 0.0;
+        open.lower_n[i] = -reach;
+        open.upper_n[i] = reach;
     }
-
-    [[nodiscard]] const StringArray &tensions() const noexcept { return tensions_; }
-
-    // One Newton step with the proximal target moved to where the tensions are.
-    void forget_target(const TensionProblem &problem) noexcept {
-        StringArray slope = system_.gradient(tensions_, false).values;
-        for (std::size_t i = 0; i < kStrings; ++i) {
-            slope[i] -= problem.proximal_weight * (tensions_[i] - problem.proximal_target_n[i]);
-        }
-        step(slope);
-    }
-
-private:
-    void step(const StringArray &slope) noexcept {
-        const StringArray change = system_.solve(slope);
-        for (std::size_t i = 0; i < kStrings; ++i) {
-            tensions_[i] -= change[i];
-        }
-    }
-
-    BoxLeastSquares system_;
-    StringArray tensions_{};
-};
+    return solve_tension_problem(open, nullptr).tensions_n;
+}
 
 struct SteadyCost {
     DofArray bias{};        // what the regularising terms cost
@@ -104,16 +82,19 @@ struct SteadyCost {
 
 // `problem` holds the steady terms only (ridge and reference).
 SteadyCost steady_cost(const TensionProblem &problem, StringMask free) noexcept {
-    UnboundedSolve solve(problem, free);
+    const StringArray tensions = unbounded_optimum(problem, free);
     SteadyCost cost;
-    cost.bias = wrench_error(problem, solve.tensions());
+    cost.bias = wrench_error(problem, tensions);
     const double size = largest_weighted(problem, cost.bias);
-    solve.forget_target(problem);
-    const double left = largest_weighted(problem, wrench_error(problem, solve.tensions()));
+    // One more step, the target moved to where the tensions are.
+    TensionProblem moved = problem;
+    moved.proximal_target_n = tensions;
+    const double left =
+        largest_weighted(problem, wrench_error(problem, unbounded_optimum(moved, free)));
     if (left > kUnreachableShare * size) {
         TensionProblem bare = problem;
         bare.proximal_weight = kVanishingWeight;
-        cost.unreachable = wrench_error(bare, UnboundedSolve(bare, free).tensions());
+        cost.unreachable = wrench_error(bare, unbounded_optimum(bare, free));
         cost.bias = difference(cost.bias, cost.unreachable);
     }
     return cost;
@@ -160,6 +141,10 @@ Fault find_fault(const TensionSettings &s) noexcept {
         return {"reference_tension_n", s.reference_tension_n, "N",
                 "put it between min_tension_n and max_tension_n"};
     }
+    if ((s.dof_mask & kAllDofs) == 0 || s.dof_mask > kAllDofs) {
+        return {"dof_mask", static_cast<double>(s.dof_mask), "",
+                "give 1 to 127, bit k for DOF k of the wrench (127 is all)"};
+    }
     if (!(s.weight_force > 0.0)) {
         return {"weight_force", s.weight_force, "", "give more than 0 (1 is usual)"};
     }
@@ -191,6 +176,11 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
     problem.weights = {s.weight_force,        s.weight_force,        s.weight_force,
                        s.weight_moment_per_m, s.weight_moment_per_m, s.weight_moment_per_m,
                        s.weight_grasp_per_m};
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        if (((static_cast<unsigned>(s.dof_mask) >> k) & 1U) == 0U) {
+            problem.weights[k] = 0.0;
+        }
+    }
     const double steady_weight = s.ridge + s.reference_weight;
     const double steady_target = s.reference_weight * s.reference_tension_n / steady_weight;
     const double change_weight = has_last_ ? s.change_weight : 0.0;
@@ -246,7 +236,7 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
 
     bool limited = largest_weighted(problem, cost.unreachable) > kWrenchLimited_n;
     if ((result.at_min_mask | result.at_max_mask) != 0) {
-        const DofArray unbounded = wrench_error(problem, UnboundedSolve(problem, free).tensions());
+        const DofArray unbounded = wrench_error(problem, unbounded_optimum(problem, free));
         limited = limited ||
                   largest_weighted(problem, difference(result.error, unbounded)) > kWrenchLimited_n;
     }

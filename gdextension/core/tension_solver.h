@@ -47,6 +47,10 @@ struct TensionSolution {
 [[nodiscard]] TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
                                                            const ActiveSet *warm) noexcept;
 
+inline constexpr std::uint8_t kAllDofs = 0x7F;
+inline constexpr std::uint8_t kTranslationOnly = 0x07;
+inline constexpr std::uint8_t kNoGrasp = 0x3F;
+
 struct TensionSettings {
     double min_tension_n = 0.3;
     double max_tension_n = 10.0;
@@ -57,7 +61,10 @@ struct TensionSettings {
     double ridge = 1e-9;               // uniqueness only
     double reference_weight = 1e-3;    // pull towards tau_ref
     double change_weight = 1e-2;       // against jumps from tick to tick
-    std::uint8_t broken_mask = 0;      // bit i: string i is broken, its tension is 0
+    // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). What is left out weighs nothing: the strings give there
+    // whatever suits the rest.
+    std::uint8_t dof_mask = kAllDofs;
+    std::uint8_t broken_mask = 0; // bit i: string i is broken, its tension is 0
 };
 
 struct TensionResult {
