@@ -132,7 +132,7 @@ private:
             .store(x_);
         read_half(0);
         read_half(4);
-        stiffness_ = trace();
+        stiffness_ = table_.trace(rows_, p_.proximal_weight);
         return true;
     }
 
@@ -342,18 +342,6 @@ private:
             return Verdict::release;
         }
         return d > kStep_n ? Verdict::correct_again : Verdict::in_doubt;
-    }
-
-    // Trace of H: a bound on its largest element and eigenvalue.
-    [[nodiscard]] double trace() const noexcept {
-        Four even = Four::all(0.0);
-        Four odd = even;
-        for (const auto &row : rows_) {
-            const Row r = Row::load(row);
-            even = Four::mul_add(r.a, r.a, even);
-            odd = Four::mul_add(r.b, r.b, odd);
-        }
-        return (even + odd).sum() + 8.0 * p_.proximal_weight;
     }
 
     // Bit i to the lowest bit of byte i.

@@ -44,6 +44,18 @@ class SweepTable {
 public:
     using Row = StringRow<Four>;
 
+    // Trace of H: a bound on its largest element and eigenvalue.
+    static double trace(const double (&rows)[kFastDofs][kFastStrings], double weight) noexcept {
+        Four even = Four::all(0.0);
+        Four odd = even;
+        for (const auto &row : rows) {
+            const Row r = Row::load(row);
+            even = Four::mul_add(r.a, r.a, even);
+            odd = Four::mul_add(r.b, r.b, odd);
+        }
+        return (even + odd).sum() + 8.0 * weight;
+    }
+
     // The table of H swept on `table`: -H^-1 there, unit rows elsewhere.
     void invert(const double (&rows)[kFastDofs][kFastStrings], double weight,
                 unsigned table) noexcept {
