@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/calibration/home_zero.h"
+#include "core/calibration/self_calibration.h"
+#include "core/forward_kinematics.h"
+#include "support/motion_samples.h"
+
+using namespace spidar;
+using namespace spidar::test;
+
+namespace {
+
+constexpr double kNoise_m = 1e-4;
+
+std::vector<CountArray> free_motion(const DeviceModel &device, Draw &draw, int poses,
+                                    double noise_m) {
+    std::vector<CountArray> samples;
+    for (int k = 0; k < poses; ++k) {
+        samples.push_back(
+            counts_at(device, random_pose(draw, device.grip, 0.15, 30.0, 30.0), noise_m, draw));
+    }
+    return samples;
+}
+
+double offset_error(const DeviceModel &found, const DeviceModel &truth) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        const double error = found.strings.offset_m[i] - truth.strings.offset_m[i];
+        square += error * error / kStringCount;
+    }
+    return std::sqrt(square);
+}
+
+// rms distance of the grip centre found from the true one, from exact lengths of other poses.
+double grip_error(const DeviceModel &found, const DeviceModel &truth, Draw &draw) {
+    ForwardKinematics kinematics;
+    REQUIRE(usable(kinematics.configure(found.frame, found.grip)));
+    double square = 0.0;
+    int solved = 0;
+    for (int k = 0; k < 400; ++k) {
+        const GripPose pose = random_pose(draw, truth.grip, 0.15, 30.0, 30.0);
+        const CountArray counts = counts_at(truth, pose, 0.0, draw);
+        kinematics.set_last_pose(pose);
+        const KinematicsResult result =
+            kinematics.update(wound_lengths(found.strings, found.corrections, counts));
+        if (usable(result.status) && result.conditioning > 1e-2) {
+            const double error = glm::distance(result.pose.position_m, pose.position_m);
+            square += error * error;
+            ++solved;
+        }
+    }
+    CHECK(solved > 300);
+    return std::sqrt(square / solved);
+}
+
+// Zeroed in a stand that is 3 mm and 3 degrees off, at nominal scale.
+DeviceModel start_at_home(const DeviceModel &truth, Draw &draw) {
+    DeviceModel start = paper_device();
+    const GripPose off =
+        pose_at(truth.grip, Vec3(0.0017, -0.0017, 0.0017),
+                Vec3(1.7 * kDegrees, 1.7 * kDegrees, -1.7 * kDegrees), 1.0 * kDegrees);
+    const std::vector<CountArray> repeats(5, counts_at(truth, off, 0.0, draw));
+    const HomeZero zero = zero_at_pose(start.frame, start.grip, rest_pose(start.grip), repeats,
+                                       start.strings.scale_m_per_count);
+    REQUIRE(zero.status == Status::ok);
+    start.strings = zero.strings;
+    return start;
+}
+
+// Offsets of 5 mm, blind start. Returns the rms over the seeds of the offset error.
+double blind_offsets(int poses, int seeds, double &expected) {
+    double square = 0.0;
+    expected = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        Draw draw(static_cast<std::uint64_t>(seed));
+        DeviceModel truth = paper_device();
+        for (double &offset : truth.strings.offset_m) {
+            offset += 0.005 * draw.normal();
+        }
+        const SelfCalibrationResult found = self_calibrate(
+            paper_device(), free_motion(truth, draw, poses, kNoise_m), SelfCalibrationSettings{});
+        CAPTURE(seed);
+        CHECK(found.status == Status::ok);
+        CHECK(found.used > poses / 2);
+        const double error = offset_error(found.model, truth);
+        CHECK(error <= 3.0 * found.offset_error_rms_m); // the covariance means something
+        square += error * error / seeds;
+        expected += found.offset_error_rms_m / seeds;
+    }
+    return std::sqrt(square);
+}
+
+} // namespace
+
+TEST_CASE("self-calibration: 5 mm offsets, 0.1 mm noise, quantised, blind") {
+    double expected = 0.0;
+    const double at_100 = blind_offsets(100, 12, expected);
+    MESSAGE("100 poses: rms " << at_100 * 1e3 << " mm, expected " << expected * 1e3);
+    CHECK(at_100 <= 0.06e-3);
+    CHECK(at_100 == doctest::Approx(expected).epsilon(0.4));
+    const double at_1000 = blind_offsets(1000, 4, expected);
+    MESSAGE("1000 poses: rms " << at_1000 * 1e3 << " mm, expected " << expected * 1e3);
+    CHECK(at_1000 <= 0.02e-3);
+}
+
+TEST_CASE("self-calibration: gains from a home start") {
+    for (int seed = 1; seed <= 6; ++seed) {
+        Draw draw(100U + static_cast<std::uint64_t>(seed));
+        DeviceModel truth = paper_device();
+        for (double &scale : truth.strings.scale_m_per_count) {
+            scale *= 1.043 * (1.0 + 0.005 * draw.normal());
+        }
+        const DeviceModel start = start_at_home(truth, draw);
+        SelfCalibrationSettings settings;
+        settings.fit_gains = true;
+        const SelfCalibrationResult found =
+            self_calibrate(start, free_motion(truth, draw, 300, kNoise_m), settings);
+        CAPTURE(seed);
+        REQUIRE(usable(found.status));
+        const double before = grip_error(start, truth, draw);
+        const double after = grip_error(found.model, truth, draw);
+        MESSAGE("seed " << seed << ": grip " << before * 1e3 << " -> " << after * 1e3
+                        << " mm, expected " << found.grip_error_rms_m * 1e3 << ", used "
+                        << found.used << ", iterations " << found.iterations);
+        CHECK(before > 3e-3);
+        CHECK(after <= 0.07e-3);
+        CHECK(after <= 3.0 * found.grip_error_rms_m);
+    }
+}
