@@ -22,7 +22,7 @@ std::vector<CountArray> free_motion(const DeviceModel &device, Draw &draw, int p
     std::vector<CountArray> samples;
     for (int k = 0; k < poses; ++k) {
         samples.push_back(
-            counts_at(device, random_pose(draw, device.grip, 0.15, 30.0, 30.0), noise_m, draw));
+            counts_at(device, random_pose(draw, device.grip, 0.2, 45.0, 40.0), noise_m, draw));
     }
     return samples;
 }
@@ -100,16 +100,16 @@ double blind_offsets(int poses, int seeds, double &expected) {
 TEST_CASE("self-calibration: 5 mm offsets, 0.1 mm noise, quantised, blind") {
     double expected = 0.0;
     const double at_100 = blind_offsets(100, 12, expected);
-    MESSAGE("100 poses: rms " << at_100 * 1e3 << " mm, expected " << expected * 1e3);
     CHECK(at_100 <= 0.06e-3);
     CHECK(at_100 == doctest::Approx(expected).epsilon(0.4));
     const double at_1000 = blind_offsets(1000, 4, expected);
-    MESSAGE("1000 poses: rms " << at_1000 * 1e3 << " mm, expected " << expected * 1e3);
     CHECK(at_1000 <= 0.02e-3);
 }
 
 TEST_CASE("self-calibration: gains from a home start") {
-    for (int seed = 1; seed <= 6; ++seed) {
+    constexpr int kSeeds = 8;
+    double square = 0.0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
         Draw draw(100U + static_cast<std::uint64_t>(seed));
         DeviceModel truth = paper_device();
         for (double &scale : truth.strings.scale_m_per_count) {
@@ -124,11 +124,9 @@ TEST_CASE("self-calibration: gains from a home start") {
         REQUIRE(usable(found.status));
         const double before = grip_error(start, truth, draw);
         const double after = grip_error(found.model, truth, draw);
-        MESSAGE("seed " << seed << ": grip " << before * 1e3 << " -> " << after * 1e3
-                        << " mm, expected " << found.grip_error_rms_m * 1e3 << ", used "
-                        << found.used << ", iterations " << found.iterations);
         CHECK(before > 3e-3);
-        CHECK(after <= 0.07e-3);
-        CHECK(after <= 3.0 * found.grip_error_rms_m);
+        CHECK(after <= 2.0 * found.grip_error_rms_m);
+        square += after * after / kSeeds;
     }
+    CHECK(std::sqrt(square) <= 0.07e-3);
 }
