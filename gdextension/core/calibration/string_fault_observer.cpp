@@ -15,15 +15,15 @@ constexpr double kMisfitCap = 60.0;
 // Starting variance of a string's error: a slip of 30 mm is large.
 constexpr double kStartError_m = 0.03;
 // A slipped string stays where it slipped to: the drift (standard deviation in one second) only lets the filter
-// recover from its first linear guess. A slack one moves by centimetres in a second.
+// recover from its first linear guess. A slack one moves by a centimetre in a second.
 constexpr double kSlipDrift_m = 2e-3;
-constexpr double kSlackDrift_m = 0.025;
+constexpr double kSlackDrift_m = 0.008;
 // The parity weights are those of a pose that the error itself displaced: error of the linear equation.
 constexpr double kLinearError = 0.05;
 // An explanation must fit to this mean squared misfit, and others fit worse by this factor and difference.
-constexpr double kFits = 9.0;
+constexpr double kFits = 3.0;
 constexpr double kWorseFactor = 1.3;
-constexpr double kWorseBy = 1.0;
+constexpr double kWorseBy = 0.3;
 // Filled part of the scores' memory before anything is said.
 constexpr double kEnoughWeight = 0.3;
 constexpr int kDecisionTicks = 16;
@@ -31,6 +31,8 @@ constexpr int kDecisionTicks = 16;
 // travelled this far together.
 constexpr std::int32_t kStillCounts = 2;
 constexpr double kOthersTravel_m = 0.3;
+// Wrong wiring errs by centimetres once the grip moves; below this it need not be tried.
+constexpr double kWiringParity_m = 3e-3;
 // Parity residual given to lengths that no pose has.
 constexpr double kUnsolved_m = 3.0 * kImpossibleResidual_m;
 
@@ -146,7 +148,9 @@ const FaultEvidence &StringFaultObserver::update(const CountArray &counts,
     }
     if (suspicious_) {
         try_string(lengths_m);
-        try_wiring(lengths_m);
+        if (evidence_.parity_rms_m > kWiringParity_m) {
+            try_wiring(lengths_m);
+        }
         if (--ticks_to_decision_ <= 0) {
             ticks_to_decision_ = kDecisionTicks;
             decide();
@@ -312,6 +316,9 @@ void StringFaultObserver::decide() noexcept {
         offer(suspects_[i].slack.misfit, candidate);
     }
     for (std::size_t k = 0; k < kWiring; ++k) {
+        if (!(wirings_[k].misfit.weight > 0.0)) {
+            continue; // not tried yet
+        }
         FaultEvidence candidate;
         candidate.fault = k < kPairs ? StringFault::swapped : StringFault::reversed;
         candidate.string = static_cast<int>(k < kPairs ? kPairTable[k][0] : k - kPairs);
