@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/exit_pulley.h"
+
 namespace spidar {
 
 HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip, const GripPose &home,
                       const std::vector<CountArray> &repeats,
-                      const StringArray &scale_m_per_count) {
+                      const StringArray &scale_m_per_count,
+                      const LengthCorrections &corrections) {
     HomeZero zero;
     if (!is_usable(frame) || !is_usable(grip, frame)) {
         zero.status = Status::invalid_geometry;
@@ -18,8 +21,12 @@ HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip, cons
     }
     StringCalibration strings;
     strings.offset_m = string_lengths(frame, grip, home);
+    const StringArray excess = exit_excess(frame, grip, corrections, home);
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        strings.offset_m[i] += excess[i];
+    }
     strings.scale_m_per_count = scale_m_per_count;
-    if (!validate(strings).empty()) {
+    if (!validate(strings).empty() || !validate(corrections).empty()) {
         zero.status = Status::invalid_calibration;
         return zero;
     }

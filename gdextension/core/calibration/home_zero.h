@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/calibration/length_corrections.h"
 #include "core/frame_geometry.h"
 #include "core/grip_geometry.h"
 #include "core/status.h"
@@ -21,6 +22,7 @@ struct HomeZero {
 
 [[nodiscard]] HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip,
                                     const GripPose &home, const std::vector<CountArray> &repeats,
-                                    const StringArray &scale_m_per_count);
+                                    const StringArray &scale_m_per_count,
+                                    const LengthCorrections &corrections);
 
 } // namespace spidar

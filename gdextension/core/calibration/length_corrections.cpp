@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/constants.h"
 #include "core/describe_value.h"
 
@@ -13,6 +15,8 @@ namespace {
 // The paper's drum changes by 4.6 % over 0.7 m: 0.07 1/m. Ten times that is no drum.
 constexpr double kMaxCurvature_1_m = 0.7;
 constexpr double kMaxStiffness_n = 1e9;
+constexpr double kMaxPulley_m = 0.05;
+constexpr double kUnitTolerance = 1e-6;
 constexpr double kMaxTension_n = 1000.0;
 
 bool within(double value, double low, double high) {
@@ -54,6 +58,15 @@ std::string validate(const LengthCorrections &corrections) {
                               const char *remedy) {
         return element_name(field, i) + " is " + with_unit(value, unit) + "; " + remedy;
     };
+    if (!within(corrections.pulley_radius_m, 0.0, kMaxPulley_m)) {
+        return "pulley_radius_m is " + with_unit(corrections.pulley_radius_m, "m") +
+               "; give the radius of the exit pulleys in metres, up to 0.05, or 0 for eyelets.";
+    }
+    const double axis = glm::length(corrections.swivel_axis);
+    if (!within(axis, 1.0 - kUnitTolerance, 1.0 + kUnitTolerance)) {
+        return "swivel_axis has length " + with_unit(axis, "m/m") +
+               "; give a unit vector, for instance (0, 1, 0).";
+    }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double curvature = corrections.winding_curvature_1_m[i];
         if (!within(curvature, -kMaxCurvature_1_m, kMaxCurvature_1_m)) {

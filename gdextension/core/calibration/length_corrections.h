@@ -18,6 +18,10 @@ struct LengthCorrections {
     StringArray axial_stiffness_n{};
     // String between the drum and the frame's exit, which stretches as well (unit: m).
     StringArray hidden_length_m{};
+    // Radius of the pulleys over which the strings leave the frame (unit: m), and the axis along which they come
+    // in from outside and about which the pulleys swivel (unit vector). 0: eyelets. See exit_pulley.h.
+    double pulley_radius_m = 0.0;
+    Vec3 swivel_axis{0.0, 1.0, 0.0};
     // Tension at which the lengths were calibrated: its stretch is in the calibration already.
     StringArray calibration_tension_n{};
 };

@@ -25,11 +25,13 @@ struct DeviceModel {
     FrameGeometry frame;
     GripGeometry grip;
     StringCalibration strings;
-    LengthCorrections corrections; // self-calibration reads and writes the winding only
+    LengthCorrections corrections; // self-calibration reads the pulley, and fits the winding
 };
 
 // The size that is known to be true: without one, all lengths could be scaled alike and nothing would show.
-enum class TrueSize : std::uint8_t { frame_x, frame_y, frame_z, pole };
+// none: the scales are known instead, from fit_string_scale(); set gain_prior to what they are worth (0.002). Better
+// where the strings leave over pulleys, as their exits are then not quite where the frame's corners are.
+enum class TrueSize : std::uint8_t { frame_x, frame_y, frame_z, pole, none };
 
 struct SelfCalibrationSettings {
     bool fit_gains = false;   // one relative scale a string

@@ -66,7 +66,7 @@ DeviceModel start_at_home(const DeviceModel &truth, Draw &draw) {
                 Vec3(1.7 * kDegrees, 1.7 * kDegrees, -1.7 * kDegrees), 1.0 * kDegrees);
     const std::vector<CountArray> repeats(5, counts_at(truth, off, 0.0, draw));
     const HomeZero zero = zero_at_pose(start.frame, start.grip, rest_pose(start.grip), repeats,
-                                       start.strings.scale_m_per_count);
+                                       start.strings.scale_m_per_count, start.corrections);
     REQUIRE(zero.status == Status::ok);
     start.strings = zero.strings;
     return start;
