@@ -1,8 +1,9 @@
-// error_budget --cases N --seed S: N devices with every length error on at once (tests/support/length_error_model.h),
-// each zeroed in a stand that is 3 mm and 3 degrees off, calibrated from 60 s of free motion at 0.5 N, then asked for
-// the grip's position on motions it has not seen, within the 40 cm cube, with 0.3 to 5 N commanded.
-// Prints rms and largest error for each level of calibration, beside the paper's +-4 mm. Exit code 1 when a device could
-// not be calibrated or a figure is not finite; the bars are printed, not judged here.
+// error_budget --cases N --seed S: N devices with every length error on at once
+// (tests/support/length_error_model.h), each zeroed in a stand that is 3 mm and 3 degrees off,
+// calibrated from 60 s of free motion at 0.5 N, then asked for the grip's position on motions it
+// has not seen, within the 40 cm cube, with 0.3 to 5 N commanded. Prints rms and largest error for
+// each level of calibration, beside the paper's +-4 mm. Exit code 1 when a device could not be
+// calibrated or a figure is not finite; the bars are printed, not judged here.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -20,13 +21,13 @@ using namespace spidar::test;
 constexpr double kStep_s = 0.005;
 constexpr double kCalibration_n = 0.5;
 constexpr double kMotion_s = 60.0;
-constexpr int kSampleEvery = 8;    // 1,500 poses
-constexpr double kKnownEa = 0.95;      // the stiffness entered is 5 % off
+constexpr int kSampleEvery = 8;       // 1,500 poses
+constexpr double kKnownEa = 0.95;     // the stiffness entered is 5 % off
 constexpr double kKnownPulley = 1.05; // and so is the radius
 constexpr double kBuildError_m = 1e-3;
 constexpr int kPulleyRounds = 3;
-constexpr double kRuler_m = 5e-4;  // error of a reading
-constexpr double kRulerGain = 0.002;
+constexpr double kRuler_m = 5e-4; // error of a reading
+constexpr double kRulerGain = 0.001;
 constexpr double kMinPivot = 1e-4; // FK flags these poses itself
 
 struct Level {
@@ -63,9 +64,7 @@ struct Errors {
         largest_m = std::fmax(largest_m, error_m);
         ++poses;
     }
-    [[nodiscard]] double rms_m() const {
-        return std::sqrt(square_m2 / static_cast<double>(poses));
-    }
+    [[nodiscard]] double rms_m() const { return std::sqrt(square_m2 / static_cast<double>(poses)); }
 };
 
 // Seven sines of random phase and rate: the position to +-reach_m, the angles to +-tilt_deg.
@@ -184,14 +183,14 @@ void calibrate_and_measure(const LengthErrors &length_errors, std::uint64_t seed
     DeviceModel start = paper_device();
     DeviceModel ruled = start; // scales from the bench
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        const StringScaleFit fit = fit_string_scale(device.bench(i, kCalibration_n, kRuler_m, draw));
+        const StringScaleFit fit =
+            fit_string_scale(device.bench(i, kCalibration_n, kRuler_m, draw));
         table.sound = table.sound && usable(fit.status);
         ruled.strings.scale_m_per_count[i] = fit.scale_m_per_count;
     }
     // The stand: the grip rests 3 mm and 3 degrees from where it should.
-    const GripPose stand =
-        pose_at(device.grip(), Vec3(0.0017, -0.0017, 0.0017),
-                Vec3(1.7 * kDegrees, 1.7 * kDegrees, -1.7 * kDegrees), kDegrees);
+    const GripPose stand = pose_at(device.grip(), Vec3(0.0017, -0.0017, 0.0017),
+                                   Vec3(1.7 * kDegrees, 1.7 * kDegrees, -1.7 * kDegrees), kDegrees);
     std::vector<CountArray> repeats;
     for (int k = 0; k < 200; ++k) {
         repeats.push_back(device.step(stand, tensions, kStep_s, draw));
@@ -252,7 +251,8 @@ int main(int argc, char **argv) {
         }
         return table;
     };
-    std::printf("error of the grip centre (mm)       untilted: rms, max    to 30 deg: rms, max  singular\n");
+    std::printf("error of the grip centre (mm)       untilted: rms, max    to 30 deg: rms, max  "
+                "singular\n");
     const Table all = run(LengthErrors{}, 0);
     bool sound = all.sound;
     for (std::size_t k = 0; k < kLevelCount; ++k) {
@@ -267,7 +267,7 @@ int main(int argc, char **argv) {
     less[3].hysteresis = 0.0;
     less[4].friction_n = 0.0;
     less[5].lay_m = 0.0;
-    constexpr const char *kLess[] = {"no pulley (eyelet)", "no stretch", "no creep",
+    constexpr const char *kLess[] = {"no pulley (eyelet)", "no stretch",  "no creep",
                                      "no hysteresis",      "no friction", "even winding"};
     for (std::size_t k = 0; k < std::size(less); ++k) {
         const Table table = run(less[k], kLevelCount - 1);

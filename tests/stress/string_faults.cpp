@@ -1,8 +1,9 @@
-// string_faults --cases N --seed S [--healthy_s T]: N motions of 5 s, T1-like, each with a random fault of one string
-// (slipped or slack by 5 to 25 mm, stuck, swapped, reversed); then T seconds of healthy motion (default 5 N).
-// Prints, for each fault, how often the right string and the right fault were named, and each miss so that it
-// replays alone (--first CASE --cases 1). Exit code 1 when the right string is named in less than 99 % of the cases or a
-// healthy device is accused. Named without stress_: a case is 5,000 servo ticks, not one.
+// string_faults --cases N --seed S [--healthy_s T]: N motions of 5 s, T1-like, each with a random
+// fault of one string (slipped or slack by 5 to 25 mm, stuck, swapped, reversed); then T seconds of
+// healthy motion (default 5 N). Prints, for each fault, how often the right string and the right
+// fault were named, and each miss so that it replays alone (--first CASE --cases 1). Exit code 1
+// when the right string is named in less than 99 % of the cases or a healthy device is accused.
+// Named without stress_: a case is 5,000 servo ticks, not one.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -77,11 +78,12 @@ int main(int argc, char **argv) {
         fault_right[kind] += hit && found.fault == fault.fault ? 1 : 0;
         right += hit ? 1 : 0;
         if (!hit) {
-            std::printf("miss: case %ld, %s string %d/%d by %.2f mm from %.3f s: said %s %d/%d, misfit "
-                        "%.2f next %.2f, parity %.2f mm\n",
-                        k, describe(fault.fault), fault.string, fault.other, fault.size_m * 1e3,
-                        fault.onset_s, describe(found.fault), found.string, found.other,
-                        found.misfit, found.next_misfit, found.parity_rms_m * 1e3);
+            std::printf(
+                "miss: case %ld, %s string %d/%d by %.2f mm from %.3f s: said %s %d/%d, misfit "
+                "%.2f next %.2f, parity %.2f mm\n",
+                k, describe(fault.fault), fault.string, fault.other, fault.size_m * 1e3,
+                fault.onset_s, describe(found.fault), found.string, found.other, found.misfit,
+                found.next_misfit, found.parity_rms_m * 1e3);
         }
     }
     for (long kind = 0; kind < kFaultCount; ++kind) {
@@ -94,7 +96,6 @@ int main(int argc, char **argv) {
     const long alarms = false_alarms(seed, healthy_s);
     const double share = static_cast<double>(right) / static_cast<double>(cases);
     std::printf("seed %lu, cases %ld, right string %.2f %%; %ld false alarms in %.2f h of motion\n",
-                static_cast<unsigned long>(seed), cases, 100.0 * share, alarms,
-                healthy_s / 3600.0);
+                static_cast<unsigned long>(seed), cases, 100.0 * share, alarms, healthy_s / 3600.0);
     return share >= kBar && alarms == 0 ? 0 : 1;
 }

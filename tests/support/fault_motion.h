@@ -1,4 +1,5 @@
-// Five seconds of T1-like motion of a device with one faulty string, and what the observer says at the end.
+// Five seconds of T1-like motion of a device with one faulty string, and what the observer says at
+// the end.
 #pragma once
 
 #include <algorithm>
@@ -65,8 +66,7 @@ public:
     FaultyDevice(const FaultCase &fault, Draw &draw)
         : fault_(fault), draw_(draw), motion_(draw), device_(paper_device()) {
         kinematics_.configure(device_.frame, device_.grip);
-        observer_.configure(device_.frame, device_.grip, device_.strings,
-                            FaultObserverSettings{});
+        observer_.configure(device_.frame, device_.grip, device_.strings, FaultObserverSettings{});
     }
     const FaultEvidence &step(double t) {
         CountArray counts = counts_at_time(t);

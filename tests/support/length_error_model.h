@@ -1,6 +1,7 @@
-// What a real string does to its length, all at once, in time: pulley exit, stretch, creep, hysteresis, friction,
-// winding build-up, uneven lay, encoder. A model of its own beside the simulated plant, for the error budget.
-// Values are those of the simulated device where it has them; the rest is an estimate of a 0.3 mm braid.
+// What a real string does to its length, all at once, in time: pulley exit, stretch, creep,
+// hysteresis, friction, winding build-up, uneven lay, encoder. A model of its own beside the
+// simulated plant, for the error budget. Values are those of the simulated device where it has
+// them; the rest is an estimate of a 0.3 mm braid.
 #pragma once
 
 #include <cmath>
@@ -40,8 +41,8 @@ public:
         }
     }
 
-    // Path of the string from the pulley's fixed point to the attachment. The pulley swivels about the frame's Y
-    // through its inlet point, which is where the eyelet would be.
+    // Path of the string from the pulley's fixed point to the attachment. The pulley swivels about
+    // the frame's Y through its inlet point, which is where the eyelet would be.
     [[nodiscard]] double path_m(const Vec3 &attachment_m) const {
         const double r = errors_.pulley_radius_m;
         const Vec3 line = attachment_m - exit_m_;

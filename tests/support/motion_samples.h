@@ -71,16 +71,16 @@ inline DeviceModel paper_device() {
 }
 
 // Counts that a device whose true calibration is `device` gives for true lengths with noise.
-inline CountArray counts_of(const DeviceModel &device, const StringArray &lengths_m,
-                            double noise_m, Draw &draw) {
+inline CountArray counts_of(const DeviceModel &device, const StringArray &lengths_m, double noise_m,
+                            Draw &draw) {
     CountArray counts{};
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double wound = lengths_m[i] + noise_m * draw.normal() - device.strings.offset_m[i];
         const double c = device.corrections.winding_curvature_1_m[i];
         const double paid_out = 2.0 * wound / (1.0 + std::sqrt(1.0 + 4.0 * c * wound));
-        counts[i] = device.strings.zero_count[i] +
-                    static_cast<std::int32_t>(
-                        std::lround(paid_out / device.strings.scale_m_per_count[i]));
+        counts[i] =
+            device.strings.zero_count[i] +
+            static_cast<std::int32_t>(std::lround(paid_out / device.strings.scale_m_per_count[i]));
     }
     return counts;
 }

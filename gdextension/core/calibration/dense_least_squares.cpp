@@ -39,7 +39,8 @@ void triangularise(DenseMatrix &a, std::vector<double> &b) {
         const double alpha = std::copysign(norm, -a(k, k));
         double square = 0.0;
         for (std::size_t i = k; i < rows; ++i) {
-            v[i] = (a(i, k) - (i == k ? alpha : 0.0)) / norm; // over norm: no overflow in the square
+            v[i] =
+                (a(i, k) - (i == k ? alpha : 0.0)) / norm; // over norm: no overflow in the square
             square += v[i] * v[i];
         }
         const auto reflect = [&](auto &&element) {
@@ -83,7 +84,8 @@ void orthogonalise(DenseMatrix &u, DenseMatrix &v) {
                 }
                 rotated = true;
                 const double zeta = (qq - pp) / (2.0 * pq);
-                const double t = std::copysign(1.0, zeta) / (std::fabs(zeta) + std::hypot(1.0, zeta));
+                const double t =
+                    std::copysign(1.0, zeta) / (std::fabs(zeta) + std::hypot(1.0, zeta));
                 const double c = 1.0 / std::hypot(1.0, t);
                 const double s = c * t;
                 for (DenseMatrix *m : {&u, &v}) {

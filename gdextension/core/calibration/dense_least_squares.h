@@ -1,6 +1,7 @@
-// Small dense least squares, for calibration: Householder QR, then the singular values of R by one-sided
-// Jacobi rotations. QR never squares the conditioning; the rotations give the small singular values to full relative
-// accuracy, which is what says what a set of measurements cannot tell. Allocates: not for the servo loop.
+// Small dense least squares, for calibration: Householder QR, then the singular values of R by
+// one-sided Jacobi rotations. QR never squares the conditioning; the rotations give the small
+// singular values to full relative accuracy, which is what says what a set of measurements cannot
+// tell. Allocates: not for the servo loop.
 #pragma once
 
 #include <cstddef>
@@ -37,14 +38,14 @@ private:
 };
 
 struct LeastSquaresSolution {
-    // ok; near_singular (directions below the cutoff were left at zero); invalid_settings (no or too many
-    // unknowns, fewer rows than unknowns, sizes that do not match); not_finite.
+    // ok; near_singular (directions below the cutoff were left at zero); invalid_settings (no or
+    // too many unknowns, fewer rows than unknowns, sizes that do not match); not_finite.
     Status status = Status::invalid_settings;
-    std::vector<double> x;         // minimises |A x - b|; the shortest such x when rank deficient
-    double residual_norm = 0.0;    // |A x - b|
-    std::size_t rank = 0;          // singular values above the cutoff
-    std::vector<double> singular;  // descending
-    DenseMatrix right{0};          // column j: the combination of unknowns that belongs to singular[j]
+    std::vector<double> x;        // minimises |A x - b|; the shortest such x when rank deficient
+    double residual_norm = 0.0;   // |A x - b|
+    std::size_t rank = 0;         // singular values above the cutoff
+    std::vector<double> singular; // descending
+    DenseMatrix right{0}; // column j: the combination of unknowns that belongs to singular[j]
 };
 
 // Directions whose singular value is below relative_cutoff * the largest are left out of x.

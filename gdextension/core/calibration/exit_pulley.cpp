@@ -17,7 +17,8 @@ StringArray exit_excess(const FrameGeometry &frame, const GripGeometry &grip,
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Vec3 line = attachment_point(grip, pose, static_cast<int>(i)) - frame.motors_m[i];
         const double inlet_side = glm::dot(frame.motors_m[i], corrections.swivel_axis);
-        // Plane of the pulley: along the axis, outwards from the frame, and across, towards the attachment.
+        // Plane of the pulley: along the axis, outwards from the frame, and across, towards the
+        // attachment.
         const double along =
             glm::dot(line, corrections.swivel_axis) * (inlet_side < 0.0 ? -1.0 : 1.0);
         const double across_square = glm::dot(line, line) - along * along;
@@ -25,8 +26,7 @@ StringArray exit_excess(const FrameGeometry &frame, const GripGeometry &grip,
         const double distance = std::hypot(along, across);
         // Around the rim from the inlet to where the tangent to the attachment leaves.
         const double wrapped = kPi - (std::atan2(along, across) + std::acos(radius / distance));
-        const double path =
-            radius * wrapped + std::sqrt((distance - radius) * (distance + radius));
+        const double path = radius * wrapped + std::sqrt((distance - radius) * (distance + radius));
         const double more = path - glm::length(line);
         excess[i] = std::isfinite(more) ? more : 0.0;
     }

@@ -8,8 +8,7 @@
 namespace spidar {
 
 HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip, const GripPose &home,
-                      const std::vector<CountArray> &repeats,
-                      const StringArray &scale_m_per_count,
+                      const std::vector<CountArray> &repeats, const StringArray &scale_m_per_count,
                       const LengthCorrections &corrections) {
     HomeZero zero;
     if (!is_usable(frame) || !is_usable(grip, frame)) {

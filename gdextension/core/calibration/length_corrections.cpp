@@ -41,8 +41,7 @@ StringArray compensate_stretch(const LengthCorrections &corrections, const Strin
     StringArray lengths = lengths_m;
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double stiffness = corrections.axial_stiffness_n[i];
-        const double strain =
-            (tensions_n[i] - corrections.calibration_tension_n[i]) / stiffness;
+        const double strain = (tensions_n[i] - corrections.calibration_tension_n[i]) / stiffness;
         if (!(stiffness > 0.0) || !std::isfinite(strain)) {
             continue;
         }

@@ -10,7 +10,8 @@ namespace spidar {
 
 namespace {
 
-// Inverse iteration gains a factor (sigma6 / sigma7)^2 a step; where both are close, so is the answer.
+// Inverse iteration gains a factor (sigma6 / sigma7)^2 a step; where both are close, so is the
+// answer.
 constexpr int kInverseIterations = 4;
 // Pivots below this share of the largest are rounding.
 constexpr double kVanishingPivot = 1e-13;
@@ -47,7 +48,8 @@ LengthJacobian::LengthJacobian(const FrameGeometry &frame, const GripGeometry &g
 }
 
 void LengthJacobian::factorise(std::array<StringArray, kDofCount> columns) noexcept {
-    // Reflectors: H_6 ... H_0 J = [R; 0]. Q's columns are H_0 ... H_6 e_k; its eighth is the null vector.
+    // Reflectors: H_6 ... H_0 J = [R; 0]. Q's columns are H_0 ... H_6 e_k; its eighth is the null
+    // vector.
     std::array<StringArray, kDofCount> reflectors{};
     double largest = 0.0;
     double smallest_pivot = HUGE_VAL;

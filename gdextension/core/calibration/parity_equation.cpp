@@ -8,7 +8,8 @@ namespace spidar {
 
 namespace {
 
-// Paid out since the zero count, before the winding: solves m + c m^2 = length - offset, the root near 0.
+// Paid out since the zero count, before the winding: solves m + c m^2 = length - offset, the root
+// near 0.
 double paid_out(const DeviceModel &model, std::size_t i, double length_m) noexcept {
     const double wound = length_m - model.strings.offset_m[i];
     const double curvature = model.corrections.winding_curvature_1_m[i];

@@ -1,4 +1,5 @@
-// The unknowns of self-calibration in the one redundant equation of a pose. Used by self_calibration.cpp.
+// The unknowns of self-calibration in the one redundant equation of a pose. Used by
+// self_calibration.cpp.
 #pragma once
 
 #include "core/calibration/length_jacobian.h"
@@ -16,8 +17,8 @@ namespace spidar {
                                         std::size_t unknown) noexcept;
 
 // nu . length_change of every unknown.
-[[nodiscard]] CalibrationVector parity_row(const DeviceModel &model,
-                                           const LengthJacobian &jacobian, const GripPose &pose,
+[[nodiscard]] CalibrationVector parity_row(const DeviceModel &model, const LengthJacobian &jacobian,
+                                           const GripPose &pose,
                                            const StringArray &lengths_m) noexcept;
 
 } // namespace spidar

@@ -14,7 +14,8 @@ namespace spidar {
 
 namespace {
 
-// Gauss-Newton on a mildly curved problem: 5-10 steps a stage; the bound leaves room for bad starts.
+// Gauss-Newton on a mildly curved problem: 5-10 steps a stage; the bound leaves room for bad
+// starts.
 constexpr int kMaxStageIterations = 30;
 // Steps below this share of a prior are rounding (0.02 m * 1e-9: a thousandth of a nanometre).
 constexpr double kConverged = 1e-9;
@@ -27,7 +28,8 @@ constexpr std::size_t kErrorPoses = 200;
 // Noise is never taken below a nanometre: exact test data would make the priors weightless.
 constexpr double kNoiseFloor_m = 1e-9;
 
-// The exit moves by about 1 % of what the pose does: three rounds leave a micrometre of ten centimetres' wrong start.
+// The exit moves by about 1 % of what the pose does: three rounds leave a micrometre of ten
+// centimetres' wrong start.
 constexpr int kPulleyRounds = 3;
 
 using Unknowns = std::vector<std::size_t>;
@@ -128,7 +130,8 @@ KinematicsResult solve_sample(const DeviceModel &model, ForwardKinematics &kinem
     return solved;
 }
 
-// The equations of a stage at the model as it stands; poses are kept in the samples for the next time.
+// The equations of a stage at the model as it stands; poses are kept in the samples for the next
+// time.
 System equations(const DeviceModel &model, const SelfCalibrationSettings &settings,
                  std::vector<Sample> &samples, std::size_t count) {
     System system;
@@ -215,7 +218,8 @@ double rms(const std::vector<double> &values) {
     return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-// Expected error of the grip centre over the poses: motion of it by each unknown, times their covariance.
+// Expected error of the grip centre over the poses: motion of it by each unknown, times their
+// covariance.
 double grip_error(const DeviceModel &model, const System &system, const Unknowns &unknowns,
                   const CalibrationVector &prior, const DenseMatrix &covariance) {
     const std::size_t stride = std::max<std::size_t>(1, system.poses.size() / kErrorPoses);
@@ -259,8 +263,7 @@ void report(SelfCalibrationResult &result, const System &system, const Unknowns 
         }
         result.weak.push_back(weak);
     }
-    const DenseMatrix covariance =
-        inverse_normal(solve(system, unknowns, prior, &result.change));
+    const DenseMatrix covariance = inverse_normal(solve(system, unknowns, prior, &result.change));
     double offsets = 0.0;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
         const std::size_t unknown = unknowns[j];

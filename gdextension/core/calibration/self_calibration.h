@@ -1,12 +1,12 @@
-// Calibration without instruments: the grip is moved and turned freely by hand, and the one redundant length
-// of eight strings on seven degrees of freedom gives one equation a pose,
+// Calibration without instruments: the grip is moved and turned freely by hand, and the one
+// redundant length of eight strings on seven degrees of freedom gives one equation a pose,
 //   nu . (measured - computed lengths) = 0,   nu: LengthJacobian::null_vector(),
 // for what is wrong with the strings (offsets, gains, winding) and with the frame and pole sizes.
 //
-// Staged outward from where the counts were zeroed: offsets from the most central poses, then the gains over more of
-// them, then everything over all. Each stage is Gauss-Newton with outliers and near-singular poses left out. What
-// the poses cannot tell stays near its starting value, by the priors, and is named in the result.
-// Allocates: not for the servo loop.
+// Staged outward from where the counts were zeroed: offsets from the most central poses, then the
+// gains over more of them, then everything over all. Each stage is Gauss-Newton with outliers and
+// near-singular poses left out. What the poses cannot tell stays near its starting value, by the
+// priors, and is named in the result. Allocates: not for the servo loop.
 #pragma once
 
 #include <array>
@@ -28,9 +28,10 @@ struct DeviceModel {
     LengthCorrections corrections; // self-calibration reads the pulley, and fits the winding
 };
 
-// The size that is known to be true: without one, all lengths could be scaled alike and nothing would show.
-// none: the scales are known instead, from fit_string_scale(); set gain_prior to what they are worth (0.002). Better
-// where the strings leave over pulleys, as their exits are then not quite where the frame's corners are.
+// The size that is known to be true: without one, all lengths could be scaled alike and nothing
+// would show. none: the scales are known instead, from fit_string_scale(); set gain_prior to what
+// they are worth (0.002). Better where the strings leave over pulleys, as their exits are then not
+// quite where the frame's corners are.
 enum class TrueSize : std::uint8_t { frame_x, frame_y, frame_z, pole, none };
 
 struct SelfCalibrationSettings {
@@ -38,7 +39,8 @@ struct SelfCalibrationSettings {
     bool fit_winding = false; // one curvature a string; needs fit_gains
     bool fit_sizes = false;   // frame sizes along x, y, z and the pole half length; needs fit_gains
     TrueSize true_size = TrueSize::frame_x;
-    // What the start is worth (standard deviations). Generous: they hold only what the poses leave open.
+    // What the start is worth (standard deviations). Generous: they hold only what the poses leave
+    // open.
     double offset_prior_m = 0.02;
     double gain_prior = 0.05;
     double winding_prior_1_m = 0.1;
@@ -46,7 +48,8 @@ struct SelfCalibrationSettings {
     // Share of the poses, the least travelled first, for the first and the second stage.
     double central_share = 0.3;
     double middle_share = 0.6;
-    // Poses whose smallest singular value is lower hold amplified noise (research: 0.3-0.7 mm outliers below 0.25).
+    // Poses whose smallest singular value is lower hold amplified noise (research: 0.3-0.7 mm
+    // outliers below 0.25).
     double min_singular = 0.25;
     // Equations further out than this many robust standard deviations (1.4826 MAD) are left out.
     double outlier_sigmas = 5.0;
@@ -73,10 +76,11 @@ struct SelfCalibrationResult {
     CalibrationVector change{};         // from the start: m, relative, 1/m, relative
     CalibrationVector expected_error{}; // standard errors of the same
     double offset_error_rms_m = 0.0;    // expected, rms over the eight offsets
-    double grip_error_rms_m = 0.0;      // expected error of the grip centre over the poses used, from the calibration
-    double parity_rms_m = 0.0;          // of the equations used: noise and what the model leaves out
-    // Singular values of the fitted part, each unknown in units of its prior and the noise as unit: expected error
-    // of a combination / prior = 1 / value. Descending.
+    double grip_error_rms_m =
+        0.0; // expected error of the grip centre over the poses used, from the calibration
+    double parity_rms_m = 0.0; // of the equations used: noise and what the model leaves out
+    // Singular values of the fitted part, each unknown in units of its prior and the noise as unit:
+    // expected error of a combination / prior = 1 / value. Descending.
     std::vector<double> singular;
     std::vector<WeakCombination> weak; // left open by more than a tenth of its prior
     int used = 0;
@@ -95,7 +99,8 @@ struct SelfCalibrationResult {
 [[nodiscard]] std::string validate(const SelfCalibrationSettings &settings);
 // "offset of string 3", "gain of string 1", "frame size along z".
 [[nodiscard]] std::string unknown_name(std::size_t unknown);
-// "left open to 45 % of what was assumed: + offset of string 1 - gain of string 1 ..."; the largest parts.
+// "left open to 45 % of what was assumed: + offset of string 1 - gain of string 1 ..."; the largest
+// parts.
 [[nodiscard]] std::string describe(const WeakCombination &combination);
 
 } // namespace spidar

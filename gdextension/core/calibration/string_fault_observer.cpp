@@ -14,21 +14,24 @@ namespace {
 constexpr double kMisfitCap = 60.0;
 // Starting variance of a string's error: a slip of 30 mm is large.
 constexpr double kStartError_m = 0.03;
-// A slipped string stays where it slipped to: the drift (standard deviation in one second) only lets the filter
-// recover from its first linear guess. A slack one moves by a centimetre in a second.
+// A slipped string stays where it slipped to: the drift (standard deviation in one second) only
+// lets the filter recover from its first linear guess. A slack one moves by a centimetre in a
+// second.
 constexpr double kSlipDrift_m = 2e-3;
 constexpr double kSlackDrift_m = 0.008;
-// The parity weights are those of a pose that the error itself displaced: error of the linear equation.
+// The parity weights are those of a pose that the error itself displaced: error of the linear
+// equation.
 constexpr double kLinearError = 0.05;
-// An explanation must fit to this mean squared misfit, and others fit worse by this factor and difference.
+// An explanation must fit to this mean squared misfit, and others fit worse by this factor and
+// difference.
 constexpr double kFits = 3.0;
 constexpr double kWorseFactor = 1.3;
 constexpr double kWorseBy = 0.3;
 // Filled part of the scores' memory before anything is said.
 constexpr double kEnoughWeight = 0.3;
 constexpr int kDecisionTicks = 16;
-// A count that stays within this of its anchor has not moved (encoder flicker) while the other seven strings
-// travelled this far together.
+// A count that stays within this of its anchor has not moved (encoder flicker) while the other
+// seven strings travelled this far together.
 constexpr std::int32_t kStillCounts = 2;
 constexpr double kOthersTravel_m = 0.3;
 // Wrong wiring errs by centimetres once the grip moves; below this it need not be tried.
@@ -132,8 +135,8 @@ const FaultEvidence &StringFaultObserver::update(const CountArray &counts,
     watch_counts(counts, lengths_m);
     // At the least-squares pose all of the residual lies along the null vector.
     const bool fits = usable(solved.status) && std::isfinite(solved.residual_rms_m);
-    const double error = fits ? solved.residual_rms_m * std::sqrt(double{kStringCount})
-                              : kUnsolved_m;
+    const double error =
+        fits ? solved.residual_rms_m * std::sqrt(double{kStringCount}) : kUnsolved_m;
     const double gain = std::fmin(1.0, 3.0 * settings_.tick_s / settings_.window_s);
     parity_square_m2_ += gain * (error * error - parity_square_m2_);
     evidence_.parity_rms_m = std::sqrt(parity_square_m2_);
@@ -180,9 +183,11 @@ StringFaultObserver::Parity StringFaultObserver::parity(const StringArray &lengt
     return parity;
 }
 
-// parity is that of lengths with corrected_m taken off this string: what is left is w (error - corrected).
+// parity is that of lengths with corrected_m taken off this string: what is left is w (error -
+// corrected).
 void StringFaultObserver::advance(Filter &filter, const Parity &parity, std::size_t string,
-                                  double corrected_m, double drift_m2, bool positive_only) noexcept {
+                                  double corrected_m, double drift_m2,
+                                  bool positive_only) noexcept {
     const double period = kStringCount * settings_.tick_s;
     const double gain = std::fmin(1.0, period / settings_.window_s);
     if (!parity.solved) {
@@ -197,7 +202,8 @@ void StringFaultObserver::advance(Filter &filter, const Parity &parity, std::siz
     filter.variance_m2 += drift_m2 * period;
     const double spread = weight * weight * filter.variance_m2 + noise;
     const double square = innovation * innovation;
-    // In units of the noise, not of the filter's own spread: a filter that expects anything explains nothing.
+    // In units of the noise, not of the filter's own spread: a filter that expects anything
+    // explains nothing.
     filter.misfit.add(
         std::fmin(square / (settings_.parity_noise_m * settings_.parity_noise_m), kMisfitCap),
         gain);
@@ -325,8 +331,8 @@ void StringFaultObserver::decide() noexcept {
         candidate.other = k < kPairs ? kPairTable[k][1] : -1;
         offer(wirings_[k].misfit, candidate);
     }
-    const bool small = best.fault == StringFault::slipped &&
-                       !(std::fabs(best.error_m) >= settings_.min_error_m);
+    const bool small =
+        best.fault == StringFault::slipped && !(std::fabs(best.error_m) >= settings_.min_error_m);
     if (enough && !small && best.misfit <= kFits &&
         best.next_misfit >= kWorseFactor * best.misfit &&
         best.next_misfit >= best.misfit + kWorseBy) {

@@ -1,12 +1,15 @@
-// Which string is slack, slipped, stuck, swapped or wound the other way? Eight lengths on seven degrees of freedom
-// leave one equation a pose; over a motion its weights change, so that one wrong string explains all of them and
-// the others do not.
+// Which string is slack, slipped, stuck, swapped or wound the other way? Eight lengths on seven
+// degrees of freedom leave one equation a pose; over a motion its weights change, so that one wrong
+// string explains all of them and the others do not.
 //
-// Servo-safe: update() allocates nothing and does bounded work. While the lengths fit, that is one comparison. Once they do
-// not, two suspicions a tick are tried in turn, each by solving the pose from the lengths it would correct:
-//   eight strings: one length off by an error that stays (slipped) or is positive and varies (slack), estimated by
-//   a scalar Kalman filter each; 28 pairs swapped; 8 strings wound the other way.
-// A stuck string needs no solving: its count stands still while the others move and the lengths do not fit.
+// Servo-safe: update() allocates nothing and does bounded work. While the lengths fit, that is one
+// comparison. Once they do not, two suspicions a tick are tried in turn, each by solving the pose
+// from the lengths it would correct:
+//   eight strings: one length off by an error that stays (slipped) or is positive and varies
+//   (slack), estimated by a scalar Kalman filter each; 28 pairs swapped; 8 strings wound the other
+//   way.
+// A stuck string needs no solving: its count stands still while the others move and the lengths do
+// not fit.
 #pragma once
 
 #include "core/forward_kinematics.h"
@@ -36,8 +39,8 @@ struct FaultEvidence {
     int string = -1;      // 0-7
     int other = -1;       // swapped: the second string, string < other
     double error_m = 0.0; // slipped, slack: how much too long the string reads
-    // Mean squared misfit, in units of parity_noise_m, of the best explanation and of the best one about
-    // another string. Far apart = sure.
+    // Mean squared misfit, in units of parity_noise_m, of the best explanation and of the best one
+    // about another string. Far apart = sure.
     double misfit = 0.0;
     double next_misfit = 0.0;
     double parity_rms_m = 0.0; // of the lengths as they are
@@ -51,15 +54,16 @@ public:
                      const FaultObserverSettings &settings) noexcept;
     void reset() noexcept;
 
-    // One servo tick: the counts, the lengths made of them, and what the servo's kinematics found for these.
-    // Lengths that are not finite are skipped.
+    // One servo tick: the counts, the lengths made of them, and what the servo's kinematics found
+    // for these. Lengths that are not finite are skipped.
     const FaultEvidence &update(const CountArray &counts, const StringArray &lengths_m,
                                 const KinematicsResult &solved) noexcept;
     [[nodiscard]] const FaultEvidence &evidence() const noexcept { return evidence_; }
 
 private:
     static constexpr std::size_t kPairs = 28;
-    static constexpr std::size_t kWiring = kPairs + kStringCount; // swapped pairs, then reversed strings
+    static constexpr std::size_t kWiring =
+        kPairs + kStringCount; // swapped pairs, then reversed strings
 
     // Mean of the last values, each weighing less than the next.
     struct Mean {
@@ -121,8 +125,8 @@ private:
     std::size_t next_string_ = 0;
     std::size_t next_wiring_ = 0;
     int ticks_to_decision_ = 0;
-    CountArray anchor_counts_{};   // where each string was when its count last moved
-    StringArray travel_m_{};       // of the other strings since then
+    CountArray anchor_counts_{}; // where each string was when its count last moved
+    StringArray travel_m_{};     // of the other strings since then
     StringArray last_lengths_m_{};
     bool has_last_ = false;
     FaultEvidence evidence_;

@@ -81,8 +81,7 @@ StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs) {
     fit.offset_m = line.x[0] - fit.scale_m_per_count * middle;
     double square = 0.0;
     for (const CountLengthPair &pair : pairs) {
-        const double error =
-            pair.length_m - (fit.offset_m + fit.scale_m_per_count * pair.count);
+        const double error = pair.length_m - (fit.offset_m + fit.scale_m_per_count * pair.count);
         square += error * error;
         fit.residual_max_m = std::fmax(fit.residual_max_m, std::fabs(error));
     }
@@ -93,8 +92,8 @@ StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs) {
         const DenseMatrix inverse = inverse_normal(line);
         const double t = middle / range;
         fit.scale_error_m_per_count = std::sqrt(variance * inverse(1, 1)) / range;
-        fit.offset_error_m = std::sqrt(
-            variance * (inverse(0, 0) - 2.0 * t * inverse(0, 1) + t * t * inverse(1, 1)));
+        fit.offset_error_m =
+            std::sqrt(variance * (inverse(0, 0) - 2.0 * t * inverse(0, 1) + t * t * inverse(1, 1)));
     }
     pool_spread(pairs, fit);
     return fit;

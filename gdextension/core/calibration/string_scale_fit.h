@@ -16,16 +16,18 @@ struct CountLengthPair {
 };
 
 struct StringScaleFit {
-    // ok; too_few_samples (fewer than two different counts); not_finite. Negative: the rest is zero.
+    // ok; too_few_samples (fewer than two different counts); not_finite. Negative: the rest is
+    // zero.
     Status status = Status::too_few_samples;
-    double offset_m = 0.0;           // length at count 0
-    double scale_m_per_count = 0.0;  // negative: wound the other way
-    double offset_error_m = 0.0;     // expected (standard) errors of both
+    double offset_m = 0.0;          // length at count 0
+    double scale_m_per_count = 0.0; // negative: wound the other way
+    double offset_error_m = 0.0;    // expected (standard) errors of both
     double scale_error_m_per_count = 0.0;
-    double residual_rms_m = 0.0;     // of the fit
+    double residual_rms_m = 0.0; // of the fit
     double residual_max_m = 0.0;
-    // Spread of repeated trials about their own mean, pooled over all points with two or more (unit: m of string).
-    // A residual much larger than the spread is the string's own curve (winding), not chance.
+    // Spread of repeated trials about their own mean, pooled over all points with two or more
+    // (unit: m of string). A residual much larger than the spread is the string's own curve
+    // (winding), not chance.
     double repeat_spread_m = 0.0;
     int repeated_points = 0;
 };
