@@ -154,8 +154,8 @@ bool evaluate(const DeviceModel &model, const Recording &held_out, Errors &error
     return true;
 }
 
-DeviceModel with_stretch(DeviceModel model) {
-    model.corrections.axial_stiffness_n.fill(kKnownEa * LengthErrors{}.axial_stiffness_n);
+DeviceModel with_stretch(DeviceModel model, double axial_stiffness_n) {
+    model.corrections.axial_stiffness_n.fill(kKnownEa * axial_stiffness_n);
     model.corrections.calibration_tension_n.fill(kCalibration_n);
     return model;
 }
@@ -208,7 +208,7 @@ void calibrate_and_measure(const LengthErrors &length_errors, std::uint64_t seed
     for (std::size_t k = first_level; k < kLevelCount; ++k) {
         const Level &level = kLevels[k];
         DeviceModel model = level.pulley ? full : level.ruler ? ruled : start;
-        model = level.stretch ? with_stretch(model) : model;
+        model = level.stretch ? with_stretch(model, length_errors.axial_stiffness_n) : model;
         if (level.calibrate) {
             SelfCalibrationSettings settings;
             settings.fit_gains = level.gains;

@@ -32,6 +32,7 @@ HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip, cons
     StringArray spread{};
     for (std::size_t i = 0; i < kStringCount; ++i) {
         std::vector<std::int32_t> counts;
+        counts.reserve(repeats.size());
         for (const CountArray &repeat : repeats) {
             counts.push_back(repeat[i]);
         }

@@ -292,7 +292,7 @@ SelfCalibrationResult refusal(const DeviceModel &start, Status status) {
 } // namespace
 
 SelfCalibrationResult self_calibrate(const DeviceModel &start,
-                                     const std::vector<CountArray> &counts,
+                                     const std::vector<CountArray> &samples,
                                      const SelfCalibrationSettings &settings) {
     if (!validate(settings).empty()) {
         return refusal(start, Status::invalid_settings);
@@ -304,27 +304,28 @@ SelfCalibrationResult self_calibrate(const DeviceModel &start,
         return refusal(start, Status::invalid_calibration);
     }
     const CalibrationVector prior = priors(settings);
-    std::vector<Sample> samples;
-    for (const CountArray &one : counts) {
+    std::vector<Sample> ordered;
+    ordered.reserve(samples.size());
+    for (const CountArray &one : samples) {
         const StringArray lengths = lengths_from_counts(start.strings, one);
         double square = 0.0;
         for (std::size_t i = 0; i < kStringCount; ++i) {
             const double travel = lengths[i] - start.strings.offset_m[i];
             square += travel * travel;
         }
-        samples.push_back({&one, square, {}, false});
+        ordered.push_back({&one, square, {}, false});
     }
-    std::stable_sort(samples.begin(), samples.end(),
+    std::stable_sort(ordered.begin(), ordered.end(),
                      [](const Sample &a, const Sample &b) { return a.travel < b.travel; });
 
     SelfCalibrationResult result;
     result.model = start;
-    const std::vector<Stage> stages = stages_of(settings, samples.size());
+    const std::vector<Stage> stages = stages_of(settings, ordered.size());
     System system;
     for (const Stage &stage : stages) {
         double step = HUGE_VAL;
         for (int i = 0; i < kMaxStageIterations && step > kConverged; ++i, ++result.iterations) {
-            system = equations(result.model, settings, samples, stage.samples);
+            system = equations(result.model, settings, ordered, stage.samples);
             if (system.rows.size() < stage.unknowns.size()) {
                 SelfCalibrationResult refused = refusal(start, Status::too_few_samples);
                 refused.used = static_cast<int>(system.rows.size());
@@ -353,7 +354,7 @@ SelfCalibrationResult self_calibrate(const DeviceModel &start,
             }
         }
     }
-    system = equations(result.model, settings, samples, samples.size());
+    system = equations(result.model, settings, ordered, ordered.size());
     if (system.rows.size() < stages.back().unknowns.size()) {
         return refusal(start, Status::too_few_samples);
     }
