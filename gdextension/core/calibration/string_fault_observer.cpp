@@ -14,6 +14,9 @@ namespace {
 constexpr double kMisfitCap = 60.0;
 // Starting variance of a string's error: a slip of 30 mm is large.
 constexpr double kStartError_m = 0.03;
+// An innovation of more than five standard deviations reopens a filter to errors of this size.
+constexpr double kSurprise = 25.0;
+constexpr double kRelearn_m = 0.01;
 // A slipped string stays where it slipped to: the drift (standard deviation in one second) only
 // lets the filter recover from its first linear guess. A slack one moves by a centimetre in a
 // second.
@@ -200,6 +203,11 @@ void StringFaultObserver::advance(Filter &filter, const Parity &parity, std::siz
     const double linear = kLinearError * off;
     const double noise = settings_.parity_noise_m * settings_.parity_noise_m + linear * linear;
     filter.variance_m2 += drift_m2 * period;
+    const double expected = weight * weight * filter.variance_m2 + noise;
+    if (!positive_only && innovation * innovation > kSurprise * expected) {
+        // Its first, linear guess was wrong: learn again. The misfit below remembers the surprise.
+        filter.variance_m2 = std::fmax(filter.variance_m2, kRelearn_m * kRelearn_m);
+    }
     const double spread = weight * weight * filter.variance_m2 + noise;
     const double square = innovation * innovation;
     // In units of the noise, not of the filter's own spread: a filter that expects anything
