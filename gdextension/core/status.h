@@ -26,7 +26,7 @@ enum class Status : std::int32_t {
     not_converged = -8,       // iteration bound reached; the last good value stands
     count_jump = -9,          // an encoder moved faster than a string can
     invalid_request = -10,    // wrench or contact data malformed
-    too_few_samples = -11, // calibration: not enough usable measurements
+    too_few_samples = -11,    // calibration: not enough usable measurements
     // Device.
     not_open = -20,
     open_failed = -21,
