@@ -20,6 +20,9 @@ const char *describe(Status status) noexcept {
         return "A request exceeded its limit and was brought down to it, direction kept.";
     case Status::request_expired:
         return "The request was not renewed in time and has faded out.";
+    case Status::weakly_observed:
+        return "The motion leaves some combination of the calibration open; move and turn the grip "
+               "more widely.";
     case Status::not_finite:
         return "An input is NaN or infinite; nothing was changed.";
     case Status::invalid_geometry:
@@ -43,6 +46,8 @@ const char *describe(Status status) noexcept {
         return "An encoder moved faster than a string can; check the cable and the counts.";
     case Status::invalid_request:
         return "The wrench or contact data is malformed; the request was ignored.";
+    case Status::too_few_samples:
+        return "There are not enough usable measurements to calibrate from; record more.";
     case Status::not_open:
         return "The device is not open; open it first.";
     case Status::open_failed:

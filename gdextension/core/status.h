@@ -14,6 +14,7 @@ enum class Status : std::int32_t {
     wrench_limited = 4,  // strings at a bound: the wrench given differs from the one asked for
     request_clamped = 5, // a finite request was brought down to its limit, direction kept
     request_expired = 6, // the game stopped asking; the request faded out
+    weakly_observed = 7, // calibration: the motion leaves some combination of values open
     // Bad input: nothing moved, state unchanged.
     not_finite = -1,          // NaN or infinity in an input
     invalid_geometry = -2,    // frame or grip impossible (zero, negative, not finite)
@@ -25,6 +26,7 @@ enum class Status : std::int32_t {
     not_converged = -8,       // iteration bound reached; the last good value stands
     count_jump = -9,          // an encoder moved faster than a string can
     invalid_request = -10,    // wrench or contact data malformed
+    too_few_samples = -11,    // calibration: not enough usable measurements
     // Device.
     not_open = -20,
     open_failed = -21,
