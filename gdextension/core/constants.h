@@ -15,6 +15,9 @@ inline constexpr double kParallelAngle_rad = 1e-4;
 inline constexpr double kMaxFrameExtent_m = 10.0;
 inline constexpr double kMinPoleHalfLength_m = 1e-3;
 
+// No string is longer: the diagonal of the largest frame is 35 m.
+inline constexpr double kLongestString_m = 40.0;
+
 // Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
 inline constexpr double kImpossibleResidual_m = 0.020;
 
@@ -45,6 +48,31 @@ inline constexpr double kDistinctPose_m = 1e-5;
 // leave a direction open to 1 % (flag); below the second, to the square root of rounding (refuse).
 inline constexpr double kNearSingularPivot = 1e-4;
 inline constexpr double kRankDeficientPivot = 1e-12;
+
+// Error that a step of size s leaves behind: about this times s^2, in metres. The poles are the most curved
+// part of the map, 1 / d = 25 for the paper's grip. Divided by the root of the pivot where that is small.
+inline constexpr double kLengthCurvature = 25.0;
+// A residual bends the steps as a step of this many times its size does.
+inline constexpr double kResidualCurvature = 4.0;
+// A warm tick is done when the error it leaves is below the first of these, or below the second part of what
+// the lengths themselves err by: their residual.
+inline constexpr double kTrackingFloor_m = 1e-12;
+inline constexpr double kTrackingShare = 1e-3;
+// The pose foreseen from the last two is used while it was at least this much nearer than the last pose.
+inline constexpr double kForeseenShare = 0.5;
+
+// Search: fast steps before the damped method takes over. Good lengths need 1-5 of them.
+inline constexpr int kMaxRefineSteps = 10;
+// Steps that shrink by less than this are left to the Newton method.
+inline constexpr double kSlowestRate = 0.3;
+// A factorisation made this near serves the next step as well.
+inline constexpr double kRefactorStep_m = 1e-5;
+// A start is given up when its settling residual (last step lowered the sum of squares by less than the second
+// figure) is this many times what still matters.
+inline constexpr double kHopelessFactor = 2.0;
+inline constexpr double kSettledDecrease = 0.2;
+// Largest misfit of a root pair per residual of the lengths, far from the z faces.
+inline constexpr double kMisfitGain = 5.0;
 
 // Newton to convergence: bound, and the step at which double precision ends. Quadratic convergence
 // takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.

@@ -2,13 +2,10 @@
 
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 #include "core/closed_form.h"
 #include "core/constants.h"
 #include "core/gauss_newton.h"
-#include "core/pose_polish.h"
-#include "core/pose_starts.h"
+#include "core/pose_search.h"
 
 namespace spidar {
 
@@ -23,55 +20,27 @@ bool all_finite(const StringArray &lengths_m) noexcept {
     return true;
 }
 
-bool all_positive(const StringArray &lengths_m) noexcept {
+bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
-        if (!(length > 0.0)) {
+        if (!(length > 0.0 && length <= kLongestString_m)) {
             return false;
         }
     }
     return true;
 }
 
-// Whether a pose that fits to `candidate_m` replaces one that came first and fits to `first_m`.
-bool replaces(double candidate_m, double first_m) noexcept {
-    if (first_m <= kResidualFloor_m) {
-        return false;
-    }
-    const double factor = first_m > kSuspiciousResidual_m ? kClearlyBetter : kBeyondChance;
-    return candidate_m < factor * first_m;
+double squared(const CrossedPose &change) noexcept {
+    return dot(change.position_m, change.position_m)[0] +
+           sum_of(dot(change.poles_m, change.poles_m));
 }
 
-double pole_distance(const GripPose &a, const GripPose &b) noexcept {
-    return std::fmax(glm::distance(a.position_m, b.position_m),
-                     std::fmax(glm::distance(a.r1_m, b.r1_m), glm::distance(a.r2_m, b.r2_m)));
+// The pose one change on. Poles back on their spheres to second order: a start needs no more.
+CrossedPose foreseen(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
+    const LaneVec poles = pose.poles_m + change.poles_m;
+    const Lanes excess = dot(poles, poles) * both(1.0 / (d * d)) - both(1.0);
+    const Lanes scale = both(1.0) + excess * (both(0.375) * excess - both(0.5));
+    return {pose.position_m + change.position_m, scale * poles};
 }
-
-// The best pose so far, and whether another one far from it fits as well.
-struct Search {
-    PolishResult best;
-    bool any = false;
-    bool ambiguous = false;
-    int steps = 0;
-
-    void offer(const PolishResult &candidate) noexcept {
-        steps += candidate.steps;
-        if (!std::isfinite(candidate.residual_rms_m)) {
-            return;
-        }
-        if (!any) {
-            best = candidate;
-            any = true;
-            return;
-        }
-        const bool another = pole_distance(candidate.pose, best.pose) > kDistinctPose_m;
-        if (another && replaces(candidate.residual_rms_m, best.residual_rms_m)) {
-            ambiguous = false;
-            best = candidate;
-        } else if (another && !replaces(best.residual_rms_m, candidate.residual_rms_m)) {
-            ambiguous = true;
-        }
-    }
-};
 
 } // namespace
 
@@ -84,12 +53,15 @@ Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeomet
     const std::optional<Vec3> box = box_half_extents(frame);
     is_box_ = box.has_value();
     half_extents_m_ = box.value_or(Vec3(0.0));
+    crossed_ = make_layout(frame, grip, layout_);
+    closed_form_ = is_box_ && has_paper_attachments(grip);
     last_pose_ = rest_pose(grip);
-    warm_ = false;
+    reset();
     return Status::ok;
 }
 
 void ForwardKinematics::set_last_pose(const GripPose &pose) noexcept {
+    reset();
     last_pose_ = pose;
     warm_ = true;
 }
@@ -127,9 +99,64 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     if (!all_finite(lengths_m)) {
         return hold(result, Status::not_finite);
     }
-    if (!all_positive(lengths_m)) {
+    if (!all_possible(lengths_m)) {
         return hold(result, Status::impossible_lengths);
     }
+    return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
+}
+
+KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
+    const double d = layout_.pole_half_length_m;
+    const CrossedPose last = lanes_of(last_pose_);
+    CrossedPose pose = foresee_ ? foreseen(last, last_change_, d) : last;
+    CrossedErrors errors = errors_at(layout_, lengths_m, pose);
+    CrossedFactor factor = factorise(errors, pose, d);
+    const CrossedStep first = solve(factor, errors);
+    if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
+        const bool forget =
+            !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
+        return search(lengths_m, forget ? nullptr : &last_pose_);
+    }
+    pose = moved(pose, first, d);
+    errors = errors_at(layout_, lengths_m, pose);
+    KinematicsResult result;
+    result.steps = 1;
+    result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
+    // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
+    // factorisation (k s)^2 s.
+    const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
+    const double allowed = enough_m * enough_m * factor.min_pivot;
+    const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
+    if (!(bend2 * first.size_m2 <= allowed)) {
+        const bool again = bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot;
+        if (!again) {
+            factor = factorise(errors, pose, d);
+        }
+        const CrossedStep second =
+            again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
+        if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
+            return search(lengths_m, &last_pose_);
+        }
+        pose = moved(pose, second, d);
+        result.steps = 2;
+        const double left_m2 = errors.sum_of_squares_m2 - second.decrease_m2;
+        result.residual_rms_m = std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
+    }
+    if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
+        return search(lengths_m, &last_pose_);
+    }
+    const CrossedPose change{pose.position_m - last.position_m, pose.poles_m - last.poles_m};
+    const CrossedPose surprise{change.position_m - last_change_.position_m,
+                               change.poles_m - last_change_.poles_m};
+    foresee_ = squared(surprise) < kForeseenShare * kForeseenShare * squared(change);
+    last_change_ = change;
+    result.pose = pose_of(pose);
+    result.conditioning = factor.min_pivot;
+    return accept(result);
+}
+
+// Grips with other than two strings to a pole end.
+KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
     GripPose pose = last_pose_;
     const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
@@ -143,6 +170,7 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
         !(residual_rms_m <= kWarmResidualGate_m)) {
         return search(lengths_m, &last_pose_);
     }
+    KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
     result.conditioning = second.min_pivot;
@@ -156,38 +184,21 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
     if (!all_finite(lengths_m)) {
         return hold(result, Status::not_finite);
     }
-    if (!all_positive(lengths_m)) {
+    if (!all_possible(lengths_m)) {
         return hold(result, Status::impossible_lengths);
     }
     return search(lengths_m, nullptr);
 }
 
-// Every start worth trying, the preferred one first: the remembered pose, the upright root pair, the others.
 KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
                                            const GripPose *remembered) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
-    Search found;
-    if (remembered != nullptr) {
-        found.offer(polish_pose(problem, *remembered));
+    SearchTools tools;
+    tools.layout = crossed_ ? &layout_ : nullptr;
+    if (closed_form_) {
+        tools.closed_form_half_extents_m = half_extents_m_;
     }
-    if (is_box_ && has_paper_attachments(grip_)) {
-        for (int pair = 0; pair < kRootPairCount; ++pair) {
-            // A pose that explains the lengths fully needs no rival.
-            if (found.any && found.best.residual_rms_m <= kResidualFloor_m) {
-                break;
-            }
-            found.offer(
-                polish_pose(problem, closed_form_pose(half_extents_m_, grip_.pole_half_length_m,
-                                                      lengths_m, pair)));
-        }
-    } else {
-        for (int start = 0; start < kStartCount; ++start) {
-            if (found.any && found.best.residual_rms_m <= kResidualFloor_m) {
-                break;
-            }
-            found.offer(polish_pose(problem, start_pose(problem, start)));
-        }
-    }
+    const SearchResult found = search_pose(problem, tools, remembered);
     KinematicsResult result;
     result.cold_start = true;
     result.steps = found.steps;
@@ -203,6 +214,8 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
     if (found.ambiguous) {
         result.status = Status::ambiguous_pose;
     }
+    foresee_ = false;
+    last_change_ = CrossedPose();
     return accept(result);
 }
 

@@ -166,7 +166,7 @@ TEST_CASE("kinematics: noisy lengths end at the least-squares pose, cold and war
     }
 }
 
-TEST_CASE("kinematics: warm tracking of T1 with two steps a tick") {
+TEST_CASE("kinematics: warm tracking of T1 with at most two steps a tick") {
     Rig rig;
     double worst = 0.0;
     int cold_starts = 0;
@@ -176,12 +176,12 @@ TEST_CASE("kinematics: warm tracking of T1 with two steps a tick") {
         REQUIRE(usable(result.status));
         cold_starts += result.cold_start ? 1 : 0;
         if (!result.cold_start) {
-            CHECK(result.steps == 2);
+            CHECK(result.steps <= 2);
         }
         worst = std::fmax(worst, test::distance(result.pose, truth));
     }
     CHECK(cold_starts == 1); // the first tick only
-    CHECK(worst < 1e-9);
+    CHECK(worst < 2e-11);
 }
 
 TEST_CASE("kinematics: after a jump of the pose the next tick is right") {
