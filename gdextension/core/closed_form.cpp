@@ -12,7 +12,8 @@ constexpr double kSmallestDistance_m = 1e-12;
 constexpr double kFuseSlack_m = 1e-6;
 // cos(t/2) = s for cos(3t/2) = w and t in [0, pi/3] solves 4 s^3 - 3 s = w: cubic Hermite through both ends of
 // s(w), wrong by less than 2e-4, then Newton steps, each of which squares that.
-constexpr double kStart0 = 0.86602540378443865; // sqrt(3)/2, where s' = 1/6; at w = 1 s = 1, s' = 1/9
+constexpr double kStart0 =
+    0.86602540378443865; // sqrt(3)/2, where s' = 1/6; at w = 1 s = 1, s' = 1/9
 constexpr double kStart1 = 1.0 / 6.0;
 constexpr double kStart3 = 2.0 * kStart0 + kStart1 + 1.0 / 9.0 - 2.0;
 constexpr double kStart2 = 1.0 - kStart0 - kStart1 - kStart3;

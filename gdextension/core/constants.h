@@ -57,9 +57,9 @@ inline constexpr double kResidualCurvature = 4.0;
 // A warm tick is done when the error it leaves is below the first of these, or below the second part of what
 // the lengths themselves err by: their residual.
 inline constexpr double kTrackingFloor_m = 1e-12;
-inline constexpr double kTrackingShare = 1e-3;
-// The pose foreseen from the last two is used while it was at least this much nearer than the last pose.
-inline constexpr double kForeseenShare = 0.5;
+inline constexpr double kTrackingShare = 1e-2;
+// A higher order of extrapolation is used when its squared miss was this much smaller.
+inline constexpr double kForeseenShare = 0.25;
 
 // Search: fast steps before the damped method takes over. Good lengths need 1-5 of them.
 inline constexpr int kMaxRefineSteps = 10;
@@ -67,12 +67,12 @@ inline constexpr int kMaxRefineSteps = 10;
 inline constexpr double kSlowestRate = 0.3;
 // A factorisation made this near serves the next step as well.
 inline constexpr double kRefactorStep_m = 1e-5;
-// A start is given up when its settling residual (last step lowered the sum of squares by less than the second
-// figure) is this many times what still matters.
-inline constexpr double kHopelessFactor = 2.0;
+// A residual settles when a step lowers the sum of squares by less than this part: what is above all that
+// matters then stays there.
 inline constexpr double kSettledDecrease = 0.2;
-// Largest misfit of a root pair per residual of the lengths, far from the z faces.
-inline constexpr double kMisfitGain = 5.0;
+// Largest misfit of a root pair per residual of the lengths, over (1 + c / distance to the z face): 2.6 was the
+// worst of 120,000 poses of the 60/45 set with noise of 0.01 to 1 mm, 1.1 the median.
+inline constexpr double kMisfitGain = 3.0;
 
 // Newton to convergence: bound, and the step at which double precision ends. Quadratic convergence
 // takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.

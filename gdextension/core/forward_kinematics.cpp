@@ -29,13 +29,17 @@ bool all_possible(const StringArray &lengths_m) noexcept {
     return true;
 }
 
+CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
+    return {a.position_m - b.position_m, a.poles_m - b.poles_m};
+}
+
 double squared(const CrossedPose &change) noexcept {
     return dot(change.position_m, change.position_m)[0] +
            sum_of(dot(change.poles_m, change.poles_m));
 }
 
 // The pose one change on. Poles back on their spheres to second order: a start needs no more.
-CrossedPose foreseen(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
+CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
     const LaneVec poles = pose.poles_m + change.poles_m;
     const Lanes excess = dot(poles, poles) * both(1.0 / (d * d)) - both(1.0);
     const Lanes scale = both(1.0) + excess * (both(0.375) * excess - both(0.5));
@@ -108,14 +112,13 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
 KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
     const double d = layout_.pole_half_length_m;
     const CrossedPose last = lanes_of(last_pose_);
-    CrossedPose pose = foresee_ ? foreseen(last, last_change_, d) : last;
+    CrossedPose pose = foreseeing_ ? one_change_on(last, foreseen_change_, d) : last;
     CrossedErrors errors = errors_at(layout_, lengths_m, pose);
     CrossedFactor factor = factorise(errors, pose, d);
     const CrossedStep first = solve(factor, errors);
     if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
-        const bool forget =
-            !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
-        return search(lengths_m, forget ? nullptr : &last_pose_);
+        const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
+        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
     pose = moved(pose, first, d);
     errors = errors_at(layout_, lengths_m, pose);
@@ -135,7 +138,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         const CrossedStep second =
             again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
         if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
-            return search(lengths_m, &last_pose_);
+            return search(lengths_m, &last_pose_, kWarmResidualGate_m);
         }
         pose = moved(pose, second, d);
         result.steps = 2;
@@ -143,16 +146,29 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         result.residual_rms_m = std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
     }
     if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
-        return search(lengths_m, &last_pose_);
+        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
-    const CrossedPose change{pose.position_m - last.position_m, pose.poles_m - last.poles_m};
-    const CrossedPose surprise{change.position_m - last_change_.position_m,
-                               change.poles_m - last_change_.poles_m};
-    foresee_ = squared(surprise) < kForeseenShare * kForeseenShare * squared(change);
-    last_change_ = change;
+    foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
     result.pose = pose_of(pose);
     result.conditioning = factor.min_pivot;
     return accept(result);
+}
+
+// The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
+// best for the change just seen. Noise makes the higher orders worse, smooth motion much better.
+void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
+    const CrossedPose turn = minus(change, last_change_);
+    const double still2 = squared(change);
+    const double steady2 = squared(turn);
+    const double turning2 = squared(minus(turn, last_turn_));
+    last_change_ = change;
+    last_turn_ = turn;
+    foreseeing_ = steady2 < kForeseenShare * still2;
+    foreseen_change_ = change;
+    if (turning2 < kForeseenShare * steady2) {
+        foreseeing_ = true;
+        foreseen_change_ = {change.position_m + turn.position_m, change.poles_m + turn.poles_m};
+    }
 }
 
 // Grips with other than two strings to a pole end.
@@ -162,13 +178,13 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
     const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
     if (!first.solvable || !(first.step_m <= kMaxWarmStep_m)) {
         const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m);
-        return search(lengths_m, forget ? nullptr : &last_pose_);
+        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
     const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
     const double residual_rms_m = length_errors(problem, pose).rms_m();
     if (!second.solvable || !(second.step_m <= kMaxSecondStep_m) ||
         !(residual_rms_m <= kWarmResidualGate_m)) {
-        return search(lengths_m, &last_pose_);
+        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
     KinematicsResult result;
     result.pose = pose;
@@ -187,18 +203,18 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
     if (!all_possible(lengths_m)) {
         return hold(result, Status::impossible_lengths);
     }
-    return search(lengths_m, nullptr);
+    return search(lengths_m, nullptr, 0.0);
 }
 
-KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
-                                           const GripPose *remembered) noexcept {
+KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,
+                                           double content_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
     SearchTools tools;
     tools.layout = crossed_ ? &layout_ : nullptr;
     if (closed_form_) {
         tools.closed_form_half_extents_m = half_extents_m_;
     }
-    const SearchResult found = search_pose(problem, tools, remembered);
+    const SearchResult found = search_pose(problem, tools, remembered, content_m);
     KinematicsResult result;
     result.cold_start = true;
     result.steps = found.steps;
@@ -214,8 +230,7 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
     if (found.ambiguous) {
         result.status = Status::ambiguous_pose;
     }
-    foresee_ = false;
-    last_change_ = CrossedPose();
+    forget_motion();
     return accept(result);
 }
 

@@ -1,4 +1,4 @@
-// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last two foresee; the second
+// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
 // step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
 // residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md).
 #pragma once
@@ -42,28 +42,36 @@ public:
     // Forget the last pose: the next update() is cold.
     void reset() noexcept {
         warm_ = false;
-        foresee_ = false;
-        last_change_ = CrossedPose();
+        forget_motion();
     }
 
 private:
     KinematicsResult track_crossed(const StringArray &lengths_m) noexcept;
     KinematicsResult track_any(const StringArray &lengths_m) noexcept;
-    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered) noexcept;
+    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered,
+                            double content_m) noexcept;
+    void foresee(const CrossedPose &change) noexcept;
+    void forget_motion() noexcept {
+        last_change_ = CrossedPose();
+        last_turn_ = CrossedPose();
+        foreseeing_ = false;
+    }
     KinematicsResult accept(KinematicsResult result) noexcept;
     [[nodiscard]] KinematicsResult hold(KinematicsResult result, Status status) const noexcept;
 
     FrameGeometry frame_{};
     GripGeometry grip_{};
     CrossedLayout layout_;
-    bool crossed_ = false; // layout_ is valid: the fast steps serve
+    bool crossed_ = false;     // layout_ is valid: the fast steps serve
     Vec3 half_extents_m_{0.0}; // valid when is_box_
     bool is_box_ = false;
     bool closed_form_ = false;
     bool warm_ = false;
     GripPose last_pose_{};
-    CrossedPose last_change_{};  // of the last warm tick; added to last_pose_ while foresee_
-    bool foresee_ = false;
+    CrossedPose last_change_{}; // of the last warm tick
+    CrossedPose last_turn_{};   // change of that change
+    CrossedPose foreseen_change_{};
+    bool foreseeing_ = false;
 };
 
 } // namespace spidar

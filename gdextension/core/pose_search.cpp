@@ -60,8 +60,7 @@ private:
 PolishResult Search::refined(const CrossedPose &start) noexcept {
     const CrossedLayout &layout = *tools_.layout;
     const double d = layout.pole_half_length_m;
-    const double hopeless_m = kHopelessFactor * relevant_m();
-    const double hopeless_m2 = kStringCount * hopeless_m * hopeless_m;
+    const double hopeless_m2 = kStringCount * relevant_m() * relevant_m();
     PolishResult result;
     CrossedPose pose = start;
     CrossedErrors errors = errors_at(layout, problem_.lengths_m, pose);
@@ -73,19 +72,23 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         if (!again) {
             factor = factorise(errors, pose, d);
         }
-        const CrossedStep step =
-            again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
+        const CrossedStep step = again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
         const double size_m = std::sqrt(step.size_m2);
         const bool tiny = size_m < kStagnantStep_m;
         const double rate = size_m / last_size_m;
-        if (!factor.solvable || !(size_m <= kMaxTrialStep_m) ||
-            (!tiny && !(rate <= kSlowestRate))) {
-            break;
-        }
-        if (errors.sum_of_squares_m2 - step.decrease_m2 > hopeless_m2 &&
-            step.decrease_m2 < kSettledDecrease * errors.sum_of_squares_m2) {
+        const bool slow = !tiny && !(rate <= kSlowestRate);
+        const bool settled_high =
+            errors.sum_of_squares_m2 - step.decrease_m2 > hopeless_m2 &&
+            (slow || step.decrease_m2 < kSettledDecrease * errors.sum_of_squares_m2);
+        // The closed form starts next to a pose that matters: a rival that must go far is none.
+        const bool rival_leaves = found_.any && !(size_m <= kMaxTrialStep_m) &&
+                                  found_.best.residual_rms_m <= kSuspiciousResidual_m;
+        if (settled_high || rival_leaves) {
             result.residual_rms_m = HUGE_VAL;
             return result;
+        }
+        if (!factor.solvable || !(size_m <= kMaxTrialStep_m) || slow) {
+            break;
         }
         const CrossedPose trial = moved(pose, step, d);
         const CrossedErrors trial_errors = errors_at(layout, problem_.lengths_m, trial);
@@ -133,9 +136,8 @@ void Search::judge(const PolishResult &candidate) noexcept {
 }
 
 void Search::try_root_pairs() noexcept {
-    const ClosedForm form =
-        solve_closed_form(*tools_.closed_form_half_extents_m, problem_.grip.pole_half_length_m,
-                          problem_.lengths_m);
+    const ClosedForm form = solve_closed_form(*tools_.closed_form_half_extents_m,
+                                              problem_.grip.pole_half_length_m, problem_.lengths_m);
     for (int pair = 0; pair < kRootPairCount && !settled(); ++pair) {
         const RootPairPose start = root_pair_pose(form, pair);
         const double height_m = start.pose.position_m.z[0];
@@ -152,10 +154,14 @@ void Search::try_root_pairs() noexcept {
 } // namespace
 
 SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
-                         const GripPose *remembered) noexcept {
+                         const GripPose *remembered, double content_m) noexcept {
     Search search(problem, tools);
     if (remembered != nullptr) {
         search.offer(*remembered);
+        const PolishResult &best = search.result().best;
+        if (search.result().any && best.converged && best.residual_rms_m <= content_m) {
+            return search.result();
+        }
     }
     if (tools.closed_form_half_extents_m.has_value()) {
         search.try_root_pairs();

@@ -12,8 +12,9 @@ namespace spidar {
 
 // What a search may use besides the problem itself.
 struct SearchTools {
-    const CrossedLayout *layout = nullptr;     // two strings to each pole end: the fast steps
-    std::optional<Vec3> closed_form_half_extents_m; // a box and the paper's strings: the closed form
+    const CrossedLayout *layout = nullptr; // two strings to each pole end: the fast steps
+    std::optional<Vec3>
+        closed_form_half_extents_m; // a box and the paper's strings: the closed form
 };
 
 struct SearchResult {
@@ -23,8 +24,9 @@ struct SearchResult {
     int steps = 0;
 };
 
-// The remembered pose first (none: nullptr), then the upright root pair, then the others.
+// The remembered pose first (none: nullptr), then the upright root pair, then the others. Nothing more is tried when
+// the remembered pose leads to a residual of at most `content_m`.
 [[nodiscard]] SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
-                                       const GripPose *remembered) noexcept;
+                                       const GripPose *remembered, double content_m) noexcept;
 
 } // namespace spidar
