@@ -67,6 +67,8 @@ inline constexpr int kMaxRefineSteps = 10;
 inline constexpr double kSlowestRate = 0.3;
 // A factorisation made this near serves the next step as well.
 inline constexpr double kRefactorStep_m = 1e-5;
+// How much more than its distance such a factorisation bends the next step: strings near a corner are short.
+inline constexpr double kNearbyBend = 8.0;
 // A residual settles when a step lowers the sum of squares by less than this part: what is above all that
 // matters then stays there.
 inline constexpr double kSettledDecrease = 0.2;

@@ -98,11 +98,14 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         pose = trial;
         errors = trial_errors;
         result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
-        // What this step leaves: by the rate seen, or before there is one by the curvature of the lengths.
-        const double expected =
-            kLengthCurvature * (size_m + kResidualCurvature * result.residual_rms_m);
+        // What this step leaves: by the rate seen, and by the curvature of the lengths where that rate says
+        // too little, at the first step and at the first by a factorisation from elsewhere.
+        const double bend_m = again ? kNearbyBend * last_size_m
+                                    : size_m + kResidualCurvature * result.residual_rms_m;
+        const double expected = kLengthCurvature * bend_m / factor.min_pivot;
+        const bool first = !(last_size_m < HUGE_VAL);
         const double left_m =
-            size_m * (last_size_m < HUGE_VAL ? 2.0 * rate : expected / factor.min_pivot);
+            size_m * (first ? expected : std::fmax(2.0 * rate, again ? expected : 0.0));
         result.converged = left_m <= kConvergedStep_m || (tiny && rate > 0.5);
         last_size_m = size_m;
     }
