@@ -38,15 +38,16 @@ Mat3 turn(double x, double y, double z) {
 GripPose moving_pose(const GripGeometry &grip, double t) {
     const Vec3 position(0.15 * std::sin(3.1 * t), 0.15 * std::sin(2.3 * t + 1.0),
                         0.12 * std::sin(2.9 * t + 2.0));
-    return make_pose(grip, position,
-                     turn(0.6 * std::sin(4.1 * t), 0.6 * std::sin(3.7 * t + 1.0),
-                          0.5 * std::sin(3.3 * t + 2.0)),
-                     -0.5 * std::sin(2.1 * t));
+    return make_pose(
+        grip, position,
+        turn(0.6 * std::sin(4.1 * t), 0.6 * std::sin(3.7 * t + 1.0), 0.5 * std::sin(3.3 * t + 2.0)),
+        -0.5 * std::sin(2.1 * t));
 }
 
 CountArray counts_of(const ServoSettings &settings, const GripPose &pose) {
     const StringArray lengths = string_lengths(settings.frame, settings.grip, pose);
-    const StringArray home = string_lengths(settings.frame, settings.grip, rest_pose(settings.grip));
+    const StringArray home =
+        string_lengths(settings.frame, settings.grip, rest_pose(settings.grip));
     CountArray counts{};
     for (std::size_t i = 0; i < counts.size(); ++i) {
         counts[i] =
@@ -57,15 +58,15 @@ CountArray counts_of(const ServoSettings &settings, const GripPose &pose) {
 
 ServoSettings ideal_settings() {
     ServoSettings settings;
-    settings.strings = calibrate_at_home(
-        string_lengths(settings.frame, settings.grip, rest_pose(settings.grip)), {},
-        kPaperMetresPerCount);
+    settings.strings =
+        calibrate_at_home(string_lengths(settings.frame, settings.grip, rest_pose(settings.grip)),
+                          {}, kPaperMetresPerCount);
     return settings;
 }
 
-void print_row(const char *name, SampleTimes &times) {
-    std::printf("%-46s %9.0f %9.0f %9.0f %9.0f\n", name, times.quantile_ns(0.5),
-                times.quantile_ns(0.99), times.quantile_ns(0.999), times.quantile_ns(1.0));
+void add_row(std::vector<BenchRow> &rows, const char *name, const char *mode, SampleTimes &times) {
+    rows.push_back(make_row(name, "step", mode, times));
+    print_row(rows.back());
 }
 
 struct StepCase {
@@ -75,7 +76,8 @@ struct StepCase {
     int contacts;
 };
 
-bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
+bool run_step_case(const ServoSettings &settings, const StepCase &step_case,
+                   std::vector<BenchRow> &rows) {
     auto step = std::make_unique<ServoStep>();
     if (!usable(step->configure(settings))) {
         return false;
@@ -94,17 +96,15 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
     DeviceReading reading;
     std::size_t allocated = 0;
     for (int tick = 0; tick < kWarmUpTicks + kTicks; ++tick) {
-        reading.counts =
-            counts_of(settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
+        reading.counts = counts_of(
+            settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
         if (tick % 16 == 0 && step_case.forces) {
             ++command.wrench_sequence;
             command.wrench = {Vec3(std::sin(0.01 * tick), 1.0, 0.0), Vec3(0.0, 0.02, 0.0), 0.01};
             command.wrench_duration_s = 0.1;
             ++command.contacts_sequence;
         }
-        const auto call = [&] {
-            step->step(Status::ok, reading, command, kPeriod_s, true);
-        };
+        const auto call = [&] { step->step(Status::ok, reading, command, kPeriod_s, true); };
         if (tick < kWarmUpTicks) {
             call();
             continue;
@@ -113,7 +113,7 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
         times.time(call);
         allocated += allocations().count - before;
     }
-    print_row(step_case.name, times);
+    add_row(rows, step_case.name, step_case.moving ? "moving" : "at rest", times);
     if (allocated > kAllocationsAllowed) {
         std::printf("  FAILED: %zu allocations inside the steps\n", allocated);
         return false;
@@ -126,7 +126,7 @@ bool run_step_case(const ServoSettings &settings, const StepCase &step_case) {
     return true;
 }
 
-void run_computations(const ServoSettings &settings) {
+void run_computations(const ServoSettings &settings, std::vector<BenchRow> &rows) {
     ForwardKinematics kinematics;
     TensionSolver solver;
     kinematics.configure(settings.frame, settings.grip);
@@ -137,8 +137,8 @@ void run_computations(const ServoSettings &settings) {
     SampleTimes tension(kTicks);
     for (int tick = 0; tick < kTicks; ++tick) {
         const double t = kPeriod_s * tick;
-        const StringArray lengths =
-            lengths_from_counts(settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
+        const StringArray lengths = lengths_from_counts(
+            settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
         KinematicsResult result;
         warm.time([&] { result = kinematics.update(lengths); });
         ForwardKinematics fresh = kinematics;
@@ -146,13 +146,14 @@ void run_computations(const ServoSettings &settings) {
         WrenchMatrix matrix;
         matrix_times.time(
             [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
-        const DofArray wrench = {2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
+        const DofArray wrench = {
+            2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
         tension.time([&] { solver.update(matrix, wrench); });
     }
-    print_row("forward kinematics, warm", warm);
-    print_row("forward kinematics, cold (closed form)", cold);
-    print_row("wrench matrix", matrix_times);
-    print_row("tension solver, warm", tension);
+    add_row(rows, "forward kinematics", "warm", warm);
+    add_row(rows, "forward kinematics, closed form", "cold", cold);
+    add_row(rows, "wrench matrix", "-", matrix_times);
+    add_row(rows, "tension solver", "warm", tension);
 }
 
 bool report_memory(const ServoSettings &settings) {
@@ -175,25 +176,23 @@ bool report_memory(const ServoSettings &settings) {
 
 } // namespace
 
-int bench_step() {
+int bench_step(std::vector<BenchRow> &rows) {
     const ServoSettings settings = ideal_settings();
-    std::printf("%-46s %9s %9s %9s %9s   (ns, %d calls each)\n", "one servo step", "median", "p99",
-                "p99.9", "max", kTicks);
+    print_header("one servo step, and its parts");
     bool good = true;
     for (const StepCase &step_case :
-         {StepCase{"hand at rest, forces off", false, false, 0},
-          StepCase{"hand moving, forces off", true, false, 0},
-          StepCase{"hand at rest, wrench", false, true, 0},
-          StepCase{"hand moving, wrench", true, true, 0},
-          StepCase{"hand moving, wrench and 8 contacts", true, true, kMaxContacts}}) {
-        good = run_step_case(settings, step_case) && good;
+         {StepCase{"step, forces off", false, false, 0},
+          StepCase{"step, forces off", true, false, 0}, StepCase{"step, wrench", false, true, 0},
+          StepCase{"step, wrench", true, true, 0},
+          StepCase{"step, wrench and 8 contacts", true, true, kMaxContacts}}) {
+        good = run_step_case(settings, step_case, rows) && good;
     }
-    run_computations(settings);
+    run_computations(settings, rows);
     SampleTimes empty(kTicks);
     for (int i = 0; i < kTicks; ++i) {
         empty.time([] {});
     }
-    print_row("(an empty call: the clock itself)", empty);
+    add_row(rows, "(an empty call: the clock itself)", "-", empty);
     good = report_memory(settings) && good;
     return good ? 0 : 1;
 }

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <vector>
+
+#include "bench/bench_report.h"
+
 namespace spidar::bench {
 
-// Prints one row a case: median, p99, p99.9, maximum (ns). 0 when every case ran as it says.
-int bench_step();
+// Prints and adds one row a case. 0 when every case ran as it says.
+int bench_step(std::vector<BenchRow> &rows);
 
 } // namespace spidar::bench

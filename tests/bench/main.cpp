@@ -1,14 +1,56 @@
-// spidar_bench step: the cost of one servo step, of its two computations, and the memory of a device.
+// spidar_bench tension|step [--json FILE]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstring>
+#include <string>
+#include <vector>
 
+#include "bench/bench_report.h"
 #include "bench/bench_step.h"
 
-int main(int argc, char **argv) {
-    if (argc == 1 || (argc == 2 && std::strcmp(argv[1], "step") == 0)) {
-        return spidar::bench::bench_step();
+namespace {
+
+using spidar::bench::BenchRow;
+
+struct Problem {
+    const char *name;
+    int (*run)(std::vector<BenchRow> &rows); // 0 when every row ran as it says
+};
+
+constexpr Problem kProblems[] = {
+    {"step", spidar::bench::bench_step},
+};
+
+int usage() {
+    std::fprintf(stderr, "usage: spidar_bench [PROBLEM] [--json FILE], PROBLEM one of:");
+    for (const Problem &problem : kProblems) {
+        std::fprintf(stderr, " %s", problem.name);
     }
-    std::fprintf(stderr, "usage: spidar_bench [step]\n");
+    std::fprintf(stderr, "\n");
     return 2;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    const char *name = "step";
+    std::string json;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--json") == 0 && i + 1 < argc) {
+            json = argv[++i];
+        } else if (i == 1 && argv[i][0] != '-') {
+            name = argv[i];
+        } else {
+            return usage();
+        }
+    }
+    for (const Problem &problem : kProblems) {
+        if (std::strcmp(problem.name, name) == 0) {
+            std::printf("%s\n", spidar::bench::describe_machine().c_str());
+            std::vector<BenchRow> rows;
+            const int code = problem.run(rows);
+            return spidar::bench::write_json(json, rows) ? code : 1;
+        }
+    }
+    return usage();
 }
