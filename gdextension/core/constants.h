@@ -27,6 +27,9 @@ inline constexpr double kWarmResidualGate_m = 1e-3;
 
 // Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
 inline constexpr double kMaxWarmStep_m = 5e-3;
+// Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
+// millimetres move the pole ends so far in a tick. Beyond, it competes with the closed form.
+inline constexpr double kTrustedStep_m = 0.02;
 // The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
 inline constexpr double kMaxSecondStep_m = 5e-4;
 // Motion within one tick after which the last pose says nothing (device restarted, samples lost).

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/closed_form.h"
 #include "core/constants.h"
 #include "core/gauss_newton.h"
@@ -70,14 +72,21 @@ void ForwardKinematics::set_last_pose(const GripPose &pose) noexcept {
     warm_ = true;
 }
 
-KinematicsResult ForwardKinematics::hold(KinematicsResult result, Status status) const noexcept {
+KinematicsResult ForwardKinematics::hold(const KinematicsResult &from,
+                                         Status status) const noexcept {
+    KinematicsResult result = from;
     result.pose = last_pose_;
     result.status = status;
     return result;
 }
 
+KinematicsResult ForwardKinematics::refuse(const StringArray &lengths_m,
+                                           const KinematicsResult &result) const noexcept {
+    return hold(result, all_finite(lengths_m) ? Status::impossible_lengths : Status::not_finite);
+}
+
 // The gates that every new pose passes; on success it becomes the last pose.
-KinematicsResult ForwardKinematics::accept(KinematicsResult result) noexcept {
+KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
     if (!(result.residual_rms_m <= kImpossibleResidual_m)) {
         return hold(result, Status::impossible_lengths);
     }
@@ -99,12 +108,8 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     if (!warm_) {
         return solve_cold(lengths_m);
     }
-    KinematicsResult result;
-    if (!all_finite(lengths_m)) {
-        return hold(result, Status::not_finite);
-    }
     if (!all_possible(lengths_m)) {
-        return hold(result, Status::impossible_lengths);
+        return refuse(lengths_m, KinematicsResult());
     }
     return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
 }
@@ -118,7 +123,8 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     const CrossedStep first = solve(factor, errors);
     if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
         const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
-        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
+        const bool trust = first.size_m2 <= kTrustedStep_m * kTrustedStep_m;
+        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kWarmResidualGate_m : 0.0);
     }
     pose = moved(pose, first, d);
     errors = errors_at(layout_, lengths_m, pose);
@@ -197,13 +203,49 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
 KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noexcept {
     KinematicsResult result;
     result.cold_start = true;
-    if (!all_finite(lengths_m)) {
-        return hold(result, Status::not_finite);
-    }
     if (!all_possible(lengths_m)) {
-        return hold(result, Status::impossible_lengths);
+        return refuse(lengths_m, result);
     }
     return search(lengths_m, nullptr, 0.0);
+}
+
+std::optional<Twist>
+ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
+    const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
+    const double size = glm::length(area);
+    const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
+    if (!crossed_ || !(size > kParallelAngle_rad * d2)) {
+        return std::nullopt;
+    }
+    const CrossedPose pose = lanes_of(last_pose_);
+    CrossedErrors rates = errors_at(layout_, rates_m_s, pose);
+    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
+        const auto &strings = layout_.strings[slot];
+        rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
+    }
+    const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
+    if (!factor.solvable || !(factor.min_pivot >= kRankDeficientPivot)) {
+        return std::nullopt;
+    }
+    const CrossedStep step = solve(factor, rates);
+    if (!std::isfinite(step.size_m2)) {
+        return std::nullopt;
+    }
+    // Pole k turns by omega +- alpha n, n the normal of both, alpha half the grasp rate.
+    const Vec3 n = area / size;
+    const Vec3 rate1 = lane(step.poles_m, 0);
+    const Vec3 rate2 = lane(step.poles_m, 1);
+    const double turn1 = glm::dot(rate1, glm::cross(n, last_pose_.r1_m)) / d2;
+    const double turn2 = glm::dot(rate2, glm::cross(n, last_pose_.r2_m)) / d2;
+    Twist twist;
+    twist.linear_m_s = lane(step.position_m, 0);
+    twist.grasp_rate_rad_s = turn1 - turn2;
+    // Out of their plane: omega . (r x n) = rate . n for both poles.
+    twist.angular_rad_s = 0.5 * (turn1 + turn2) * n +
+                          (glm::dot(rate1, n) * glm::cross(glm::cross(last_pose_.r2_m, n), n) -
+                           glm::dot(rate2, n) * glm::cross(glm::cross(last_pose_.r1_m, n), n)) /
+                              size;
+    return twist;
 }
 
 KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/crossed_step.h"
 #include "core/frame_geometry.h"
@@ -36,6 +37,12 @@ public:
     // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
+    // Velocity of the grip at the last pose from the rates of the string lengths (growing is positive; unit: m/s), by
+    // least squares as the pose itself. Empty where the poles are parallel or the lengths leave it open, and for
+    // grips with other than two strings to a pole end.
+    [[nodiscard]] std::optional<Twist>
+    twist_of_length_rates(const StringArray &rates_m_s) const noexcept;
+
     // Warm start from here at the next update().
     void set_last_pose(const GripPose &pose) noexcept;
     [[nodiscard]] const GripPose &last_pose() const noexcept { return last_pose_; }
@@ -56,8 +63,11 @@ private:
         last_turn_ = CrossedPose();
         foreseeing_ = false;
     }
-    KinematicsResult accept(KinematicsResult result) noexcept;
-    [[nodiscard]] KinematicsResult hold(KinematicsResult result, Status status) const noexcept;
+    // Changes `result` in place and returns it: the tick makes no copy that it can spare.
+    KinematicsResult accept(KinematicsResult &result) noexcept;
+    [[nodiscard]] KinematicsResult hold(const KinematicsResult &from, Status status) const noexcept;
+    [[nodiscard]] KinematicsResult refuse(const StringArray &lengths_m,
+                                          const KinematicsResult &result) const noexcept;
 
     FrameGeometry frame_{};
     GripGeometry grip_{};

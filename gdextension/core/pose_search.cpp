@@ -100,8 +100,8 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
         // What this step leaves: by the rate seen, and by the curvature of the lengths where that rate says
         // too little, at the first step and at the first by a factorisation from elsewhere.
-        const double bend_m = again ? kNearbyBend * last_size_m
-                                    : size_m + kResidualCurvature * result.residual_rms_m;
+        const double bend_m =
+            again ? kNearbyBend * last_size_m : size_m + kResidualCurvature * result.residual_rms_m;
         const double expected = kLengthCurvature * bend_m / factor.min_pivot;
         const bool first = !(last_size_m < HUGE_VAL);
         const double left_m =

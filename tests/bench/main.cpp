@@ -1,10 +1,11 @@
-// spidar_bench tension|step [--json FILE]: times against error, peers in the same process.
+// spidar_bench fk|step [--json FILE]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "bench/bench_fk.h"
 #include "bench/bench_report.h"
 #include "bench/bench_step.h"
 
@@ -18,6 +19,7 @@ struct Problem {
 };
 
 constexpr Problem kProblems[] = {
+    {"fk", spidar::bench::bench_fk},
     {"step", spidar::bench::bench_step},
 };
 
