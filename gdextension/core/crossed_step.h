@@ -45,7 +45,7 @@ struct CrossedPose {
 // Measured minus computed lengths, and the directions in which the lengths grow.
 struct CrossedErrors {
     std::array<LaneVec, kSlotCount> direction;
-    std::array<Lanes, kSlotCount> residual_m;
+    std::array<Lanes, kSlotCount> residual_m{};
     double sum_of_squares_m2 = 0.0;
 };
 

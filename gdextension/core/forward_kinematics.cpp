@@ -35,6 +35,12 @@ CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
     return {a.position_m - b.position_m, a.poles_m - b.poles_m};
 }
 
+// Residual once a step is taken, by the linear model that the step comes from.
+double rms_after(const CrossedErrors &errors, const CrossedStep &step) noexcept {
+    const double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
+    return std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
+}
+
 double squared(const CrossedPose &change) noexcept {
     return dot(change.position_m, change.position_m)[0] +
            sum_of(dot(change.poles_m, change.poles_m));
@@ -127,16 +133,16 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kWarmResidualGate_m : 0.0);
     }
     pose = moved(pose, first, d);
-    errors = errors_at(layout_, lengths_m, pose);
     KinematicsResult result;
     result.steps = 1;
-    result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
+    result.residual_rms_m = rms_after(errors, first);
     // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
-    // factorisation (k s)^2 s.
+    // factorisation (k s)^2 s. One that leaves too little to matter is not looked at again.
     const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
     const double allowed = enough_m * enough_m * factor.min_pivot;
     const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
     if (!(bend2 * first.size_m2 <= allowed)) {
+        errors = errors_at(layout_, lengths_m, pose);
         const bool again = bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot;
         if (!again) {
             factor = factorise(errors, pose, d);
@@ -148,8 +154,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         }
         pose = moved(pose, second, d);
         result.steps = 2;
-        const double left_m2 = errors.sum_of_squares_m2 - second.decrease_m2;
-        result.residual_rms_m = std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
+        result.residual_rms_m = rms_after(errors, second);
     }
     if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);

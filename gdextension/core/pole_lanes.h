@@ -4,10 +4,6 @@
 
 #include <cmath>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include "core/types.h"
 
 namespace spidar {
@@ -23,8 +19,8 @@ using Lanes = double __attribute__((vector_size(16)));
 }
 
 [[nodiscard]] inline Lanes square_root(Lanes a) noexcept {
-#if defined(__SSE2__)
-    return _mm_sqrt_pd(a);
+#if defined(__SSE2__) // by name: not every compiler joins two scalar roots
+    return __builtin_ia32_sqrtpd(a);
 #else
     return Lanes{std::sqrt(a[0]), std::sqrt(a[1])};
 #endif
