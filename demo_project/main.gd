@@ -7,14 +7,15 @@ const TASKS: Dictionary[String, String] = {
 	"pick_and_place": "res://tasks/pick_and_place/pick_and_place.tscn",
 }
 const DEFAULT_TASK := "pick_and_place"
+## By path: before the first import no class name is known, and this script must be able to say what is missing.
+const Arguments := preload("res://common/play_arguments.gd")
 
 
 func _ready() -> void:
-	var arguments := PlayArguments.parse(
-		OS.get_cmdline_user_args(), PackedStringArray(TASKS.keys())
-	)
+	var arguments := Arguments.new()
+	arguments.read(OS.get_cmdline_user_args(), PackedStringArray(TASKS.keys()))
 	if arguments.problem != "":
-		_refuse(arguments.problem + "\n" + PlayArguments.USAGE, true)
+		_refuse(arguments.problem + "\n" + Arguments.USAGE, true)
 		return
 	# Scripts that name SpidarG do not even compile without the library, so ask before loading any.
 	if not ClassDB.class_exists(&"SpidarG"):
@@ -35,7 +36,7 @@ func _ready() -> void:
 func _refuse(message: String, leave: bool) -> void:
 	printerr(message)
 	if leave or DisplayServer.get_name() == "headless":
-		get_tree().quit(PlayArguments.EXIT_BAD_ARGUMENTS)
+		get_tree().quit(Arguments.EXIT_BAD_ARGUMENTS)
 		return
 	var label := Label.new()
 	label.text = message

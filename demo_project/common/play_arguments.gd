@@ -30,30 +30,29 @@ func scripted() -> bool:
 	return task != ""
 
 
-static func parse(words: PackedStringArray, tasks: PackedStringArray) -> PlayArguments:
-	var result := PlayArguments.new()
+## Reads the words after `--`; what is wrong with them goes into `problem`.
+func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 	var index := 0
-	while index < words.size() and result.problem == "":
+	while index < words.size() and problem == "":
 		var word := words[index]
 		match word:
 			"--pictures":
-				result.pictures = true
+				pictures = true
 			"--cut-output":
-				result.cut_output = true
+				cut_output = true
 			"--freeze-pose":
-				result.freeze_pose = true
+				freeze_pose = true
 			"--play", "--seed", "--out":
 				index += 1
 				if index >= words.size():
-					result.problem = "%s needs a value after it" % word
+					problem = "%s needs a value after it" % word
 				else:
-					result._set_value(word, words[index], tasks)
+					_set_value(word, words[index], tasks)
 			_:
-				result.problem = "%s is not an argument of the demo" % word
+				problem = "%s is not an argument of the demo" % word
 		index += 1
-	if result.problem == "":
-		result.problem = result._find_conflict()
-	return result
+	if problem == "":
+		problem = _find_conflict()
 
 
 func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:

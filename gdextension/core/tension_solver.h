@@ -17,8 +17,8 @@ namespace spidar {
 // One bounded least-squares problem, spelled out.
 struct TensionProblem {
     WrenchMatrix matrix;
-    DofArray wrench{};   // q, the paper's order and g
-    DofArray weights{};  // diagonal of W
+    DofArray wrench{};  // q, the paper's order and g
+    DofArray weights{}; // diagonal of W
     // Sum of all quadratic terms in tau alone, as one weight and one target per string:
     // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
     double proximal_weight = 0.0;
@@ -34,7 +34,7 @@ struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
     double objective = 0.0;
-    int iterations = 0;      // factorisations
+    int iterations = 0; // factorisations
     Status status = Status::ok;
 };
 
@@ -51,20 +51,21 @@ struct TensionSettings {
     double weight_moment_per_m = 25.0; // 1/d
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // uniqueness only
-    double reference_weight = 1e-4;    // pull towards tau_ref
+    double reference_weight = 1e-3;    // pull towards tau_ref
     double change_weight = 1e-2;       // against jumps from tick to tick
     std::uint8_t broken_mask = 0;      // bit i: string i is broken, its tension is 0
 };
 
 struct TensionResult {
     StringArray tensions_n{};
-    DofArray achieved{};         // A tau
-    DofArray error{};            // A tau - q
-    DofArray bias{};             // what the ridge and reference terms alone cost at this pose, strings free
+    DofArray achieved{}; // A tau
+    DofArray error{};    // A tau - q
+    DofArray bias{};     // what the ridge and reference terms alone cost at this pose, strings free
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     int iterations = 0;
-    Status status = Status::ok;  // wrench_limited when strings at a bound change the wrench noticeably
+    Status status =
+        Status::ok; // wrench_limited when strings at a bound change the wrench noticeably
 };
 
 // The solver of the servo loop: settings, memory of the last tick, reports.

@@ -43,8 +43,12 @@ struct Twist {
 
 // Game-level wrench -> the paper's q (g = 2 grasp_torque), and back.
 [[nodiscard]] inline DofArray to_paper(const Wrench &wrench) noexcept {
-    return {wrench.force_n.x,   wrench.force_n.y,   wrench.force_n.z,
-            wrench.moment_nm.x, wrench.moment_nm.y, wrench.moment_nm.z,
+    return {wrench.force_n.x,
+            wrench.force_n.y,
+            wrench.force_n.z,
+            wrench.moment_nm.x,
+            wrench.moment_nm.y,
+            wrench.moment_nm.z,
             2.0 * wrench.grasp_torque_nm};
 }
 

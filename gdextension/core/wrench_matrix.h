@@ -25,6 +25,7 @@ struct WrenchMatrix {
 [[nodiscard]] DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept;
 
 // A^T * twist_like: string shortening rates (unit: m/s) for (v, omega, -psi_rate/2).
-[[nodiscard]] StringArray apply_transposed(const WrenchMatrix &matrix, const DofArray &rates) noexcept;
+[[nodiscard]] StringArray apply_transposed(const WrenchMatrix &matrix,
+                                           const DofArray &rates) noexcept;
 
 } // namespace spidar

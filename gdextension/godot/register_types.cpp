@@ -33,7 +33,6 @@ spidar_g_library_init(GDExtensionInterfaceGetProcAddress get_proc_address,
     godot::GDExtensionBinding::InitObject init_object(get_proc_address, library, result);
     init_object.register_initializer(initialize);
     init_object.register_terminator(terminate);
-    init_object.set_minimum_library_initialization_level(
-        godot::MODULE_INITIALIZATION_LEVEL_SCENE);
+    init_object.set_minimum_library_initialization_level(godot::MODULE_INITIALIZATION_LEVEL_SCENE);
     return init_object.init();
 }

@@ -11,7 +11,9 @@ public:                                                                         
         m_name##_ = p_value;                                                                       \
         emit_changed();                                                                            \
     }                                                                                              \
-    m_type get_##m_name() const { return m_name##_; }                                              \
+    m_type get_##m_name() const {                                                                  \
+        return m_name##_;                                                                          \
+    }                                                                                              \
                                                                                                    \
 private:                                                                                           \
     m_type m_name##_ = m_default
@@ -23,7 +25,9 @@ public:                                                                         
         m_name##_ = p_value;                                                                       \
         emit_changed();                                                                            \
     }                                                                                              \
-    m_type get_##m_name() const { return m_name##_; }                                              \
+    m_type get_##m_name() const {                                                                  \
+        return m_name##_;                                                                          \
+    }                                                                                              \
                                                                                                    \
 private:                                                                                           \
     m_type m_name##_

@@ -22,7 +22,9 @@ namespace {
 // A node scale this near to 1 is rounding, not intent.
 constexpr double kNodeScaleTolerance = 1e-3;
 
-[[nodiscard]] bool in_editor() { return Engine::get_singleton()->is_editor_hint(); }
+[[nodiscard]] bool in_editor() {
+    return Engine::get_singleton()->is_editor_hint();
+}
 
 } // namespace
 
@@ -31,7 +33,9 @@ SpidarG::SpidarG() {
     problem_ = read_resources();
 }
 
-SpidarG::~SpidarG() { close_device(); }
+SpidarG::~SpidarG() {
+    close_device();
+}
 
 void SpidarG::set_config(const Ref<SpidarGConfig> &config) {
     if (config_ == config) {
@@ -154,7 +158,9 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
     return warnings;
 }
 
-bool SpidarG::may_run() const { return enabled_ && is_inside_tree() && !in_editor(); }
+bool SpidarG::may_run() const {
+    return enabled_ && is_inside_tree() && !in_editor();
+}
 
 std::string SpidarG::name_for_messages() const {
     return std::string(String(get_name()).utf8().get_data());
@@ -181,10 +187,10 @@ void SpidarG::open_device() {
     auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
     if (calibration_.is_null()) {
         // The ideal calibration of a device that starts at its home pose.
-        settings_.strings = spidar::calibrate_at_home(
-            spidar::string_lengths(settings_.frame, settings_.grip,
-                                   spidar::rest_pose(settings_.grip)),
-            transport->home_counts(), plant_.metres_per_count);
+        settings_.strings =
+            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
+                                                             spidar::rest_pose(settings_.grip)),
+                                      transport->home_counts(), plant_.metres_per_count);
     }
     simulated_ = transport.get();
     loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
@@ -364,8 +370,7 @@ spidar::WorldFrame SpidarG::world() const {
 }
 
 bool SpidarG::reject(const std::string &message) {
-    const String text =
-        spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
+    const String text = spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
     UtilityFunctions::push_error(text);
     emit_signal("request_rejected", text);
     return false;

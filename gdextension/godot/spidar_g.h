@@ -113,7 +113,8 @@ public:
     bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
-    void inject_simulated_fault(SimulatedFault fault, int string, double start_s, double duration_s);
+    void inject_simulated_fault(SimulatedFault fault, int string, double start_s,
+                                double duration_s);
     void clear_simulated_faults();
 
     void _notification(int what);

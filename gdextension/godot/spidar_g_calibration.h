@@ -19,10 +19,10 @@ class SpidarGCalibration : public godot::Resource {
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_offsets); // m, at the zero count
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii); // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);  // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants); // N m / A
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);   // real / commanded
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);    // A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);    // real / commanded
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);     // A
 
 public:
     [[nodiscard]] godot::String get_problem() const;

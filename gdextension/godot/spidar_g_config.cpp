@@ -13,8 +13,8 @@ namespace {
 
 // "name = value unit: remedy", the one form of message this resource gives.
 std::string complaint(const char *field, double value, const char *unit, const char *remedy) {
-    return std::string("SpidarGConfig.") + field + " = " + std::to_string(value) + " " + unit + ": " +
-           remedy;
+    return std::string("SpidarGConfig.") + field + " = " + std::to_string(value) + " " + unit +
+           ": " + remedy;
 }
 
 } // namespace
@@ -32,7 +32,8 @@ std::string SpidarGConfig::own_problem() const {
         return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000.");
     }
     if (!(jaw_open_ > 0.0 && jaw_open_ < 1.0)) {
-        return complaint("jaw_open", jaw_open_, "m", "choose the opening of the open jaws, 0 to 1.");
+        return complaint("jaw_open", jaw_open_, "m",
+                         "choose the opening of the open jaws, 0 to 1.");
     }
     if (!(jaw_closed_angle_ > 0.0 && jaw_closed_angle_ < 90.0 * spidar::kDegree_rad)) {
         return complaint("jaw_closed_angle", jaw_closed_angle_, "rad",
@@ -119,14 +120,12 @@ void SpidarGConfig::_bind_methods() {
                         "0.005,0.2,0.0001,or_greater,suffix:m");
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
-    SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE,
-                        "5,500,1,suffix:Hz");
+    SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "5,500,1,suffix:Hz");
     ADD_GROUP("Tensions", "");
     SPIDAR_G_BIND_FIELD(Self, real, tension_min, PROPERTY_HINT_RANGE, "0,5,0.01,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, real, tension_reference, PROPERTY_HINT_RANGE, "0,10,0.01,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, real, tension_max, PROPERTY_HINT_RANGE, "0.5,30,0.1,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, moment_weight, PROPERTY_HINT_RANGE,
-                        "0.1,200,0.1,suffix:1/m");
+    SPIDAR_G_BIND_FIELD(Self, real, moment_weight, PROPERTY_HINT_RANGE, "0.1,200,0.1,suffix:1/m");
     SPIDAR_G_BIND_FIELD(Self, real, ridge, PROPERTY_HINT_RANGE, "1e-12,0.1,1e-12,exp");
     SPIDAR_G_BIND_FIELD(Self, real, reference_weight, PROPERTY_HINT_RANGE, "0,0.1,1e-7,exp");
     SPIDAR_G_BIND_FIELD(Self, real, change_weight, PROPERTY_HINT_RANGE, "0,1,1e-7,exp");

@@ -21,10 +21,9 @@ struct ContactField {
 };
 
 constexpr ContactField kContactFields[SpidarG::CONTACT_STRIDE] = {
-    {"normal.x", ""},          {"normal.y", ""},        {"normal.z", ""},
-    {"offset", "m"},           {"velocity.x", "m/s"},   {"velocity.y", "m/s"},
-    {"velocity.z", "m/s"},     {"stiffness", "N/m"},    {"damping", "N s/m"},
-    {"friction", ""},          {"target", ""},          {"id", ""}};
+    {"normal.x", ""},      {"normal.y", ""},      {"normal.z", ""},      {"offset", "m"},
+    {"velocity.x", "m/s"}, {"velocity.y", "m/s"}, {"velocity.z", "m/s"}, {"stiffness", "N/m"},
+    {"damping", "N s/m"},  {"friction", ""},      {"target", ""},        {"id", ""}};
 
 std::string field_problem(std::int64_t plane, int field, double value, const char *remedy) {
     return "set_contacts: plane " + std::to_string(plane) + ", " + kContactFields[field].name +
@@ -84,11 +83,11 @@ bool SpidarG::request_wrench(const godot::Vector3 &force, const godot::Vector3 &
             return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " +
                    std::to_string(v.z) + ")";
         };
-        return reject("request_wrench: force = " + text(force) + " N, moment = " + text(moment) +
-                      " N m, grasp_torque = " + std::to_string(grasp_torque) +
-                      " N m, duration_s = " + std::to_string(duration_s) + " s: " +
-                      spidar::describe(status) +
-                      " Give finite numbers and a duration from 0 to 1 s; the last good request stands.");
+        return reject(
+            "request_wrench: force = " + text(force) + " N, moment = " + text(moment) +
+            " N m, grasp_torque = " + std::to_string(grasp_torque) +
+            " N m, duration_s = " + std::to_string(duration_s) + " s: " + spidar::describe(status) +
+            " Give finite numbers and a duration from 0 to 1 s; the last good request stands.");
     }
     command_.wrench = world().wrench_to_device(wrench);
     command_.wrench_duration_s = duration_s;
@@ -126,4 +125,6 @@ bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts) {
     return true;
 }
 
-void SpidarG::clear_contacts() { set_contacts(godot::PackedFloat64Array()); }
+void SpidarG::clear_contacts() {
+    set_contacts(godot::PackedFloat64Array());
+}

@@ -14,9 +14,9 @@ bool SpidarG::simulated_hand_target(const godot::Transform3D &target, double gra
     const spidar::Mat3 turn = spidar::to_core(target.basis.orthonormalized());
     const double sum = origin.x + origin.y + origin.z + turn[0].x + turn[1].y + turn[2].z;
     if (!std::isfinite(sum) || !std::isfinite(grasp_angle)) {
-        return reject("simulated_hand_target: target or grasp_angle = " +
-                      std::to_string(grasp_angle) +
-                      " rad is not finite: give finite numbers; the hand stays where it was.");
+        return reject(
+            "simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
+            " rad is not finite: give finite numbers; the hand stays where it was.");
     }
     simulated_->set_hand_target(
         {frame.point_to_device(origin), glm::transpose(frame.rotation) * turn, grasp_angle});
@@ -38,9 +38,8 @@ godot::Dictionary SpidarG::get_simulated_truth() const {
     const spidar::WorldFrame frame = world();
     truth["grip_transform"] = frame.pose_to_world(plant.pose.position_m, plant.frame.rotation);
     // Positions as doubles too: a Vector3 rounds at some tens of nanometres.
-    truth["position_m"] =
-        spidar::to_godot(std::array<double, 3>{plant.pose.position_m.x, plant.pose.position_m.y,
-                                               plant.pose.position_m.z});
+    truth["position_m"] = spidar::to_godot(std::array<double, 3>{
+        plant.pose.position_m.x, plant.pose.position_m.y, plant.pose.position_m.z});
     truth["grasp_angle"] = plant.frame.grasp_angle_rad;
     truth["strings_wrench"] = spidar::to_godot(frame.wrench_to_world(plant.strings));
     truth["hand_wrench"] = spidar::to_godot(frame.wrench_to_world(plant.hand));

@@ -11,15 +11,23 @@ using spidar::Vec3;
 
 namespace {
 
-[[nodiscard]] bool is_string(int string) { return string >= 0 && string < spidar::kStringCount; }
+[[nodiscard]] bool is_string(int string) {
+    return string >= 0 && string < spidar::kStringCount;
+}
 
 } // namespace
 
-SpidarG::State SpidarG::get_state() const { return static_cast<State>(snapshot_.state); }
+SpidarG::State SpidarG::get_state() const {
+    return static_cast<State>(snapshot_.state);
+}
 
-godot::String SpidarG::get_state_text() const { return spidar::describe(snapshot_.state); }
+godot::String SpidarG::get_state_text() const {
+    return spidar::describe(snapshot_.state);
+}
 
-godot::String SpidarG::get_fault_text() const { return spidar::to_godot(fault_message()); }
+godot::String SpidarG::get_fault_text() const {
+    return spidar::to_godot(fault_message());
+}
 
 godot::Transform3D SpidarG::get_grip_transform() const {
     const spidar::GripState &grip = snapshot_.grip;
@@ -75,15 +83,21 @@ godot::Vector3 SpidarG::get_string_end(int string) const {
         spidar::attachment_point(settings_.grip, snapshot_.grip.pose, string)));
 }
 
-double SpidarG::get_grasp_angle() const { return snapshot_.grip.frame.grasp_angle_rad; }
+double SpidarG::get_grasp_angle() const {
+    return snapshot_.grip.frame.grasp_angle_rad;
+}
 
-double SpidarG::get_grasp_rate() const { return snapshot_.grip.twist.grasp_rate_rad_s; }
+double SpidarG::get_grasp_rate() const {
+    return snapshot_.grip.twist.grasp_rate_rad_s;
+}
 
 SpidarG::GraspPhase SpidarG::get_grasp_phase() const {
     return static_cast<GraspPhase>(snapshot_.grasp);
 }
 
-double SpidarG::get_jaw_gap() const { return config_or_default().jaw_gap(get_grasp_angle()); }
+double SpidarG::get_jaw_gap() const {
+    return config_or_default().jaw_gap(get_grasp_angle());
+}
 
 double SpidarG::get_grasp_angle_for_gap(double gap_m) const {
     return config_or_default().grasp_angle_for_gap(gap_m);
@@ -128,8 +142,9 @@ godot::Dictionary SpidarG::get_contact_impulses() const {
         const spidar::ContactReport &contact = snapshot_.contacts[static_cast<std::size_t>(i)];
         const bool is_stop = contact.grasp_impulse_nms != 0.0;
         impulses[contact.id] =
-            is_stop ? godot::Vector3(static_cast<spidar::GodotReal>(contact.grasp_impulse_nms), 0, 0)
-                    : spidar::to_godot(frame.turn_to_world(contact.impulse_ns));
+            is_stop
+                ? godot::Vector3(static_cast<spidar::GodotReal>(contact.grasp_impulse_nms), 0, 0)
+                : spidar::to_godot(frame.turn_to_world(contact.impulse_ns));
     }
     return impulses;
 }

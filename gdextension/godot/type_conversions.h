@@ -27,7 +27,8 @@ using GodotReal = decltype(godot::Vector3::x);
 
 // Godot's Basis stores rows; glm stores columns.
 [[nodiscard]] inline Mat3 to_core(const godot::Basis &basis) noexcept {
-    return {to_core(basis.get_column(0)), to_core(basis.get_column(1)), to_core(basis.get_column(2))};
+    return {to_core(basis.get_column(0)), to_core(basis.get_column(1)),
+            to_core(basis.get_column(2))};
 }
 
 [[nodiscard]] inline godot::Basis to_godot(const Mat3 &matrix) noexcept {
@@ -60,6 +61,8 @@ template <std::size_t kSize>
 }
 
 // Messages are plain ASCII.
-[[nodiscard]] inline godot::String to_godot(const std::string &text) { return {text.c_str()}; }
+[[nodiscard]] inline godot::String to_godot(const std::string &text) {
+    return {text.c_str()};
+}
 
 } // namespace spidar

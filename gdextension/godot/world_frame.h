@@ -29,7 +29,9 @@ struct WorldFrame {
         return glm::transpose(rotation) * (world - origin) / scale;
     }
     // Forces, moments, normals, angular velocities.
-    [[nodiscard]] Vec3 turn_to_world(const Vec3 &device) const noexcept { return rotation * device; }
+    [[nodiscard]] Vec3 turn_to_world(const Vec3 &device) const noexcept {
+        return rotation * device;
+    }
     [[nodiscard]] Vec3 turn_to_device(const Vec3 &world) const noexcept {
         return glm::transpose(rotation) * world;
     }
@@ -50,8 +52,7 @@ struct WorldFrame {
     [[nodiscard]] DofArray wrench_to_world(const Wrench &device) const noexcept {
         const Vec3 force = turn_to_world(device.force_n);
         const Vec3 moment = turn_to_world(device.moment_nm);
-        return {force.x,  force.y,  force.z,           moment.x,
-                moment.y, moment.z, device.grasp_torque_nm};
+        return {force.x, force.y, force.z, moment.x, moment.y, moment.z, device.grasp_torque_nm};
     }
     // A plane dot(normal, x) >= offset of the scene as one of the device. The grasp stop is the same in both.
     [[nodiscard]] ContactPlane contact_to_device(ContactPlane contact) const noexcept {

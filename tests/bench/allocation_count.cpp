@@ -32,24 +32,41 @@ void *counted_aligned(std::size_t size, std::align_val_t alignment) {
 
 } // namespace
 
-void *operator new(std::size_t size) { return counted(size); }
-void *operator new[](std::size_t size) { return counted(size); }
+void *operator new(std::size_t size) {
+    return counted(size);
+}
+void *operator new[](std::size_t size) {
+    return counted(size);
+}
 void *operator new(std::size_t size, std::align_val_t alignment) {
     return counted_aligned(size, alignment);
 }
 void *operator new[](std::size_t size, std::align_val_t alignment) {
     return counted_aligned(size, alignment);
 }
-void operator delete(void *memory) noexcept { std::free(memory); }
-void operator delete[](void *memory) noexcept { std::free(memory); }
-void operator delete(void *memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void *memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void *memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::size_t /*size*/) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory, std::size_t /*size*/) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::align_val_t /*alignment*/) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory, std::align_val_t /*alignment*/) noexcept {
+    std::free(memory);
+}
 void operator delete(void *memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
     std::free(memory);
 }
-void operator delete[](void *memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+void operator delete[](void *memory, std::size_t /*size*/,
+                       std::align_val_t /*alignment*/) noexcept {
     std::free(memory);
 }
 

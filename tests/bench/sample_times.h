@@ -12,7 +12,8 @@ class SampleTimes {
 public:
     explicit SampleTimes(std::size_t capacity) { samples_ns_.reserve(capacity); }
 
-    template <typename Call> void time(Call &&call) {
+    template <typename Call>
+    void time(Call &&call) {
         const auto start = std::chrono::steady_clock::now();
         call();
         const auto stop = std::chrono::steady_clock::now();

@@ -21,18 +21,32 @@ SCRIPT_ERRORS = re.compile(r"^SCRIPT ERROR.*(?:\n   .*)*", re.M)
 TOTALS = re.compile(r"^(\d+) passed, (\d+) failed$", re.M)
 
 
-def main(arguments):
-    godot, *names = arguments
-    prepare_project(PROJECT, godot)
+def run(godot, script, *arguments):
+    """What Godot printed, and its exit code (a text when it had to be stopped)."""
     command = [godot, "--headless", "--verbose", "--path", PROJECT, "--fixed-fps", "60",
-               "-s", "res://run_tests.gd", "--", *names]
+               "-s", script, "--", *arguments]
     try:
         done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace",
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        output, code = done.stdout, done.returncode
+        return done.stdout, done.returncode
     except subprocess.TimeoutExpired as error:
         output = (error.stdout or b"").decode(errors="replace")
-        code = f"none: not finished after {TIME_LIMIT_S} s"
+        return output, f"none: not finished after {TIME_LIMIT_S} s"
+
+
+def quits_cleanly(godot):
+    """A game that quits while devices are active. Prints one line; True when it did."""
+    output, code = run(godot, "res://quit_while_active.gd")
+    leaks = [match.group(0) for match in LEAKS.finditer(output)]
+    good = code == 0 and "quits while active" in output and not leaks
+    print("PASS" if good else "FAIL", f"quit while active: exit code {code}, leaks {leaks}")
+    return good
+
+
+def main(arguments):
+    godot, *names = arguments
+    prepare_project(PROJECT, godot)
+    output, code = run(godot, "res://run_tests.gd", *names)
     for line in output.splitlines():
         if line.startswith(("RUN ", "PASS", "FAIL", "     ", "INFO ")):
             print(line)
@@ -43,6 +57,9 @@ def main(arguments):
         problems.append(f"Godot ended with code {code}; the end of its output:\n" + output[-3000:])
     for problem in problems:
         print("FAIL", problem)
+    if not names:
+        good = quits_cleanly(godot)
+        passed, failed = passed + good, failed + (not good)
     print(f"{passed} passed, {failed + len(problems)} failed")
     return 0 if passed and not failed and not problems else 1
 

@@ -18,7 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
 
-from godot_project import ProjectError, import_assets, prepare_project  # noqa: E402
+from godot_project import ADDONS, ProjectError, list_extensions, prepare_project  # noqa: E402
 
 DEMO = os.path.join(ROOT, "demo_project")
 OUT = os.path.join(ROOT, "build", "play_tests")
@@ -192,6 +192,24 @@ def check_parts(checks, godot):
         checks.failed += int(failed)
 
 
+def check_missing_library(checks, godot):
+    """The demo beside an add-on without its library, never imported: a sentence that says what to do, code 2."""
+    project = os.path.join(OUT, "missing_library")
+    shutil.rmtree(project, ignore_errors=True)
+    shutil.copytree(DEMO, project, ignore=shutil.ignore_patterns(".godot", "addons"), symlinks=True)
+    shutil.copytree(ADDONS, os.path.join(project, "addons"), ignore=shutil.ignore_patterns("*.so"))
+    list_extensions(project)
+    done = subprocess.run(
+        [godot, "--headless", "--path", project, "--quit-after", "600"], timeout=RUN_LIMIT_S,
+        text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+        check=False,
+    )
+    checks.check(done.returncode == 2, f"missing library: exit code {done.returncode}, not 2")
+    checks.check("./dev build" in done.stdout, f"missing library: no remedy in\n{done.stdout[-1500:]}")
+    checks.check("SCRIPT ERROR" not in done.stdout, f"missing library:\n{done.stdout[-1500:]}")
+    shutil.rmtree(project, ignore_errors=True)
+
+
 def run_all(godot, seeds):
     checks = Checks()
     check_parts(checks, godot)
@@ -209,6 +227,7 @@ def run_all(godot, seeds):
     check_output_cut(checks, "output cut", play(godot, "output_cut", 1, "--cut-output"))
     check_pose_frozen(checks, "pose frozen", play(godot, "pose_frozen", 1, "--freeze-pose"))
     check_bad_arguments(checks, godot)
+    check_missing_library(checks, godot)
     session = first.bytes_of("session.json").decode("utf-8") or "{}"
     checks.check("written_utc" in json.loads(session), "session.json lacks written_utc")
     return checks
@@ -222,8 +241,7 @@ def main():
     if arguments.seeds < 1:
         parser.error(f"--seeds {arguments.seeds}: at least 1 is needed")
     try:
-        prepare_project(DEMO)
-        import_assets(arguments.godot, DEMO)
+        prepare_project(DEMO, arguments.godot)
     except ProjectError as problem:
         print(f"FAIL {problem}\n0 passed, 1 failed")
         return 1

@@ -6,8 +6,9 @@ extends Node
 const MAX_ATTEMPTS := 3
 ## Fingers open this much wider than the object before they go down.
 const CLEARANCE_M := 0.014
-const TRAVEL_ABOVE_TABLE_M := 0.122
-const REACH_S := 0.8
+## High and slow enough that surfaces passed on the way, which the device knows a frame or two late, are not brushed.
+const TRAVEL_ABOVE_TABLE_M := 0.130
+const REACH_S := 1.1
 const DESCEND_S := 0.6
 const LOWER_S := 0.8
 const SETTLE_TOLERANCE_M := 0.001
