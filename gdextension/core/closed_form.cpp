@@ -1,126 +1,105 @@
 #include "core/closed_form.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include <glm/geometric.hpp>
 
 namespace spidar {
 
 namespace {
 
-constexpr double kTwoThirdsPi = 2.0943951023931953;
-// Newton steps on the sum of the two poles' misfits in z.
-constexpr int kFuseSteps = 2;
 // Keeps divisions defined at the z faces, where the closed form has 0/0; a thousandth of a nanometre.
 constexpr double kSmallestDistance_m = 1e-12;
+// A step in z longer than the poles' own disagreement and this is no refinement (unit: m).
+constexpr double kFuseSlack_m = 1e-6;
+// cos(t/2) = s for cos(3t/2) = w and t in [0, pi/3] solves 4 s^3 - 3 s = w: cubic Hermite through both ends of
+// s(w), wrong by less than 2e-4, then Newton steps, each of which squares that.
+constexpr double kStart0 =
+    0.86602540378443865; // sqrt(3)/2, where s' = 1/6; at w = 1 s = 1, s' = 1/9
+constexpr double kStart1 = 1.0 / 6.0;
+constexpr double kStart3 = 2.0 * kStart0 + kStart1 + 1.0 / 9.0 - 2.0;
+constexpr double kStart2 = 1.0 - kStart0 - kStart1 - kStart3;
+constexpr int kRootSteps = 2;
+constexpr double kHalfSqrt3 = 0.86602540378443865;
 
-// What the lengths say about one pole, in the paper's letters for pole 1. For pole 2 x and y, a and b
-// change places and z - c becomes z + c.
-struct PoleEquations {
-    double along = 0.0;    // b (a): half size of the frame along the pole's rest direction
-    double position = 0.0; // y (x)
-    double side = 0.0;     // x1 (y2), known directly
-    double k = 0.0;        // k1 (k2)
-    double e = 0.0;        // E1 (E2)
-    double d2 = 0.0;       // d^2
-    double face = 0.0;     // +c (-c): z of the face on which the pole's strings hang
-};
-
-// Root of the cubic: the pole's component along its rest direction, y1 (x2).
-double pole_root(const PoleEquations &p, bool flipped) noexcept {
-    const double circle2 = std::fmax(p.d2 - p.side * p.side, 0.0);
-    // Monic: t^3 + q2 t^2 + q1 t + q0.
-    const double scale = 1.0 / (2.0 * p.along);
-    const double q2 = (p.position * p.position - p.k) * scale;
-    const double q1 = -circle2 - 2.0 * p.e * p.position * scale;
-    const double q0 = (p.k * circle2 + p.e * p.e) * scale;
-    const double shift = q2 / 3.0;
-    const double m2 = std::fmax(shift * shift - q1 / 3.0, 0.0);
-    const double m = std::sqrt(m2);
-    const double half = 0.5 * (shift * q1 - q0) - shift * shift * shift;
-    const double cosine = m > 0.0 ? std::clamp(half / (m2 * m), -1.0, 1.0) : 1.0;
-    const double angle = std::acos(cosine) / 3.0;
-    const double root = 2.0 * m * std::cos(flipped ? angle - kTwoThirdsPi : angle) - shift;
-    const double limit = std::sqrt(circle2);
-    return std::clamp(root, -limit, limit);
+// `a` where it is at least `low`, else `low`: for NaN too.
+Lanes at_least(Lanes a, double low) noexcept {
+    const Lanes bound = both(low);
+    return a >= bound ? a : bound;
 }
 
-// Distance of P0 from the pole's face, |z - face|, for a root.
-double face_distance(const PoleEquations &p, double root) noexcept {
-    return std::sqrt(std::fmax(2.0 * p.along * root - p.k, 0.0));
+Lanes at_most(Lanes a, Lanes high) noexcept {
+    return a <= high ? a : high;
 }
 
-// |r|^2 - d^2 of the pole that z implies, and its derivative.
+Lanes away_from_zero(Lanes h) noexcept {
+    const Lanes small = both(kSmallestDistance_m);
+    const Lanes least = h < both(0.0) ? -small : small;
+    const Lanes size = h < both(0.0) ? -h : h;
+    return size < small ? least : h;
+}
+
+// The two roots of the cubic that can lie on the pole's circle, upright and flipped.
+void solve_cubics(ClosedForm &form, Lanes circle2) noexcept {
+    // Monic: t^3 + q2 t^2 + q1 t + q0, by the angle of its three real roots.
+    const Lanes scale = both(0.5) / form.along;
+    const Lanes q2 = (form.position * form.position - form.k) * scale;
+    const Lanes q1 = -circle2 - both(2.0) * form.e * form.position * scale;
+    const Lanes q0 = (form.k * circle2 + form.e * form.e) * scale;
+    const Lanes shift = q2 * both(1.0 / 3.0);
+    const Lanes m2 = at_least(shift * shift - q1 * both(1.0 / 3.0), 0.0);
+    const Lanes m = square_root(m2);
+    const Lanes half = both(0.5) * (shift * q1 - q0) - shift * shift * shift;
+    const Lanes cosine = at_most(at_least(half / (m2 * m), -1.0), both(1.0)); // cos(3 t)
+    const Lanes w = square_root(both(0.5) * (both(1.0) + cosine));            // cos(3 t / 2)
+    Lanes s = both(kStart0) + w * (both(kStart1) + w * (both(kStart2) + w * both(kStart3)));
+    for (int i = 0; i < kRootSteps; ++i) {
+        const Lanes s2 = s * s;
+        s = (both(8.0) * s2 * s + w) / (both(12.0) * s2 - both(3.0));
+    }
+    const Lanes cos_t = both(2.0) * s * s - both(1.0);
+    const Lanes sin_t = both(2.0) * s * square_root(at_least(both(1.0) - s * s, 0.0));
+    const Lanes limit = square_root(circle2);
+    const auto on_circle = [&limit](Lanes root) {
+        const Lanes low = root >= -limit ? root : -limit;
+        return at_most(low, limit);
+    };
+    form.upright = on_circle(both(2.0) * m * cos_t - shift);
+    form.flipped = on_circle(m * (both(2.0 * kHalfSqrt3) * sin_t - cos_t) - shift);
+}
+
+// |r|^2 - d^2 of each pole for a z of each, and its derivative.
 struct Misfit {
-    double value = 0.0;
-    double slope = 0.0;
+    Lanes value{};
+    Lanes slope{};
 };
 
-double away_from_zero(double h) noexcept {
-    return std::fabs(h) < kSmallestDistance_m ? std::copysign(kSmallestDistance_m, h) : h;
+Misfit misfit(const ClosedForm &form, Lanes z) noexcept {
+    const Lanes h = away_from_zero(z - form.face);
+    const Lanes per_along = both(1.0) / form.along;
+    const Lanes per_h = both(1.0) / h;
+    const Lanes root = both(0.5) * (form.k + h * h) * per_along;
+    const Lanes root_slope = h * per_along;
+    const Lanes vertical = (form.e - form.position * root) * per_h;
+    const Lanes vertical_slope = -(form.position * root_slope + vertical) * per_h;
+    const double d2 = form.pole_half_length_m * form.pole_half_length_m;
+    return {root * root + vertical * vertical + form.side * form.side - both(d2),
+            both(2.0) * (root * root_slope + vertical * vertical_slope)};
 }
 
-Misfit misfit(const PoleEquations &p, double z) noexcept {
-    const double h = away_from_zero(z - p.face);
-    const double root = (p.k + h * h) / (2.0 * p.along);
-    const double root_slope = h / p.along;
-    const double vertical = (p.e - p.position * root) / h;
-    const double vertical_slope = -(p.position * root_slope + vertical) / h;
-    return {root * root + vertical * vertical + p.side * p.side - p.d2,
-            2.0 * (root * root_slope + vertical * vertical_slope)};
-}
-
-// z from both poles: the signs that agree best, weighted by how well each pole sees z, then refined.
-double fuse_z(const PoleEquations &one, double root_one, const PoleEquations &two,
-              double root_two) noexcept {
-    const double h1 = face_distance(one, root_one);
-    const double h2 = face_distance(two, root_two);
+// z of P0 as each pole has it: the signs that agree best.
+Lanes heights(const ClosedForm &form, Lanes roots) noexcept {
+    const Lanes h = square_root(at_least(both(2.0) * form.along * roots - form.k, 0.0));
     // Inside the frame z lies below face 1 and above face 2; other signs are outside, met only when the
     // lengths say so.
-    double z1 = one.face - h1;
-    double z2 = two.face + h2;
-    double best = std::fabs(z1 - z2);
+    Lanes z = form.face + Lanes{-1.0, 1.0} * h;
+    double best = std::fabs(z[0] - z[1]);
     for (const double sign : {1.0, -1.0}) {
-        const double other_one = one.face + sign * h1;
-        const double other_two = two.face + sign * h2;
-        if (std::fabs(other_one - other_two) < best) {
-            best = std::fabs(other_one - other_two);
-            z1 = other_one;
-            z2 = other_two;
+        const Lanes other = form.face + both(sign) * h;
+        if (std::fabs(other[0] - other[1]) < best) {
+            best = std::fabs(other[0] - other[1]);
+            z = other;
         }
-    }
-    const Misfit at1 = misfit(one, z1);
-    const Misfit at2 = misfit(two, z2);
-    const double w1 = at1.slope * at1.slope;
-    const double w2 = at2.slope * at2.slope;
-    double z =
-        w1 + w2 > 0.0 && std::isfinite(w1 + w2) ? (w1 * z1 + w2 * z2) / (w1 + w2) : 0.5 * (z1 + z2);
-    for (int i = 0; i < kFuseSteps; ++i) {
-        const Misfit f1 = misfit(one, z);
-        const Misfit f2 = misfit(two, z);
-        const double slope2 = f1.slope * f1.slope + f2.slope * f2.slope;
-        const double step = (f1.value * f1.slope + f2.value * f2.slope) / slope2;
-        // A step longer than the poles' own disagreement is no refinement.
-        if (!(std::fabs(step) <= best + 1e-6)) {
-            break;
-        }
-        z -= step;
     }
     return z;
-}
-
-// Third component of the pole from z; sign and size from the equation, or what the circle leaves.
-double vertical_component(const PoleEquations &p, double z, double root) noexcept {
-    const double h = away_from_zero(z - p.face);
-    const double size = std::sqrt(std::fmax(p.d2 - p.side * p.side - root * root, 0.0));
-    const double vertical = (p.e - p.position * root) / h;
-    return std::isfinite(vertical) ? std::clamp(vertical, -2.0 * size, 2.0 * size) : 0.0;
-}
-
-Vec3 onto_sphere(const Vec3 &r, double d, const Vec3 &otherwise) noexcept {
-    const double length = glm::length(r);
-    return length > 0.0 && std::isfinite(length) ? r * (d / length) : otherwise;
 }
 
 } // namespace
@@ -136,11 +115,10 @@ bool has_paper_attachments(const GripGeometry &grip) noexcept {
     return true;
 }
 
-GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
-                          const StringArray &lengths_m, int pair) noexcept {
+ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
+                             const StringArray &lengths_m) noexcept {
     const double a = half_extents_m.x;
     const double b = half_extents_m.y;
-    const double c = half_extents_m.z;
     const double d = pole_half_length_m;
     // Differences of squares as products: the squares would cost digits.
     const auto difference = [&lengths_m](std::size_t i, std::size_t j) {
@@ -153,36 +131,80 @@ GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
         }
         return sum;
     };
-    const double x = -(difference(0, 1) + difference(2, 3)) / (8.0 * a);
-    const double x1 = -(difference(0, 1) - difference(2, 3)) / (8.0 * a);
-    const double y = -(difference(4, 6) + difference(5, 7)) / (8.0 * b);
-    const double y2 = -(difference(4, 6) - difference(5, 7)) / (8.0 * b);
-    const double common = x * x + y * y + d * d + a * a + b * b;
+    const Lanes eighth = both(0.125) / Lanes{a, b};
+    // Lane 0: along x, by pole 1's strings; lane 1: along y, by pole 2's.
+    const Lanes first{difference(0, 1), difference(4, 6)};
+    const Lanes second{difference(2, 3), difference(5, 7)};
+    const Lanes sum = -(first + second) * eighth;
+    const double x = sum[0];
+    const double y = sum[1];
 
-    PoleEquations one;
-    one.along = b;
-    one.position = y;
-    one.side = x1;
-    one.k = common - quarter_sum(0);
-    one.e = (difference(0, 2) + difference(1, 3)) / 8.0 - x * x1 + b * y;
-    one.d2 = d * d;
-    one.face = c;
-    PoleEquations two;
-    two.along = a;
-    two.position = x;
-    two.side = y2;
-    two.k = common - quarter_sum(4);
-    two.e = (difference(4, 5) + difference(6, 7)) / 8.0 + a * x - y * y2;
-    two.d2 = d * d;
-    two.face = -c;
+    ClosedForm form;
+    form.pole_half_length_m = d;
+    form.along = Lanes{b, a};
+    form.position = Lanes{y, x};
+    form.side = (second - first) * eighth;
+    form.face = Lanes{half_extents_m.z, -half_extents_m.z};
+    form.k = both(x * x + y * y + d * d + a * a + b * b) - Lanes{quarter_sum(0), quarter_sum(4)};
+    const Lanes across{difference(0, 2) + difference(1, 3), difference(4, 5) + difference(6, 7)};
+    form.e = both(0.125) * across - Lanes{x, y} * form.side + Lanes{b * y, a * x};
+    solve_cubics(form, at_least(both(d * d) - form.side * form.side, 0.0));
+    return form;
+}
 
-    const double y1 = pole_root(one, (pair & 1) != 0);
-    const double x2 = pole_root(two, (pair & 2) != 0);
-    const double z = fuse_z(one, y1, two, x2);
-    const Vec3 r1(x1, y1, vertical_component(one, z, y1));
-    const Vec3 r2(x2, y2, vertical_component(two, z, x2));
-    return {Vec3(x, y, z), onto_sphere(r1, d, Vec3(0.0, d, 0.0)),
-            onto_sphere(r2, d, Vec3(d, 0.0, 0.0))};
+RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
+    const Lanes roots{(pair & 1) != 0 ? form.flipped[0] : form.upright[0],
+                      (pair & 2) != 0 ? form.flipped[1] : form.upright[1]};
+    const double d = form.pole_half_length_m;
+    const Lanes z_each = heights(form, roots);
+    const double apart = std::fabs(z_each[0] - z_each[1]);
+    // Each pole's z weighted by how well that pole sees z; then one Newton step on the sum of the squared misfits.
+    const Misfit each = misfit(form, z_each);
+    const Lanes weight = each.slope * each.slope;
+    const double weights = sum_of(weight);
+    const bool weighted = weights > 0.0 && std::isfinite(weights);
+    double z = weighted ? sum_of(weight * z_each) / weights : 0.5 * sum_of(z_each);
+    const Misfit fused = misfit(form, both(z));
+    double misfit2 = sum_of(fused.value * fused.value);
+    const double gradient = sum_of(fused.value * fused.slope);
+    const double step = gradient / sum_of(fused.slope * fused.slope);
+    if (std::fabs(step) <= apart + kFuseSlack_m) {
+        z -= step;
+        misfit2 -= step * gradient;
+    }
+
+    z = std::isfinite(z) ? z : 0.0;
+
+    // Third components from z; sign and size from the equation, or what the circle leaves.
+    const Lanes h = away_from_zero(both(z) - form.face);
+    const Lanes size2 = both(d * d) - form.side * form.side - roots * roots;
+    const Lanes room = both(2.0) * square_root(at_least(size2, 0.0));
+    const Lanes wanted = (form.e - form.position * roots) / h;
+    const Lanes vertical = at_most(wanted >= -room ? wanted : -room, room);
+
+    const Lanes length2 = form.side * form.side + roots * roots + vertical * vertical;
+    const Lanes scale = both(d) / square_root(length2);
+    RootPairPose result;
+    result.misfit_m = std::sqrt(misfit2 > 0.0 ? misfit2 : 0.0) / (2.0 * d);
+    result.pose.position_m = {both(form.position[1]), both(form.position[0]), both(z)};
+    result.pose.poles_m = {scale * Lanes{form.side[0], roots[1]},
+                           scale * Lanes{roots[0], form.side[1]}, scale * vertical};
+    for (int pole = 0; pole < 2; ++pole) {
+        // Nothing left of a pole, or far too much: its rest direction.
+        if (!(length2[pole] > 0.0) || !std::isfinite(length2[pole])) {
+            result.pose.poles_m.x[pole] = pole == 0 ? 0.0 : d;
+            result.pose.poles_m.y[pole] = pole == 0 ? d : 0.0;
+            result.pose.poles_m.z[pole] = 0.0;
+        }
+    }
+    return result;
+}
+
+GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
+                          const StringArray &lengths_m, int pair) noexcept {
+    return pose_of(
+        root_pair_pose(solve_closed_form(half_extents_m, pole_half_length_m, lengths_m), pair)
+            .pose);
 }
 
 } // namespace spidar

@@ -4,8 +4,7 @@
 // two of whose roots can lie on the pole's circle: pole upright or flipped. Four pairs in all.
 #pragma once
 
-#include <array>
-
+#include "core/crossed_step.h"
 #include "core/grip_geometry.h"
 #include "core/types.h"
 
@@ -17,9 +16,35 @@ inline constexpr int kRootPairCount = 4;
 // True when this grip ties its strings as the paper's does: what the closed form assumes.
 [[nodiscard]] bool has_paper_attachments(const GripGeometry &grip) noexcept;
 
-// The pose of root pair `pair` for lengths in a box of half sizes `half_extents_m`. Exact for exact lengths;
-// with errors, a start for Gauss-Newton (roots that turned complex are replaced by the nearest real ones).
-// Always finite for finite lengths, |r1| = |r2| = pole_half_length_m.
+// One sample of lengths, solved as far as all four pairs share it. Both poles are computed side by side; in the
+// paper's letters for pole 1 (for pole 2 x and y, a and b change places and z - c becomes z + c):
+struct ClosedForm {
+    Lanes along{};    // b (a): half size of the frame along the pole's rest direction
+    Lanes position{}; // y (x)
+    Lanes side{};     // x1 (y2), known directly
+    Lanes k{};        // k1 (k2)
+    Lanes e{};        // E1 (E2)
+    Lanes face{};     // +c (-c): z of the face on which the pole's strings hang
+    Lanes upright{};  // the cubic's roots: y1 (x2)
+    Lanes flipped{};
+    double pole_half_length_m = 0.0;
+};
+
+[[nodiscard]] ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
+                                           const StringArray &lengths_m) noexcept;
+
+struct RootPairPose {
+    CrossedPose pose;
+    // How far from a true solution the pair is: the length by which the poles miss their spheres at the
+    // z that suits both best. About the residual it would end with, up to a factor of the geometry.
+    double misfit_m = 0.0;
+};
+
+// The pose of root pair `pair`. Exact for exact lengths; with errors, a start for Gauss-Newton (roots that turned
+// complex are replaced by the nearest real ones). Always finite for finite lengths, poles on their spheres.
+[[nodiscard]] RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept;
+
+// Both at once.
 [[nodiscard]] GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
                                         const StringArray &lengths_m, int pair) noexcept;
 

@@ -7,8 +7,7 @@
 #include "core/closed_form.h"
 #include "core/constants.h"
 #include "core/gauss_newton.h"
-#include "core/pose_polish.h"
-#include "core/pose_starts.h"
+#include "core/pose_search.h"
 
 namespace spidar {
 
@@ -23,55 +22,37 @@ bool all_finite(const StringArray &lengths_m) noexcept {
     return true;
 }
 
-bool all_positive(const StringArray &lengths_m) noexcept {
+bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
-        if (!(length > 0.0)) {
+        if (!(length > 0.0 && length <= kLongestString_m)) {
             return false;
         }
     }
     return true;
 }
 
-// Whether a pose that fits to `candidate_m` replaces one that came first and fits to `first_m`.
-bool replaces(double candidate_m, double first_m) noexcept {
-    if (first_m <= kResidualFloor_m) {
-        return false;
-    }
-    const double factor = first_m > kSuspiciousResidual_m ? kClearlyBetter : kBeyondChance;
-    return candidate_m < factor * first_m;
+CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
+    return {a.position_m - b.position_m, a.poles_m - b.poles_m};
 }
 
-double pole_distance(const GripPose &a, const GripPose &b) noexcept {
-    return std::fmax(glm::distance(a.position_m, b.position_m),
-                     std::fmax(glm::distance(a.r1_m, b.r1_m), glm::distance(a.r2_m, b.r2_m)));
+// Residual once a step is taken, by the linear model that the step comes from.
+double rms_after(const CrossedErrors &errors, const CrossedStep &step) noexcept {
+    const double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
+    return std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
 }
 
-// The best pose so far, and whether another one far from it fits as well.
-struct Search {
-    PolishResult best;
-    bool any = false;
-    bool ambiguous = false;
-    int steps = 0;
+double squared(const CrossedPose &change) noexcept {
+    return dot(change.position_m, change.position_m)[0] +
+           sum_of(dot(change.poles_m, change.poles_m));
+}
 
-    void offer(const PolishResult &candidate) noexcept {
-        steps += candidate.steps;
-        if (!std::isfinite(candidate.residual_rms_m)) {
-            return;
-        }
-        if (!any) {
-            best = candidate;
-            any = true;
-            return;
-        }
-        const bool another = pole_distance(candidate.pose, best.pose) > kDistinctPose_m;
-        if (another && replaces(candidate.residual_rms_m, best.residual_rms_m)) {
-            ambiguous = false;
-            best = candidate;
-        } else if (another && !replaces(best.residual_rms_m, candidate.residual_rms_m)) {
-            ambiguous = true;
-        }
-    }
-};
+// The pose one change on. Poles back on their spheres to second order: a start needs no more.
+CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
+    const LaneVec poles = pose.poles_m + change.poles_m;
+    const Lanes excess = dot(poles, poles) * both(1.0 / (d * d)) - both(1.0);
+    const Lanes scale = both(1.0) + excess * (both(0.375) * excess - both(0.5));
+    return {pose.position_m + change.position_m, scale * poles};
+}
 
 } // namespace
 
@@ -84,24 +65,34 @@ Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeomet
     const std::optional<Vec3> box = box_half_extents(frame);
     is_box_ = box.has_value();
     half_extents_m_ = box.value_or(Vec3(0.0));
+    crossed_ = make_layout(frame, grip, layout_);
+    closed_form_ = is_box_ && has_paper_attachments(grip);
     last_pose_ = rest_pose(grip);
-    warm_ = false;
+    reset();
     return Status::ok;
 }
 
 void ForwardKinematics::set_last_pose(const GripPose &pose) noexcept {
+    reset();
     last_pose_ = pose;
     warm_ = true;
 }
 
-KinematicsResult ForwardKinematics::hold(KinematicsResult result, Status status) const noexcept {
+KinematicsResult ForwardKinematics::hold(const KinematicsResult &from,
+                                         Status status) const noexcept {
+    KinematicsResult result = from;
     result.pose = last_pose_;
     result.status = status;
     return result;
 }
 
+KinematicsResult ForwardKinematics::refuse(const StringArray &lengths_m,
+                                           const KinematicsResult &result) const noexcept {
+    return hold(result, all_finite(lengths_m) ? Status::impossible_lengths : Status::not_finite);
+}
+
 // The gates that every new pose passes; on success it becomes the last pose.
-KinematicsResult ForwardKinematics::accept(KinematicsResult result) noexcept {
+KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
     if (!(result.residual_rms_m <= kImpossibleResidual_m)) {
         return hold(result, Status::impossible_lengths);
     }
@@ -123,26 +114,90 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     if (!warm_) {
         return solve_cold(lengths_m);
     }
+    if (!all_possible(lengths_m)) {
+        return refuse(lengths_m, KinematicsResult());
+    }
+    return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
+}
+
+KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
+    const double d = layout_.pole_half_length_m;
+    const CrossedPose last = lanes_of(last_pose_);
+    CrossedPose pose = foreseeing_ ? one_change_on(last, foreseen_change_, d) : last;
+    CrossedErrors errors = errors_at(layout_, lengths_m, pose);
+    CrossedFactor factor = factorise(errors, pose, d);
+    const CrossedStep first = solve(factor, errors);
+    if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
+        const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
+        const bool trust = first.size_m2 <= kTrustedStep_m * kTrustedStep_m;
+        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kWarmResidualGate_m : 0.0);
+    }
+    pose = moved(pose, first, d);
     KinematicsResult result;
-    if (!all_finite(lengths_m)) {
-        return hold(result, Status::not_finite);
+    result.steps = 1;
+    result.residual_rms_m = rms_after(errors, first);
+    // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
+    // factorisation (k s)^2 s. One that leaves too little to matter is not looked at again.
+    const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
+    const double allowed = enough_m * enough_m * factor.min_pivot;
+    const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
+    if (!(bend2 * first.size_m2 <= allowed)) {
+        errors = errors_at(layout_, lengths_m, pose);
+        const bool again = bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot;
+        if (!again) {
+            factor = factorise(errors, pose, d);
+        }
+        const CrossedStep second =
+            again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
+        if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
+            return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+        }
+        pose = moved(pose, second, d);
+        result.steps = 2;
+        result.residual_rms_m = rms_after(errors, second);
     }
-    if (!all_positive(lengths_m)) {
-        return hold(result, Status::impossible_lengths);
+    if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
+        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
+    foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
+    result.pose = pose_of(pose);
+    result.conditioning = factor.min_pivot;
+    return accept(result);
+}
+
+// The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
+// best for the change just seen. Noise makes the higher orders worse, smooth motion much better.
+void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
+    const CrossedPose turn = minus(change, last_change_);
+    const double still2 = squared(change);
+    const double steady2 = squared(turn);
+    const double turning2 = squared(minus(turn, last_turn_));
+    last_change_ = change;
+    last_turn_ = turn;
+    foreseeing_ = steady2 < kForeseenShare * still2;
+    foreseen_change_ = change;
+    if (turning2 < kForeseenShare * steady2) {
+        foreseeing_ = true;
+        foreseen_change_ = {change.position_m + turn.position_m, change.poles_m + turn.poles_m};
+    }
+}
+
+// Grips with other than two strings to a pole end.
+KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
     GripPose pose = last_pose_;
     const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
     if (!first.solvable || !(first.step_m <= kMaxWarmStep_m)) {
         const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m);
-        return search(lengths_m, forget ? nullptr : &last_pose_);
+        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
     const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
     const double residual_rms_m = length_errors(problem, pose).rms_m();
     if (!second.solvable || !(second.step_m <= kMaxSecondStep_m) ||
         !(residual_rms_m <= kWarmResidualGate_m)) {
-        return search(lengths_m, &last_pose_);
+        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
+    KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
     result.conditioning = second.min_pivot;
@@ -153,41 +208,60 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
 KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noexcept {
     KinematicsResult result;
     result.cold_start = true;
-    if (!all_finite(lengths_m)) {
-        return hold(result, Status::not_finite);
+    if (!all_possible(lengths_m)) {
+        return refuse(lengths_m, result);
     }
-    if (!all_positive(lengths_m)) {
-        return hold(result, Status::impossible_lengths);
-    }
-    return search(lengths_m, nullptr);
+    return search(lengths_m, nullptr, 0.0);
 }
 
-// Every start worth trying, the preferred one first: the remembered pose, the upright root pair, the others.
-KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
-                                           const GripPose *remembered) noexcept {
+std::optional<Twist>
+ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
+    const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
+    const double size = glm::length(area);
+    const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
+    if (!crossed_ || !(size > kParallelAngle_rad * d2)) {
+        return std::nullopt;
+    }
+    const CrossedPose pose = lanes_of(last_pose_);
+    CrossedErrors rates = errors_at(layout_, rates_m_s, pose);
+    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
+        const auto &strings = layout_.strings[slot];
+        rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
+    }
+    const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
+    if (!factor.solvable || !(factor.min_pivot >= kRankDeficientPivot)) {
+        return std::nullopt;
+    }
+    const CrossedStep step = solve(factor, rates);
+    if (!std::isfinite(step.size_m2)) {
+        return std::nullopt;
+    }
+    // Pole k turns by omega +- alpha n, n the normal of both, alpha half the grasp rate.
+    const Vec3 n = area / size;
+    const Vec3 rate1 = lane(step.poles_m, 0);
+    const Vec3 rate2 = lane(step.poles_m, 1);
+    const double turn1 = glm::dot(rate1, glm::cross(n, last_pose_.r1_m)) / d2;
+    const double turn2 = glm::dot(rate2, glm::cross(n, last_pose_.r2_m)) / d2;
+    Twist twist;
+    twist.linear_m_s = lane(step.position_m, 0);
+    twist.grasp_rate_rad_s = turn1 - turn2;
+    // Out of their plane: omega . (r x n) = rate . n for both poles.
+    twist.angular_rad_s = 0.5 * (turn1 + turn2) * n +
+                          (glm::dot(rate1, n) * glm::cross(glm::cross(last_pose_.r2_m, n), n) -
+                           glm::dot(rate2, n) * glm::cross(glm::cross(last_pose_.r1_m, n), n)) /
+                              size;
+    return twist;
+}
+
+KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,
+                                           double content_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
-    Search found;
-    if (remembered != nullptr) {
-        found.offer(polish_pose(problem, *remembered));
+    SearchTools tools;
+    tools.layout = crossed_ ? &layout_ : nullptr;
+    if (closed_form_) {
+        tools.closed_form_half_extents_m = half_extents_m_;
     }
-    if (is_box_ && has_paper_attachments(grip_)) {
-        for (int pair = 0; pair < kRootPairCount; ++pair) {
-            // A pose that explains the lengths fully needs no rival.
-            if (found.any && found.best.residual_rms_m <= kResidualFloor_m) {
-                break;
-            }
-            found.offer(
-                polish_pose(problem, closed_form_pose(half_extents_m_, grip_.pole_half_length_m,
-                                                      lengths_m, pair)));
-        }
-    } else {
-        for (int start = 0; start < kStartCount; ++start) {
-            if (found.any && found.best.residual_rms_m <= kResidualFloor_m) {
-                break;
-            }
-            found.offer(polish_pose(problem, start_pose(problem, start)));
-        }
-    }
+    const SearchResult found = search_pose(problem, tools, remembered, content_m);
     KinematicsResult result;
     result.cold_start = true;
     result.steps = found.steps;
@@ -203,6 +277,7 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m,
     if (found.ambiguous) {
         result.status = Status::ambiguous_pose;
     }
+    forget_motion();
     return accept(result);
 }
 

@@ -1,9 +1,12 @@
-// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the last pose. Cold, or on a bad
-// residual: the trigonometric closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md).
+// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
+// step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
+// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "core/crossed_step.h"
 #include "core/frame_geometry.h"
 #include "core/grip_geometry.h"
 #include "core/status.h"
@@ -27,30 +30,58 @@ public:
     // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
-    // One servo tick: two steps from the last pose; falls back to cold() when the residual or the step size
+    // One servo tick: one or two steps; falls back to cold() when the residual or the step size
     // says so; holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
     // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
+    // Velocity of the grip at the last pose from the rates of the string lengths (growing is positive; unit: m/s), by
+    // least squares as the pose itself. Empty where the poles are parallel or the lengths leave it open, and for
+    // grips with other than two strings to a pole end.
+    [[nodiscard]] std::optional<Twist>
+    twist_of_length_rates(const StringArray &rates_m_s) const noexcept;
+
     // Warm start from here at the next update().
     void set_last_pose(const GripPose &pose) noexcept;
     [[nodiscard]] const GripPose &last_pose() const noexcept { return last_pose_; }
     // Forget the last pose: the next update() is cold.
-    void reset() noexcept { warm_ = false; }
+    void reset() noexcept {
+        warm_ = false;
+        forget_motion();
+    }
 
 private:
-    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered) noexcept;
-    KinematicsResult accept(KinematicsResult result) noexcept;
-    [[nodiscard]] KinematicsResult hold(KinematicsResult result, Status status) const noexcept;
+    KinematicsResult track_crossed(const StringArray &lengths_m) noexcept;
+    KinematicsResult track_any(const StringArray &lengths_m) noexcept;
+    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered,
+                            double content_m) noexcept;
+    void foresee(const CrossedPose &change) noexcept;
+    void forget_motion() noexcept {
+        last_change_ = CrossedPose();
+        last_turn_ = CrossedPose();
+        foreseeing_ = false;
+    }
+    // Changes `result` in place and returns it: the tick makes no copy that it can spare.
+    KinematicsResult accept(KinematicsResult &result) noexcept;
+    [[nodiscard]] KinematicsResult hold(const KinematicsResult &from, Status status) const noexcept;
+    [[nodiscard]] KinematicsResult refuse(const StringArray &lengths_m,
+                                          const KinematicsResult &result) const noexcept;
 
     FrameGeometry frame_{};
     GripGeometry grip_{};
+    CrossedLayout layout_;
+    bool crossed_ = false;     // layout_ is valid: the fast steps serve
     Vec3 half_extents_m_{0.0}; // valid when is_box_
     bool is_box_ = false;
+    bool closed_form_ = false;
     bool warm_ = false;
     GripPose last_pose_{};
+    CrossedPose last_change_{}; // of the last warm tick
+    CrossedPose last_turn_{};   // change of that change
+    CrossedPose foreseen_change_{};
+    bool foreseeing_ = false;
 };
 
 } // namespace spidar

@@ -66,3 +66,34 @@ TEST_CASE("closed form: only the paper's attachments qualify") {
     grip.attachments[0] = {1, 1.0};
     CHECK_FALSE(has_paper_attachments(grip));
 }
+
+TEST_CASE("closed form: the misfit is nothing for the true pair and foretells the residual of the "
+          "others") {
+    const GripGeometry grip;
+    const FrameGeometry frame = test::paper_frame();
+    test::Random random(8);
+    int wrong = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const GripPose truth = random.pose(grip, 0.15, 30.0 * kDeg);
+        const StringArray lengths = string_lengths(frame, grip, truth);
+        const ClosedForm form =
+            solve_closed_form(Vec3(kPaperHalfExtent_m), grip.pole_half_length_m, lengths);
+        for (int pair = 0; pair < kRootPairCount; ++pair) {
+            const RootPairPose found = root_pair_pose(form, pair);
+            const bool right = test::distance(pose_of(found.pose), truth) < 1e-9;
+            CAPTURE(i);
+            if (right) {
+                CHECK(found.misfit_m < 1e-9);
+            } else if (found.misfit_m > 1e-2) {
+                ++wrong;
+                const StringArray computed = string_lengths(frame, grip, pose_of(found.pose));
+                double worst = 0.0;
+                for (std::size_t k = 0; k < kStringCount; ++k) {
+                    worst = std::fmax(worst, std::fabs(computed[k] - lengths[k]));
+                }
+                CHECK(worst > 1e-4);
+            }
+        }
+    }
+    CHECK(wrong > 0);
+}

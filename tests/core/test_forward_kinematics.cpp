@@ -7,6 +7,8 @@
 #include "core/constants.h"
 #include "core/forward_kinematics.h"
 #include "core/pose_helpers.h"
+#include "core/pose_polish.h"
+#include "core/wrench_matrix.h"
 
 using namespace spidar;
 using test::kDeg;
@@ -166,7 +168,7 @@ TEST_CASE("kinematics: noisy lengths end at the least-squares pose, cold and war
     }
 }
 
-TEST_CASE("kinematics: warm tracking of T1 with two steps a tick") {
+TEST_CASE("kinematics: warm tracking of T1 with at most two steps a tick") {
     Rig rig;
     double worst = 0.0;
     int cold_starts = 0;
@@ -176,12 +178,137 @@ TEST_CASE("kinematics: warm tracking of T1 with two steps a tick") {
         REQUIRE(usable(result.status));
         cold_starts += result.cold_start ? 1 : 0;
         if (!result.cold_start) {
-            CHECK(result.steps == 2);
+            CHECK(result.steps <= 2);
         }
         worst = std::fmax(worst, test::distance(result.pose, truth));
     }
     CHECK(cold_starts == 1); // the first tick only
-    CHECK(worst < 1e-9);
+    CHECK(worst < 2e-11);
+}
+
+TEST_CASE("kinematics: on smooth motion one step a tick is enough") {
+    Rig rig;
+    int steps = 0;
+    constexpr int kTicks = 5000;
+    for (int tick = 0; tick < kTicks; ++tick) {
+        steps += rig.kinematics.update(rig.lengths(trajectory_t1(rig.grip, 0.001 * tick))).steps;
+    }
+    CHECK(steps < kTicks + kTicks / 20);
+}
+
+TEST_CASE("kinematics: with noise a warm tick is within 1 % of the least-squares optimum") {
+    Rig rig;
+    Rig exact;
+    test::Random random(17);
+    for (const double noise_m : {2.5e-5, 1e-4, 1e-3}) {
+        rig.kinematics.reset();
+        double square = 0.0;
+        double optimal = 0.0;
+        for (int tick = 0; tick < 3000; ++tick) {
+            const GripPose truth = trajectory_t1(rig.grip, 0.001 * tick);
+            StringArray lengths = rig.lengths(truth);
+            for (double &length : lengths) {
+                length += random.between(-noise_m, noise_m);
+            }
+            const KinematicsResult result = rig.kinematics.update(lengths);
+            REQUIRE(usable(result.status));
+            exact.kinematics.set_last_pose(truth);
+            KinematicsResult best;
+            for (int i = 0; i < 10; ++i) {
+                best = exact.kinematics.update(lengths);
+            }
+            CHECK(imbalance(exact, best.pose, lengths) < 1e-7 * noise_m);
+            const double error = test::distance(result.pose, truth);
+            const double least = test::distance(best.pose, truth);
+            square += error * error;
+            optimal += least * least;
+            // Reported without a further look at the lengths: off by no more than the pose may be.
+            double residual2 = 0.0;
+            const StringArray computed = rig.lengths(result.pose);
+            for (std::size_t i = 0; i < kStringCount; ++i) {
+                residual2 += (lengths[i] - computed[i]) * (lengths[i] - computed[i]);
+            }
+            CHECK(std::fabs(result.residual_rms_m - std::sqrt(residual2 / kStringCount)) <
+                  kTrackingShare * noise_m);
+        }
+        CAPTURE(noise_m);
+        CHECK(std::sqrt(square) < 1.01 * std::sqrt(optimal));
+    }
+}
+
+TEST_CASE("kinematics: noise alone starts no search") {
+    Rig rig;
+    test::Random random(19);
+    rig.kinematics.set_last_pose(trajectory_t1(rig.grip, 0.0));
+    int searches = 0;
+    for (int tick = 1; tick <= 3000; ++tick) {
+        StringArray lengths = rig.lengths(trajectory_t1(rig.grip, 0.001 * tick));
+        for (double &length : lengths) {
+            length += random.between(-4e-4, 4e-4);
+        }
+        searches += rig.kinematics.update(lengths).cold_start ? 1 : 0;
+    }
+    CHECK(searches == 0);
+}
+
+TEST_CASE("kinematics: cold, a root pair that fits as well is never dropped unseen") {
+    Rig rig;
+    test::Random random(23);
+    int rivals = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const GripPose truth = random.pose(rig.grip, 0.2, 60.0 * kDeg);
+        StringArray lengths = rig.lengths(truth);
+        for (double &length : lengths) {
+            length += random.between(-1e-4, 1e-4);
+        }
+        const KinematicsResult cold = rig.kinematics.solve_cold(lengths);
+        if (!usable(cold.status)) {
+            continue;
+        }
+        const LengthProblem problem{rig.frame, rig.grip, lengths};
+        for (int pair = 0; pair < kRootPairCount; ++pair) {
+            const PolishResult other =
+                polish_pose(problem, closed_form_pose(Vec3(kPaperHalfExtent_m),
+                                                      rig.grip.pole_half_length_m, lengths, pair));
+            // As good as the answer, elsewhere: then the answer must say so.
+            if (other.converged && other.residual_rms_m < 2.0 * cold.residual_rms_m &&
+                test::distance(other.pose, cold.pose) > kDistinctPose_m) {
+                ++rivals;
+                CAPTURE(i);
+                CHECK(cold.status == Status::ambiguous_pose);
+            }
+        }
+    }
+    CHECK(rivals > 0);
+}
+
+TEST_CASE(
+    "kinematics: rates of the lengths give the twist back, the transpose of the wrench matrix") {
+    Rig rig;
+    test::Random random(29);
+    for (int i = 0; i < 500; ++i) {
+        const GripPose pose = random.pose(rig.grip, 0.15, 35.0 * kDeg);
+        rig.kinematics.set_last_pose(pose);
+        DofArray rates{};
+        for (double &rate : rates) {
+            rate = random.between(-1.0, 1.0);
+        }
+        StringArray growth = apply_transposed(wrench_matrix(rig.frame, rig.grip, pose), rates);
+        for (double &rate : growth) {
+            rate = -rate;
+        }
+        const std::optional<Twist> twist = rig.kinematics.twist_of_length_rates(growth);
+        REQUIRE(twist.has_value());
+        CHECK(glm::distance(twist->linear_m_s, Vec3(rates[0], rates[1], rates[2])) < 1e-11);
+        CHECK(glm::distance(twist->angular_rad_s, Vec3(rates[3], rates[4], rates[5])) < 1e-10);
+        CHECK(std::fabs(twist->grasp_rate_rad_s - 2.0 * rates[6]) < 1e-10);
+    }
+    rig.kinematics.set_last_pose({Vec3(0.0), Vec3(0.04, 0.0, 0.0), Vec3(0.04, 0.0, 0.0)});
+    CHECK_FALSE(rig.kinematics.twist_of_length_rates(StringArray{}).has_value());
+    rig.kinematics.set_last_pose(rest_pose(rig.grip));
+    StringArray bad{};
+    bad[2] = kNan;
+    CHECK_FALSE(rig.kinematics.twist_of_length_rates(bad).has_value());
 }
 
 TEST_CASE("kinematics: after a jump of the pose the next tick is right") {

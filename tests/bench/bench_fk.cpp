@@ -1,0 +1,218 @@
+#include "bench/bench_fk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "bench/methods/dense_gauss_newton.h"
+#include "bench/methods/paper_polynomials.h"
+#include "core/closed_form.h"
+#include "core/crossed_step.h"
+#include "core/forward_kinematics.h"
+#include "core/string_calibration.h"
+
+namespace spidar::bench {
+
+namespace {
+
+constexpr int kTicks = 20000;
+constexpr double kPeriod_s = 1e-3;
+constexpr std::uint64_t kSeed = 1;
+// A pose this far off has failed, where lengths are good; with noise, this many standard deviations.
+constexpr double kFailure_m = 1e-3;
+constexpr double kFailureSigmas = 20.0;
+
+struct LengthSet {
+    const char *name;
+    double noise_m; // standard deviation; negative: rounded to encoder counts
+};
+
+constexpr LengthSet kSets[] = {{"T1 clean", 0.0},
+                               {"T1 counts", -1.0},
+                               {"T1 0.1 mm", 1e-4},
+                               {"T1 1 mm", 1e-3},
+                               {"T1 3 mm", 3e-3}};
+
+// Trajectory T1: to 0.7 m/s and 2.5 rad/s through most of the workspace.
+GripPose pose_t1(const GripGeometry &grip, double t) {
+    const Vec3 position(0.15 * std::sin(3.1 * t), 0.15 * std::sin(2.3 * t + 1.0),
+                        0.12 * std::sin(2.9 * t + 2.0));
+    const glm::dquat turn = glm::angleAxis(0.5 * std::sin(3.3 * t + 2.0), Vec3(0, 0, 1)) *
+                            glm::angleAxis(0.6 * std::sin(3.7 * t + 1.0), Vec3(0, 1, 0)) *
+                            glm::angleAxis(0.6 * std::sin(4.1 * t), Vec3(1, 0, 0));
+    return make_pose(grip, position, glm::mat3_cast(turn), -0.5 * std::sin(2.1 * t));
+}
+
+double distance(const GripPose &a, const GripPose &b) {
+    return std::max({glm::distance(a.position_m, b.position_m), glm::distance(a.r1_m, b.r1_m),
+                     glm::distance(a.r2_m, b.r2_m)});
+}
+
+// One method on one set: times, worst error, failures.
+struct Entry {
+    SampleTimes times{kTicks};
+    double worst_m = 0.0;
+    long failures = 0;
+
+    template <typename Method>
+    void run(const Method &method, const GripPose &truth, double failure_m) {
+        GripPose pose;
+        times.time([&] { pose = method(); });
+        const double error_m = distance(pose, truth);
+        if (!(error_m <= failure_m)) { // NaN too
+            ++failures;
+        }
+        if (std::isfinite(error_m)) {
+            worst_m = std::max(worst_m, error_m);
+        }
+    }
+};
+
+// Plain steps of ours from the pose of the last tick: no foreseeing, no gates.
+CrossedPose plain_steps(const CrossedLayout &layout, const StringArray &lengths_m, CrossedPose pose,
+                        int steps) {
+    for (int i = 0; i < steps; ++i) {
+        const CrossedErrors errors = errors_at(layout, lengths_m, pose);
+        const CrossedFactor factor = factorise(errors, pose, layout.pole_half_length_m);
+        pose = moved(pose, solve(factor, errors), layout.pole_half_length_m);
+    }
+    return pose;
+}
+
+class Bench {
+public:
+    explicit Bench(const LengthSet &set) : set_(set) {
+        usable_ = usable(warm_.configure(frame_, grip_)) &&
+                  usable(cold_.configure(frame_, grip_)) && make_layout(frame_, grip_, layout_);
+        const GripPose start = pose_t1(grip_, 0.0);
+        warm_.set_last_pose(start);
+        plain_.fill(lanes_of(start));
+        shipped_ = {frame_, grip_, start, 1e-3, 2};
+        undamped_ = {frame_, grip_, start, 1e-9, 2};
+    }
+
+    bool run() {
+        std::mt19937_64 engine(kSeed);
+        std::normal_distribution<double> normal;
+        const double failure_m =
+            std::max(kFailure_m, set_.noise_m > 0.0 ? kFailureSigmas * set_.noise_m : 0.0);
+        for (int tick = 1; tick <= kTicks && usable_; ++tick) {
+            const GripPose truth = pose_t1(grip_, kPeriod_s * tick);
+            StringArray lengths = string_lengths(frame_, grip_, truth);
+            for (double &length : lengths) {
+                length = set_.noise_m < 0.0
+                             ? kPaperMetresPerCount * std::round(length / kPaperMetresPerCount)
+                             : length + set_.noise_m * normal(engine);
+            }
+            run_methods(lengths, truth, failure_m);
+        }
+        return usable_;
+    }
+
+    void report(std::vector<BenchRow> &rows) {
+        for (std::size_t i = 0; i < kEntries; ++i) {
+            BenchRow row = make_row(kNames[i].method, set_.name, kNames[i].mode, entries_[i].times);
+            row.worst_error = entries_[i].worst_m;
+            row.failures = entries_[i].failures;
+            print_row(row);
+            rows.push_back(row);
+        }
+    }
+
+    // Of the product itself, where nothing excuses one.
+    [[nodiscard]] long failures() const {
+        return set_.noise_m > 0.0 ? 0 : entries_[0].failures + entries_[1].failures;
+    }
+
+private:
+    struct Name {
+        const char *method;
+        const char *mode;
+    };
+    static constexpr std::size_t kEntries = 12;
+    static constexpr Name kNames[kEntries] = {{"ours", "warm"},
+                                              {"ours", "cold"},
+                                              {"ours, plain", "1 step"},
+                                              {"ours, plain", "2 steps"},
+                                              {"ours, plain", "3 steps"},
+                                              {"dense damped Gauss-Newton 1e-3", "2 steps"},
+                                              {"dense damped Gauss-Newton 1e-9", "2 steps"},
+                                              {"paper, polynomial division", "cold"},
+                                              {"paper, cubic", "cold"},
+                                              {"closed form, upright pair", "cold"},
+                                              {"closed form, best of four", "cold"},
+                                              {"an empty call", "clock"}};
+
+    void run_methods(const StringArray &lengths, const GripPose &truth, double failure_m) {
+        const Vec3 box(kPaperHalfExtent_m);
+        const double d = grip_.pole_half_length_m;
+        const auto entry = [&](std::size_t i, const auto &method) {
+            entries_[i].run(method, truth, failure_m);
+        };
+        entry(0, [&] { return warm_.update(lengths).pose; });
+        entry(1, [&] { return cold_.solve_cold(lengths).pose; });
+        for (std::size_t steps = 1; steps <= plain_.size(); ++steps) {
+            entry(1 + steps, [&] {
+                CrossedPose &pose = plain_[steps - 1];
+                pose = plain_steps(layout_, lengths, pose, static_cast<int>(steps));
+                return pose_of(pose);
+            });
+        }
+        entry(5, [&] {
+            shipped_.update(lengths);
+            return shipped_.pose;
+        });
+        entry(6, [&] {
+            undamped_.update(lengths);
+            return undamped_.pose;
+        });
+        entry(7, [&] { return paper_division(box, d, lengths); });
+        entry(8, [&] { return paper_cubic(box, d, lengths); });
+        entry(9, [&] { return closed_form_pose(box, d, lengths, 0); });
+        entry(10, [&] {
+            const ClosedForm form = solve_closed_form(box, d, lengths);
+            RootPairPose best = root_pair_pose(form, 0);
+            for (int pair = 1; pair < kRootPairCount; ++pair) {
+                const RootPairPose other = root_pair_pose(form, pair);
+                if (other.misfit_m < best.misfit_m) {
+                    best = other;
+                }
+            }
+            return pose_of(best.pose);
+        });
+        entry(11, [&] { return truth; });
+    }
+
+    LengthSet set_;
+    FrameGeometry frame_ = make_box_frame(Vec3(kPaperHalfExtent_m));
+    GripGeometry grip_;
+    CrossedLayout layout_;
+    ForwardKinematics warm_;
+    ForwardKinematics cold_;
+    std::array<CrossedPose, 3> plain_{};
+    DenseGaussNewton shipped_;
+    DenseGaussNewton undamped_;
+    std::array<Entry, kEntries> entries_;
+    bool usable_ = false;
+};
+
+} // namespace
+
+int bench_fk(std::vector<BenchRow> &rows) {
+    print_header("forward kinematics along T1 (errors in m, of P0 and the pole ends)");
+    long failures = 0;
+    for (const LengthSet &set : kSets) {
+        Bench bench(set);
+        if (!bench.run()) {
+            return 1;
+        }
+        bench.report(rows);
+        failures += bench.failures();
+    }
+    return failures == 0 ? 0 : 1;
+}
+
+} // namespace spidar::bench
