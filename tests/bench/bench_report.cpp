@@ -1,6 +1,7 @@
 #include "bench/bench_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -14,7 +15,7 @@ namespace {
 std::size_t row_limit = 0;
 
 bool exists(double figure) {
-    return figure >= 0.0; // false for NaN too
+    return figure >= 0.0 && std::isfinite(figure); // false for NaN too
 }
 
 std::string text_of(const char *format, double figure) {
