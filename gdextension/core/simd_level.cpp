@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "core/cpu_features.h"
+
 namespace spidar {
 
 namespace {
@@ -24,12 +26,7 @@ bool supports(SimdLevel level) noexcept {
     if (level == SimdLevel::plain) {
         return true;
     }
-#if defined(__x86_64__) && defined(__GNUC__)
-    return level == SimdLevel::avx2 && __builtin_cpu_supports("avx2") > 0 &&
-           __builtin_cpu_supports("fma") > 0;
-#else
-    return false;
-#endif
+    return level == SimdLevel::avx2 && cpu_has_avx2_and_fma();
 }
 
 SimdLevel simd_level() noexcept {

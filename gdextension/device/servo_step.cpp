@@ -226,7 +226,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
-    snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
+    snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
     snapshot_.bias = ramp * from_paper(result.bias);
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
