@@ -1,8 +1,10 @@
 // A recorded run and its replay: the same bits, wherever the recording began and whatever happened in it.
 #include <doctest/doctest.h>
 
+#include <new>
 #include <thread>
 
+#include "device/allocation_trap.h"
 #include "device/recording/command_fields.h"
 #include "device/recording/recording_fixture.h"
 
@@ -196,6 +198,36 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
     CHECK(replayed.report.differing == 0);
     CHECK(replayed.report.cycles == statistics.cycles);
     CHECK(replayed.report.lost == statistics.lost);
+}
+
+TEST_CASE("recording: the servo thread's part allocates nothing, not at the start and not when it "
+          "loses") {
+    const TemporaryFile file;
+    Bench bench;
+    bench.settings.rate_hz = 200.0;
+    bench.settings.safety.arming_time_s = 0.02;
+    bench.start();
+    bench.command.forces_enabled = true;
+    Recorder recorder(bench.settings, true);
+    REQUIRE(recorder.open(file.path()) == "");
+    const std::size_t before = allocations_of_this_thread();
+    for (int i = 0; i < 5000; ++i) {
+        const bool command_is_new = i % 16 == 0;
+        bench.command.contacts_sequence += command_is_new ? 1 : 0;
+        bench.command.contact_count = 1 + i % 4;
+        bench.reading.counts[static_cast<std::size_t>(i % 8)] += i % 3 - 1;
+        recorder.begin(bench.step);
+        bench.tick(1, 0.005);
+        recorder.end({bench.reading, 0.005, bench.read_status, Status::ok, true}, bench.drive,
+                     bench.now(), bench.command, command_is_new);
+    }
+    const std::size_t made = allocations_of_this_thread() - before;
+    CHECK(made == 0);
+    const RecorderStatistics statistics = recorder.statistics();
+    CHECK(statistics.cycles > 0);
+    CHECK(statistics.lost > 0); // both ways were gone
+    ::operator delete (::operator new (1, std::align_val_t{64}), std::align_val_t{64});
+    CHECK(allocations_of_this_thread() > before); // the trap itself works
 }
 
 TEST_CASE("replay: the vector level of the recording is used, and given back") {
