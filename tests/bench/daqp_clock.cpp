@@ -24,6 +24,14 @@ void DaqpClock::time(std::size_t method, std::size_t problem) {
                      [&] { entry.method->solve(p, entry.warm && problem > 0, tensions_n); });
 }
 
+void DaqpClock::time_block(std::size_t from, std::size_t to) {
+    for (std::size_t method = 0; method < entries_.size(); ++method) {
+        for (std::size_t problem = from; problem < to; ++problem) {
+            time(method, problem);
+        }
+    }
+}
+
 BenchRow DaqpClock::fastest(bool warm) const {
     BenchRow best;
     for (const Entry &entry : entries_) {

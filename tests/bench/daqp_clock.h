@@ -21,6 +21,8 @@ public:
     // How many more methods in_turns() has to call, and the call for each of them.
     [[nodiscard]] std::size_t methods() const { return entries_.size(); }
     void time(std::size_t method, std::size_t problem);
+    // All methods over these problems, for a bench that makes its own turns.
+    void time_block(std::size_t from, std::size_t to);
 
     // Rows of the fastest build: "DAQP 0.11.0, fastest", sets "S2 shipped" and "S1".
     [[nodiscard]] BenchRow warm_row() const { return fastest(true); }
