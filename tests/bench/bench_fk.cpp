@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -143,8 +144,10 @@ public:
             rows.push_back(row);
         }
         if (daqp_.ready()) {
-            const BenchRow warm = daqp_.warm_row();
-            const BenchRow cold = daqp_.cold_row();
+            BenchRow warm = daqp_.warm_row();
+            BenchRow cold = daqp_.cold_row();
+            warm.method += std::string(", beside ") + set_.name;
+            cold.method += std::string(", beside ") + set_.name;
             for (std::size_t i = first; i < rows.size(); ++i) {
                 rows[i].ratio_to_daqp =
                     rows[i].median_ns / (rows[i].mode == "cold" ? cold : warm).median_ns;
