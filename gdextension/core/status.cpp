@@ -66,6 +66,28 @@ const char *describe(Status status) noexcept {
         return "A fault is latched; clear it, then arm again.";
     case Status::not_armed:
         return "The device is not armed; arm it to feel forces.";
+    case Status::string_fault:
+        return "The string lengths contradict each other; check for a slack, slipped or broken "
+               "string and zero the device again.";
+    case Status::overheated:
+        return "A motor's thermal budget is spent; let the motors cool and ask for less force.";
+    case Status::unstable:
+        return "The rendered forces shake the grip; lower the stiffness or damping.";
+    case Status::game_stalled:
+        return "The game gave no sign of life; forces were taken away.";
+    case Status::device_restarted:
+        return "The device restarted and its counts began anew; zero it at home.";
+    case Status::zero_needed:
+        return "The device has no zero; hold the grip at home and zero it.";
+    case Status::zero_refused:
+        return "The zero does not fit the motion; check the strings' order and direction, hold the "
+               "grip at home and zero it again.";
+    case Status::panic_stopped:
+        return "Stopped by panic_stop(); clear the fault, then arm again.";
+    case Status::clock_jump:
+        return "The computer slept or its clock jumped; forces were taken away.";
+    case Status::loop_stalled:
+        return "The servo thread stands still; the motors are switched off.";
     }
     return "Unknown status value.";
 }

@@ -37,6 +37,16 @@ enum class Status : std::int32_t {
     over_speed = -26,
     fault_latched = -27, // clear_fault() and arm() are needed
     not_armed = -28,
+    string_fault = -29,     // the eight lengths contradict each other: slack, slipped, stuck, broken
+    overheated = -30,       // a motor's thermal budget is spent
+    unstable = -31,         // the rendered forces shake the grip
+    game_stalled = -32,     // the game gave no sign of life
+    device_restarted = -33, // the device's clock or counts began anew: the zero is lost
+    zero_needed = -34,      // zero_at_home() is needed before forces
+    zero_refused = -35,     // the check after zero_at_home() failed
+    panic_stopped = -36,
+    clock_jump = -37,   // the computer slept, or its clock jumped
+    loop_stalled = -38, // the servo thread stands still
 };
 
 [[nodiscard]] constexpr bool usable(Status status) noexcept {
