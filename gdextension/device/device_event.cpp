@@ -90,6 +90,9 @@ constexpr std::array<EventDescription, kDeviceEventKinds> kDescriptions{{
     {"impossible_tension", "state", kWarning, "",
      "The safety gate met a tension that nothing should ask for.",
      "This is a defect of the add-on: please report it."},
+    {"device_stopped", "link", kFault, "",
+     "The device switched its motors off itself: emergency stop, watchdog, supply, encoder or heat.",
+     "The fault's text says which; remove the cause, then call clear_fault() and arm()."},
 }};
 
 constexpr EventDescription kUnknown{

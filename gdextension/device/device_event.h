@@ -48,8 +48,9 @@ enum class DeviceEventKind : std::uint8_t {
     zero_refused,
     no_hand,
     impossible_tension,
+    device_stopped,
 };
-inline constexpr int kDeviceEventKinds = 38;
+inline constexpr int kDeviceEventKinds = 39;
 
 enum class EventLevel : std::uint8_t { info = 0, warning = 1, fault = 2 };
 

@@ -20,11 +20,10 @@ void DeviceStateMachine::configure(double arming_time_s) noexcept {
     arming_time_s_ = arming_time_s;
 }
 
-void DeviceStateMachine::open(bool keeps_zero) noexcept {
+void DeviceStateMachine::open(bool zero_known) noexcept {
     if (state_ == DeviceState::closed && !lost_) {
         state_ = DeviceState::connected;
-        keeps_zero_ = keeps_zero;
-        zero_known_ = keeps_zero;
+        zero_known_ = zero_known;
     }
 }
 
@@ -34,7 +33,6 @@ void DeviceStateMachine::disarm() noexcept {
     arm_pending_s_ = 0.0;
     stay_disarmed_ = true;
     zero_taken_ = false;
-    zero_known_ = zero_known_ && keeps_zero_; // without tension the strings go slack
 }
 
 void DeviceStateMachine::lose(Status why) noexcept {
@@ -76,9 +74,8 @@ void DeviceStateMachine::clear(bool answers) noexcept {
 
 // Where a device waits for arm().
 void DeviceStateMachine::rest() noexcept {
-    const bool taut = zero_known_ && !keeps_zero_;
-    state_ = taut ? DeviceState::calibrated : DeviceState::connected;
-    tension_scale_ = taut ? 1.0 : 0.0;
+    state_ = DeviceState::connected;
+    tension_scale_ = 0.0;
     wrench_scale_ = 0.0;
 }
 
@@ -86,7 +83,7 @@ void DeviceStateMachine::confirm_zero() noexcept {
     if (checking_zero()) {
         zero_known_ = true;
         zero_taken_ = false;
-        rest();
+        state_ = DeviceState::calibrated;
     }
 }
 
@@ -118,9 +115,14 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance_connected(const Inputs &
         outcome.zero_needed = true;
         return outcome;
     }
-    if (inputs.tracking && inputs.game_alive) {
+    if (!inputs.hand_present) {
+        outcome.no_hand = true;
+        return outcome;
+    }
+    if (inputs.tracking && inputs.game_alive && inputs.device_ready) {
         state_ = DeviceState::arming;
         wrench_scale_ = 1.0; // pretension and wrench rise together
+        ramps_wrench_ = false;
         arm_pending_s_ = 0.0;
     }
     return outcome;
@@ -148,8 +150,7 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance_calibrated(const Inputs 
                                                                    bool wanted) noexcept {
     Outcome outcome;
     wrench_scale_ = 0.0;
-    if (!inputs.forces_enabled) { // the motors go off and the zero with them
-        zero_known_ = false;
+    if (!inputs.forces_enabled || inputs.disarm) {
         rest();
         return outcome;
     }
@@ -165,11 +166,11 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance_calibrated(const Inputs 
     }
     if (!inputs.hand_present) {
         outcome.no_hand = true;
-        arm_pending_s_ = 0.0;
         return outcome;
     }
-    if (inputs.tracking && inputs.game_alive) {
-        state_ = DeviceState::arming;
+    if (inputs.tracking && inputs.game_alive && inputs.device_ready) {
+        state_ = DeviceState::arming; // from pretension: only the wrench rises
+        ramps_wrench_ = true;
         arm_pending_s_ = 0.0;
     }
     return outcome;
@@ -224,16 +225,15 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
         break;
     }
 
-    // A device that rests at pretension keeps it: only the wrench rises and falls.
-    double &ramp = zero_known_ && !keeps_zero_ ? wrench_scale_ : tension_scale_;
     if (state_ == DeviceState::arming) {
+        double &ramp = ramps_wrench_ ? wrench_scale_ : tension_scale_;
         ramp = std::min(1.0, ramp + dt_s / arming_time_s_);
         if (ramp >= 1.0) {
             state_ = DeviceState::active;
         }
     } else if (state_ == DeviceState::fading) {
-        ramp = std::max(0.0, ramp - dt_s / kFadeTime_s);
-        if (!(ramp > 0.0)) {
+        tension_scale_ = std::max(0.0, tension_scale_ - dt_s / kFadeTime_s);
+        if (!(tension_scale_ > 0.0)) {
             rest();
         }
     }

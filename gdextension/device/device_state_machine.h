@@ -1,6 +1,6 @@
 // CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED and the latched FAULT; with the ramps that scale
-// tensions and wrench. A real device has lost its zero when it opens: CONNECTED -> TAUT -> CALIBRATED comes
-// first, and it rests in CALIBRATED, where pretension keeps the strings taut and so the zero known.
+// tensions and wrench. A device without a zero goes CONNECTED -> TAUT -> CALIBRATED first: the strings are drawn
+// taut, the zero is taken and checked, and they are held taut until arm().
 #pragma once
 
 #include "device/servo_snapshot.h"
@@ -18,6 +18,7 @@ public:
         bool may_arm_itself = false; // simulated device
         bool game_alive = true;
         bool hand_present = true;
+        bool device_ready = true; // it has power and no fault of its own
     };
     // What a cycle asks of its caller, and what there is to tell.
     struct Outcome {
@@ -30,9 +31,8 @@ public:
     // Closed, no fault, no edge pending.
     void configure(double arming_time_s) noexcept;
 
-    // The device answers: closed -> connected, unless it was lost. keeps_zero: simulated devices know their zero
-    // from the start, and need no tension to keep it.
-    void open(bool keeps_zero) noexcept;
+    // The device answers: closed -> connected, unless it was lost.
+    void open(bool zero_known) noexcept;
     // The device is gone: closed, until clear() while it answers again.
     void lose(Status why) noexcept;
     // Motors off, latched. The first fault stands. string: 0-7 or -1.
@@ -41,8 +41,8 @@ public:
     void stand_down() noexcept;
     // Leaves fault, or closed after lose(). `answers`: the device was read in this cycle.
     void clear(bool answers) noexcept;
-    // The counts began anew.
-    void lose_zero() noexcept { zero_known_ = false; }
+    // What the device says of its counts: they have a zero, or they began anew.
+    void set_zero_known(bool known) noexcept { zero_known_ = known; }
     // The verdict of the check in TAUT.
     void confirm_zero() noexcept;
     void refuse_zero() noexcept;
@@ -78,9 +78,9 @@ private:
     double wrench_scale_ = 0.0;
     double arming_time_s_ = 1.0;
     bool lost_ = false;
-    bool keeps_zero_ = false;
     bool zero_known_ = false;
     bool zero_taken_ = false;
+    bool ramps_wrench_ = false; // arming from CALIBRATED: the tensions are up already
     bool forces_were_enabled_ = false;
     // After disarm() or a fault even a simulated device waits for arm() or for forces_enabled to be toggled.
     bool stay_disarmed_ = false;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <system_error>
 
-#include "device/loop_histogram.h"
 #include "device/real_time_thread.h"
 #include "device/triple_buffer.h"
 
@@ -245,6 +244,14 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     statistics.missed_deadlines = impl.missed_deadlines.load(std::memory_order_relaxed);
     statistics.real_time_priority = impl.real_time_priority.load(std::memory_order_relaxed);
     return statistics;
+}
+
+std::array<std::uint32_t, LoopHistogram::kBuckets> ServoLoop::lateness_counts() const noexcept {
+    std::array<std::uint32_t, LoopHistogram::kBuckets> counts{};
+    for (int i = 0; i < LoopHistogram::kBuckets; ++i) {
+        counts[static_cast<std::size_t>(i)] = impl_->lateness.count(i);
+    }
+    return counts;
 }
 
 Transport &ServoLoop::transport() noexcept {

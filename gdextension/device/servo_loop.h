@@ -2,11 +2,13 @@
 // One controlling thread (the game's) calls everything here.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <thread>
 
+#include "device/loop_histogram.h"
 #include "device/servo_step.h"
 #include "device/transport.h"
 
@@ -47,6 +49,8 @@ public:
     // The newest snapshot. True when it is newer than at the last call. Wait-free.
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept;
+    // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
+    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets> lateness_counts() const noexcept;
     [[nodiscard]] Transport &transport() noexcept;
 
 private:

@@ -149,7 +149,7 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
         guard_.wait(dt_s);
         return;
     }
-    machine_.open(simulated_);
+    machine_.open(reading.zeroed);
     if (read_status == Status::read_timeout || !accept_report(reading)) {
         counters.read_timeouts += read_status == Status::read_timeout ? 1U : 0U;
         guard_.wait(dt_s);
@@ -306,7 +306,8 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
         grasp_.update(tracker_.grip().frame.grasp_angle_rad, dt_s);
     }
     advance_state(command, edges, reading, dt_s);
-    const DriveCommand output = drive(dt_s);
+    DriveCommand output = drive(dt_s);
+    output.clear_faults = edges.clear_fault && !output.motors_on;
     publish_state();
     return output;
 }

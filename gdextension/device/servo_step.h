@@ -100,6 +100,7 @@ private:
     bool moved_ = false;    // with another pose
     bool rendering_ = false; // a wrench was asked for in the last cycle
     bool simulated_ = false;
+    bool device_zeroed_ = true; // as the device said last
     Status stop_asked_ = Status::ok;
     DeviceState told_state_ = DeviceState::closed;
     double since_beat_s_ = 0.0; // of the game

@@ -25,6 +25,7 @@ DeviceEventKind kind_of(Status fault) noexcept {
     case Status::unstable:
         return DeviceEventKind::unstable;
     case Status::device_restarted:
+    case Status::device_not_zeroed:
         return DeviceEventKind::device_restarted;
     case Status::panic_stopped:
         return DeviceEventKind::panic_stopped;
@@ -36,6 +37,12 @@ DeviceEventKind kind_of(Status fault) noexcept {
     case Status::read_failed:
     case Status::write_failed:
         return DeviceEventKind::device_lost;
+    case Status::device_emergency_stop:
+    case Status::device_watchdog:
+    case Status::device_no_power:
+    case Status::device_encoder_fault:
+    case Status::device_over_temperature:
+        return DeviceEventKind::device_stopped;
     default:
         return DeviceEventKind::pose_lost; // what the kinematics may say
     }
@@ -83,7 +90,7 @@ bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
         order_.reset();
         guard_.reset();
         raise(Status::device_restarted, -1);
-        machine_.lose_zero();
+        machine_.set_zero_known(false);
     }
     if (!order_.accept(reading.sequence)) {
         ++snapshot_.counters.old_reports;
@@ -91,6 +98,18 @@ bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
         return false;
     }
     device_time_us_ = std::max(device_time_us_, now_us);
+    if (reading.zeroed != device_zeroed_) {
+        device_zeroed_ = reading.zeroed;
+        machine_.set_zero_known(reading.zeroed);
+        tracker_.set_zero(settings_.strings.zero_count);
+        guard_.reset();
+        if (!reading.zeroed && machine_.motors_on()) {
+            raise(Status::device_not_zeroed, -1);
+        }
+    }
+    if (reading.device_status != Status::ok && machine_.motors_on()) {
+        raise(reading.device_status, -1);
+    }
     if (order_.missed() > 0) {
         snapshot_.counters.reports_missed += static_cast<std::uint64_t>(order_.missed());
         events_.tell(DeviceEventKind::reports_missed, -1, order_.missed());
@@ -163,7 +182,8 @@ void ServoStep::advance_state(const HapticCommand &command, const Edges &edges,
     inputs.tracking = tracking_;
     inputs.may_arm_itself = simulated_;
     inputs.game_alive = since_beat_s_ < settings_.safety.game_timeout_s;
-    inputs.hand_present = monitor_.hand_present();
+    inputs.hand_present = simulated_ || monitor_.hand_present();
+    inputs.device_ready = reading.device_status == Status::ok;
     const DeviceStateMachine::Outcome outcome = machine_.advance(inputs, dt_s);
     if (outcome.take_zero) {
         take_zero(reading.counts);
