@@ -91,7 +91,8 @@ constexpr std::array<EventDescription, kDeviceEventKinds> kDescriptions{{
      "The safety gate met a tension that nothing should ask for.",
      "This is a defect of the add-on: please report it."},
     {"device_stopped", "link", kFault, "",
-     "The device switched its motors off itself: emergency stop, watchdog, supply, encoder or heat.",
+     "The device switched its motors off itself: emergency stop, watchdog, supply, encoder or "
+     "heat.",
      "The fault's text says which; remove the cause, then call clear_fault() and arm()."},
 }};
 

@@ -58,8 +58,9 @@ struct DeviceEvent {
     double time_s = 0.0; // of the servo clock (ServoSnapshot::time_s)
     double value = 0.0;  // what the description calls value, in its unit; 0 where it has none
     DeviceEventKind kind = DeviceEventKind::device_connected;
-    std::int8_t string = -1;    // 0-7, or -1
-    std::uint16_t repeated = 0; // how often it happened since it was last told, this time not counted
+    std::int8_t string = -1; // 0-7, or -1
+    std::uint16_t repeated =
+        0; // how often it happened since it was last told, this time not counted
 };
 
 struct EventDescription {

@@ -22,7 +22,8 @@ public:
     };
     // What a cycle asks of its caller, and what there is to tell.
     struct Outcome {
-        bool take_zero = false;   // the strings are taut: the counts of now are those of the home pose
+        bool take_zero =
+            false; // the strings are taut: the counts of now are those of the home pose
         bool zero_needed = false; // arm() or forces without a zero
         bool no_hand = false;     // arm() without a hand
         bool game_stalled = false;

@@ -27,9 +27,9 @@ public:
         still_s_ = 0.0;
     }
     void update(const GripPose &pose, double dt_s) noexcept {
-        const double moved_m =
-            std::max({glm::distance(pose.position_m, anchor_.position_m),
-                      glm::distance(pose.r1_m, anchor_.r1_m), glm::distance(pose.r2_m, anchor_.r2_m)});
+        const double moved_m = std::max({glm::distance(pose.position_m, anchor_.position_m),
+                                         glm::distance(pose.r1_m, anchor_.r1_m),
+                                         glm::distance(pose.r2_m, anchor_.r2_m)});
         still_s_ += dt_s;
         if (known_ && !(moved_m > kMove_m)) {
             return;

@@ -103,8 +103,8 @@ SafetyMonitor::Verdict SafetyMonitor::watch(const Sample &sample, EventLog &even
     const Verdict motion = watch_motion(sample, events, dt_s);
     const Verdict heat = watch_heat(events);
     fading_ = strings_.suspicious() || speed_.fast(dt_s);
-    fade_ = fading_ ? std::max(0.0, fade_ - dt_s / kFade_s)
-                    : std::min(1.0, fade_ + dt_s / kRecovery_s);
+    fade_ =
+        fading_ ? std::max(0.0, fade_ - dt_s / kFade_s) : std::min(1.0, fade_ + dt_s / kRecovery_s);
     scale_ = fade_ * shake_.scale() * heat_.scale() * WorkspaceGuard::scale(sample.grip);
     Verdict worst = strings;
     for (const Verdict &other : {motion, heat}) {

@@ -37,13 +37,17 @@ public:
 
     Verdict watch(const Sample &sample, EventLog &events, double dt_s) noexcept;
     // What the motors pull in this cycle (unit: N).
-    void spend(const StringArray &tensions_n, double dt_s) noexcept { heat_.spend(tensions_n, dt_s); }
+    void spend(const StringArray &tensions_n, double dt_s) noexcept {
+        heat_.spend(tensions_n, dt_s);
+    }
 
     // What is left of the wrench, 0..1. Falls to zero within 20 ms, comes back within 50.
     [[nodiscard]] double wrench_scale() const noexcept { return scale_; }
     // False: the velocity is not to be damped with.
     [[nodiscard]] bool velocity_trusted() const noexcept { return !fading_; }
-    [[nodiscard]] Wrench wall(const GripState &grip) const noexcept { return workspace_.wall(grip); }
+    [[nodiscard]] Wrench wall(const GripState &grip) const noexcept {
+        return workspace_.wall(grip);
+    }
     [[nodiscard]] bool hand_present() const noexcept { return hand_.present(); }
     [[nodiscard]] const StringMonitor &strings() const noexcept { return strings_; }
     [[nodiscard]] const ThermalBudget &heat() const noexcept { return heat_; }

@@ -50,7 +50,8 @@ public:
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept;
     // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
-    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets> lateness_counts() const noexcept;
+    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
+    lateness_counts() const noexcept;
     [[nodiscard]] Transport &transport() noexcept;
 
 private:

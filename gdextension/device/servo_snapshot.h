@@ -80,9 +80,9 @@ struct ServoSnapshot {
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0; // arming ramp, 0..1
-    double safety_scale = 1.0; // what the safety monitors leave of the wrench, 0..1
-    double thermal_share = 0.0; // of the warmest motor's budget, 1 = spent
+    double force_scale = 0.0;    // arming ramp, 0..1
+    double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
+    double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
     double parity_error_m = 0.0; // what no pose explains of the eight lengths
     bool zero_known = false;
     int contact_count = 0;

@@ -4,10 +4,10 @@
 
 #include "core/tension_solver.h"
 #include "device/contact_renderer.h"
+#include "device/device_event.h"
 #include "device/device_state_machine.h"
 #include "device/grip_tracker.h"
 #include "device/haptic_command.h"
-#include "device/device_event.h"
 #include "device/report_order.h"
 #include "device/safety_gate.h"
 #include "device/safety_monitor.h"
@@ -93,11 +93,11 @@ private:
     WrenchMatrix matrix_{};
     bool matrix_valid_ = false; // of the present pose
     bool motors_were_on_ = false;
-    bool limiting_ = false; // the sum of all requests is being brought down
-    bool tracking_ = false; // the newest sample gave a pose
-    bool answered_ = false; // any reading yet
-    bool fresh_ = false;    // a good sample in this cycle
-    bool moved_ = false;    // with another pose
+    bool limiting_ = false;  // the sum of all requests is being brought down
+    bool tracking_ = false;  // the newest sample gave a pose
+    bool answered_ = false;  // any reading yet
+    bool fresh_ = false;     // a good sample in this cycle
+    bool moved_ = false;     // with another pose
     bool rendering_ = false; // a wrench was asked for in the last cycle
     bool simulated_ = false;
     bool device_zeroed_ = true; // as the device said last

@@ -118,14 +118,9 @@ bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
 }
 
 void ServoStep::watch(double dt_s) noexcept {
-    const SafetyMonitor::Sample sample{tracker_.grip(),
-                                       snapshot_.counts,
-                                       snapshot_.lengths_m,
-                                       tracker_.fastest_point_m_s(),
-                                       fresh_,
-                                       moved_,
-                                       machine_.motors_on(),
-                                       rendering_};
+    const SafetyMonitor::Sample sample{
+        tracker_.grip(), snapshot_.counts, snapshot_.lengths_m,  tracker_.fastest_point_m_s(),
+        fresh_,          moved_,           machine_.motors_on(), rendering_};
     const SafetyMonitor::Verdict verdict = monitor_.watch(sample, events_, dt_s);
     switch (verdict.action) {
     case SafetyMonitor::Action::none:

@@ -24,10 +24,10 @@ public:
 
 private:
     struct Channel {
-        double slow = 0.0;     // what the hand does, below 20 Hz
-        double since_s = 0.0;  // since the last swing
-        double largest = 0.0;  // of this row of swings
-        std::int8_t side = 0;  // of the last swing
+        double slow = 0.0;    // what the hand does, below 20 Hz
+        double since_s = 0.0; // since the last swing
+        double largest = 0.0; // of this row of swings
+        std::int8_t side = 0; // of the last swing
         std::uint8_t count = 0;
     };
     std::array<Channel, kDofCount> channels_{};

@@ -62,8 +62,9 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         solved.residual_rms_m = grip.residual_rms_m;
         solved.status = grip.status;
         const FaultEvidence &found = observer_.update(counts, lengths_m, solved);
-        const bool small = (found.fault == StringFault::slipped || found.fault == StringFault::slack) &&
-                           !(std::abs(found.error_m) >= kNamedError_m);
+        const bool small =
+            (found.fault == StringFault::slipped || found.fault == StringFault::slack) &&
+            !(std::abs(found.error_m) >= kNamedError_m);
         named_ = small ? FaultEvidence() : found;
         if (named_.fault != StringFault::none) {
             string_ = named_.string;

@@ -51,7 +51,8 @@ public:
     Status read(DeviceReading &reading) noexcept override {
         const Status status = device_->read(reading);
         ++cycle_;
-        if (armed_.load(std::memory_order_acquire) && begin_.load() == 0 && disturbed(status, reading)) {
+        if (armed_.load(std::memory_order_acquire) && begin_.load() == 0 &&
+            disturbed(status, reading)) {
             begin_.store(cycle_);
         }
         last_ = reading;
@@ -180,9 +181,9 @@ struct Player {
             clear_s_ = 0.0;
             fault_ = engine_() % std::size(kFaults);
             transport_->expect();
-            transport_->device().inject(
-                {kFaults[fault_].fault, static_cast<int>(engine_() % kStringCount), 0.05,
-                 kFaults[fault_].duration_s});
+            transport_->device().inject({kFaults[fault_].fault,
+                                         static_cast<int>(engine_() % kStringCount), 0.05,
+                                         kFaults[fault_].duration_s});
             judge_s_ = now_s + 1.0;
             waiting_ = true;
         }
@@ -223,7 +224,8 @@ long resident_kb() {
 
 void report(const char *name, const Player &player) {
     const LoopStatistics s = player.loop_->statistics();
-    std::printf("%s: %" PRIu64 " cycles, %" PRIu64 " deadlines missed, rate %.1f Hz; late p50 %.1f us, p99 %.1f us, max "
+    std::printf("%s: %" PRIu64 " cycles, %" PRIu64
+                " deadlines missed, rate %.1f Hz; late p50 %.1f us, p99 %.1f us, max "
                 "%.1f us; step p50 %.2f us, p99 %.2f us; SCHED_FIFO %s\n",
                 name, player.snapshot_.counters.ticks, s.missed_deadlines, s.measured_rate_hz,
                 s.lateness_p50_us, s.lateness_p99_us, s.lateness_max_us, s.step_p50_us,
@@ -245,9 +247,8 @@ struct Cyclictest {
 Cyclictest run_cyclictest(const std::string &program, double minutes) {
     Cyclictest result;
     char command[512];
-    std::snprintf(command, sizeof command,
-                  "%s -q -t1 -p 40 -i 1000 -D %.0f -h 20000 2>/dev/null", program.c_str(),
-                  minutes * 60.0);
+    std::snprintf(command, sizeof command, "%s -q -t1 -p 40 -i 1000 -D %.0f -h 20000 2>/dev/null",
+                  program.c_str(), minutes * 60.0);
     std::FILE *pipe = popen(command, "r");
     if (pipe == nullptr) {
         return result;
@@ -301,8 +302,10 @@ int main(int argc, char **argv) {
     }
     fast_minutes = fast_minutes < 0.0 ? 0.5 * minutes : fast_minutes;
     if (!(minutes > 0.0) || !(fast_minutes <= minutes)) {
-        std::fprintf(stderr, "--minutes is %g, --fast_minutes %g; give positive minutes, the second no "
-                             "more than the first.\n", minutes, fast_minutes);
+        std::fprintf(stderr,
+                     "--minutes is %g, --fast_minutes %g; give positive minutes, the second no "
+                     "more than the first.\n",
+                     minutes, fast_minutes);
         return 2;
     }
     Cyclictest other;
@@ -371,8 +374,8 @@ int main(int argc, char **argv) {
         std::printf("from %-11.2f %12u %12u %12" PRIu64 "\n", LoopHistogram::begin_us(i),
                     slow_counts[k], fast_counts[k], other.counts[k]);
         if (out != nullptr) {
-            std::fprintf(out, "%.3f,%u,%u,%" PRIu64 "\n", LoopHistogram::begin_us(i), slow_counts[k],
-                         fast_counts[k], other.counts[k]);
+            std::fprintf(out, "%.3f,%u,%u,%" PRIu64 "\n", LoopHistogram::begin_us(i),
+                         slow_counts[k], fast_counts[k], other.counts[k]);
         }
     }
     if (out != nullptr) {
