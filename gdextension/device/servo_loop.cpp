@@ -218,7 +218,6 @@ void ServoLoop::stop() noexcept {
     last.tensions_n = {};
     last.requested = Wrench();
     last.achieved = Wrench();
-    last.bias = Wrench();
     last.force_scale = 0.0;
     last.at_min_mask = 0;
     last.at_max_mask = 0;

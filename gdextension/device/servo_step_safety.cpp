@@ -236,7 +236,6 @@ void ServoStep::clear_reports() noexcept {
     snapshot_.tensions_n = {};
     snapshot_.requested = Wrench();
     snapshot_.achieved = Wrench();
-    snapshot_.bias = Wrench();
     snapshot_.at_min_mask = 0;
     snapshot_.at_max_mask = 0;
     snapshot_.tension_status = Status::ok;
