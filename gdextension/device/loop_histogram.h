@@ -53,6 +53,15 @@ public:
         return std::min(std::exp2(0.5 * index + 0.25) * 1e-3, max_us());
     }
 
+    // Samples in each bucket: bucket i holds times from 2^(i/2) to 2^((i+1)/2) ns.
+    [[nodiscard]] std::array<std::uint32_t, kBuckets> counts() const noexcept {
+        std::array<std::uint32_t, kBuckets> counts{};
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            counts[i] = buckets_[i].load(std::memory_order_relaxed);
+        }
+        return counts;
+    }
+
     [[nodiscard]] double max_us() const noexcept {
         return static_cast<double>(max_ns_.load(std::memory_order_relaxed)) * 1e-3;
     }

@@ -285,6 +285,10 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     return statistics;
 }
 
+std::array<std::uint32_t, LoopHistogram::kBuckets> ServoLoop::lateness_counts() const noexcept {
+    return impl_->lateness.counts();
+}
+
 std::string ServoLoop::start_recording(const std::string &path) {
     Impl &impl = *impl_;
     if (!impl.is_running) {

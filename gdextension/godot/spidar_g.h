@@ -109,6 +109,7 @@ public:
     [[nodiscard]] godot::Dictionary get_contact_impulses() const;
     [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
     [[nodiscard]] godot::Dictionary get_statistics() const;
+    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
     // Recording and replay (spidar_g_recording.cpp).
     bool start_recording(const godot::String &path);
