@@ -53,13 +53,12 @@ public:
         return std::min(std::exp2(0.5 * index + 0.25) * 1e-3, max_us());
     }
 
-    // Samples in each bucket: bucket i holds times from 2^(i/2) to 2^((i+1)/2) ns.
-    [[nodiscard]] std::array<std::uint32_t, kBuckets> counts() const noexcept {
-        std::array<std::uint32_t, kBuckets> counts{};
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            counts[i] = buckets_[i].load(std::memory_order_relaxed);
-        }
-        return counts;
+    [[nodiscard]] std::uint32_t count(int bucket) const noexcept {
+        return buckets_[static_cast<std::size_t>(bucket)].load(std::memory_order_relaxed);
+    }
+    // Where a bucket begins; the next one ends it.
+    [[nodiscard]] static double begin_us(int bucket) noexcept {
+        return bucket > 0 ? std::exp2(0.5 * bucket) * 1e-3 : 0.0;
     }
 
     [[nodiscard]] double max_us() const noexcept {

@@ -5,7 +5,6 @@
 #include <system_error>
 #include <vector>
 
-#include "device/loop_histogram.h"
 #include "device/real_time_thread.h"
 #include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
@@ -286,7 +285,11 @@ LoopStatistics ServoLoop::statistics() const noexcept {
 }
 
 std::array<std::uint32_t, LoopHistogram::kBuckets> ServoLoop::lateness_counts() const noexcept {
-    return impl_->lateness.counts();
+    std::array<std::uint32_t, LoopHistogram::kBuckets> counts{};
+    for (int i = 0; i < LoopHistogram::kBuckets; ++i) {
+        counts[static_cast<std::size_t>(i)] = impl_->lateness.count(i);
+    }
+    return counts;
 }
 
 std::string ServoLoop::start_recording(const std::string &path) {

@@ -51,7 +51,7 @@ public:
     // The newest snapshot. True when it is newer than at the last call. Wait-free.
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept;
-    // Wake-ups after their deadline, counted by how late they were. All zero when stepped.
+    // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
     lateness_counts() const noexcept;
     [[nodiscard]] Transport &transport() noexcept;
