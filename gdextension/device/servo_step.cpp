@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "device/tension_diagnosis.h"
+
 namespace spidar {
 
 namespace {
@@ -31,13 +33,8 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     if (!usable(tracked)) {
         return tracked;
     }
-    // No string is ever asked for more than its motor gives: then currents are never cut behind the solver's back.
-    const StringArray strongest_n = max_tensions(settings.motors);
-    TensionSettings tension = settings.tension;
+    const TensionSettings tension = solver_settings(settings);
     StringArray limits_n{};
-    for (std::size_t i = 0; i < limits_n.size(); ++i) {
-        tension.max_tension_n = std::min(tension.max_tension_n, strongest_n[i]);
-    }
     limits_n.fill(tension.max_tension_n);
     const Status solvable = fresh.solver_.configure(tension);
     if (!usable(solvable)) {
@@ -194,7 +191,6 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         snapshot_.tensions_n = {};
         snapshot_.requested = Wrench();
         snapshot_.achieved = Wrench();
-        snapshot_.bias = Wrench();
         snapshot_.at_min_mask = 0;
         snapshot_.at_max_mask = 0;
         snapshot_.tension_status = Status::ok;
@@ -223,11 +219,11 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     }
     snapshot_.counters.slewed_ticks += gate.slewed ? 1U : 0U;
     snapshot_.counters.gate_clamps += gate.clamped ? 1U : 0U;
+    snapshot_.counters.tension_skipped += result.skipped ? 1U : 0U;
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
     snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
-    snapshot_.bias = ramp * from_paper(result.bias);
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status = result.status;
