@@ -66,6 +66,21 @@ const char *describe(Status status) noexcept {
         return "A fault is latched; clear it, then arm again.";
     case Status::not_armed:
         return "The device is not armed; arm it to feel forces.";
+    case Status::string_fault:
+        return "The string lengths contradict each other; check for a slack, slipped or broken "
+               "string and zero the device again.";
+    case Status::overheated:
+        return "A motor's thermal budget is spent; let the motors cool and ask for less force.";
+    case Status::unstable:
+        return "The rendered forces shake the grip; lower the stiffness or damping.";
+    case Status::device_restarted:
+        return "The device restarted and its counts began anew; zero it at home.";
+    case Status::zero_needed:
+        return "The device has no zero; hold the grip at home and zero it.";
+    case Status::panic_stopped:
+        return "Stopped by panic_stop(); clear the fault, then arm again.";
+    case Status::loop_stalled:
+        return "The servo thread stands still; the motors are switched off.";
     case Status::device_not_zeroed:
         return "The device does not know its zero; hold the grip at its home pose and zero it.";
     case Status::device_emergency_stop:
