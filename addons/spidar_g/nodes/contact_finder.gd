@@ -14,6 +14,8 @@ const MAX_POINTS: int = 4
 
 ## A body with this metadata (N/m per device metre) feels softer than the rest.
 const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
+## A body with this metadata (coefficient) is rougher or smoother than the rest.
+const FRICTION_META: StringName = &"spidar_friction"
 ## The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
 ## let a light body bounce between the tool's push and its own answer.
 const PUSHED_STIFFNESS_RATIO: float = 1.0
@@ -88,7 +90,7 @@ func _nearest_plane(space: PhysicsDirectSpaceState3D) -> ContactPlane:
 func set_material(plane: ContactPlane, collider: Object) -> void:
 	plane.stiffness_n_m = float_meta(collider, STIFFNESS_META, stiffness_n_m)
 	plane.damping_n_s_m = damping_n_s_m
-	plane.friction = friction
+	plane.friction = float_meta(collider, FRICTION_META, friction)
 	var body: RigidBody3D = collider as RigidBody3D
 	if body != null and not body.freeze:
 		plane.pushed_body = body
