@@ -51,6 +51,22 @@ func find(
 			found.append(plane)
 
 
+## The same for every shape of `body`, as if it were at `at`.
+func find_round_body(
+	space: PhysicsDirectSpaceState3D,
+	body: CollisionObject3D,
+	at: Transform3D,
+	exclude: Array[RID],
+	found: Array[ContactPlane]
+) -> void:
+	for shape_owner: int in body.get_shape_owners():
+		if body.is_shape_owner_disabled(shape_owner):
+			continue
+		var placed: Transform3D = at * body.shape_owner_get_transform(shape_owner)
+		for index: int in body.shape_owner_get_shape_count(shape_owner):
+			find(space, body.shape_owner_get_shape(shape_owner, index), placed, exclude, found)
+
+
 ## Each body once, in the order met.
 static func unique_rids(hits: Array[Dictionary]) -> Array[RID]:
 	var rids: Array[RID] = []

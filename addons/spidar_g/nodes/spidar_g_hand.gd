@@ -199,7 +199,7 @@ func _physics_process(delta: float) -> void:
 	_contacts.read_impulses(spidar.get_contact_impulses())
 	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
 	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
-	_push_bodies(delta)
+	_contacts.push_bodies(_settings().max_force * delta)
 	if _hold != null:
 		_watch_hold(delta)
 	var exclude: Array[RID] = []
@@ -215,16 +215,6 @@ func _physics_process(delta: float) -> void:
 	_contacts.replace(found)
 	_publish(grip)
 	_request_load(grip, delta)
-
-
-## Newton's third law at game rate: what a plane gave the hand, its body gets back.
-func _push_bodies(delta: float) -> void:
-	var most: float = _settings().max_force * delta
-	for plane: ContactPlane in _contacts.planes:
-		var impulse: Vector3 = -_contacts.gained(plane.id)
-		if is_instance_valid(plane.pushed_body) and impulse.is_finite() and not impulse.is_zero_approx():
-			var arm: Vector3 = plane.point - plane.pushed_body.global_position
-			plane.pushed_body.apply_impulse(impulse.limit_length(most), arm)
 
 
 func _sense_jaws(grip: Transform3D) -> void:
@@ -312,13 +302,7 @@ func _carry(
 	var body: RigidBody3D = _hold.body
 	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
-	for shape_owner: int in body.get_shape_owners():
-		if body.is_shape_owner_disabled(shape_owner):
-			continue
-		var placed: Transform3D = at * body.shape_owner_get_transform(shape_owner)
-		for index: int in body.shape_owner_get_shape_count(shape_owner):
-			var shape: Shape3D = body.shape_owner_get_shape(shape_owner, index)
-			_finder.find(_space(), shape, placed, exclude, found)
+	_finder.find_round_body(_space(), body, at, exclude, found)
 	var shift: Vector3 = Vector3.ZERO
 	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
 		for plane: ContactPlane in found:
