@@ -11,26 +11,10 @@
 //    checked; a string held wrongly goes back to 1, anything in doubt is left to the exact search.
 #pragma once
 
+#include "core/fast_tension_limits.h"
 #include "core/sweep_table.h"
 
 namespace spidar {
-
-// A correction shorter than this ends them. Longer ones do when the contraction seen, correction over first step,
-// leaves less than kLeft_n for the next.
-inline constexpr double kStep_n = 1e-13;
-inline constexpr double kLeft_n = 1e-14;
-inline constexpr double kShort_n = 1e-8; // not longer than this, whatever the contraction
-inline constexpr int kCorrections = 4;
-// Rounding of the gradient as a share of the largest force that cancels in it, and how far it may move a string.
-inline constexpr double kNoise = 2e-15;
-inline constexpr double kNoiseMove_n = 4e-12;
-// What the table (about 1e-9 N at w = 1e-6) cannot tell from zero.
-inline constexpr double kTableTolerance = 1e-9;
-// Passes over all violated strings; then one at a time, the last first (Murty), which cannot cycle.
-inline constexpr int kBlockPasses = 4;
-inline constexpr int kPasses = 24;
-inline constexpr int kTables = 4; // inversions; a warm start seldom needs a second
-inline constexpr double kOpen = 1e300;
 
 namespace { // each source compiles its own, for its own target
 
@@ -211,10 +195,7 @@ private:
         const Row g{gradient_.a & mask.a, gradient_.b & mask.b};
         const Row product = table_.times(g);
         const Row d{product.a & mask.a, product.b & mask.b};
-        gain_ =
-            Four::mul_add(g.a, d.a, g.b * d.b); // g'd is what the objective changes by: H d = -g
         const Row x = Row::load(x_);
-        where_ = x;
         Row{x.a + d.a, x.b + d.b}.store(x_);
         largest_step_ = Four::max(d.a.absolute(), d.b.absolute()).largest();
     }
@@ -351,22 +332,14 @@ private:
         return ((picked + 0x7F7F7F7F7F7F7F7FULL) >> 7U) & 0x0101010101010101ULL;
     }
 
-    // False when the objective overflows.
+    // False where squares overflow.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
         solution.active = std::bit_cast<ActiveSet>(spread(low_) | (spread(high_) << 1U));
-        const Four back = back_ & Row::lanes(14); // DOF 3 is in both
-        const Row x = where_;
-        const Row t = Row::load(p_.proximal_target_n.data());
-        const Four da = x.a - t.a;
-        const Four db = x.b - t.b;
-        const Four squares = Four::mul_add(front_, front_, back * back);
-        const Four away = Four::mul_add(da, da, db * db);
-        solution.objective =
-            (Four::mul_add(away, Four::all(p_.proximal_weight), squares) + gain_).sum();
+        solution.largest_error_n = Four::max(front_.absolute(), back_.absolute()).largest();
         solution.iterations = iterations;
         solution.status = Status::ok;
-        return solution.objective < kOpen;
+        return solution.largest_error_n < kLargestForce_n;
     }
 
     const TensionProblem &p_;
@@ -377,10 +350,8 @@ private:
     alignas(32) double most_[kFastStrings];
     SweepTable<Four> table_;
     Row gradient_{};
-    Row where_{};  // x_ before the last step
     Four front_{}; // W (A x - q) where gradient_ was taken
     Four back_{};
-    Four gain_{}; // g'd of the last step
     double largest_step_ = 0.0;
     double stiffness_ = 0.0; // trace of H
     unsigned movable_ = 0;   // lower < upper

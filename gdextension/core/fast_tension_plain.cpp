@@ -14,13 +14,15 @@ namespace spidar {
 
 bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
                       TensionSolution &solution) noexcept {
-    FastTension<FourPlain> kernel(problem);
-    return kernel.run(warm, solution);
+    return FastTension<FourPlain>(problem).run(warm, solution);
 }
 
 bool solve_fast(const TensionProblem &problem, const ActiveSet *warm,
                 TensionSolution &solution) noexcept {
 #if defined(__x86_64__) && defined(__GNUC__)
+    if (simd_level() == SimdLevel::avx512) {
+        return solve_fast_avx512(problem, warm, solution);
+    }
     if (simd_level() == SimdLevel::avx2) {
         return solve_fast_avx2(problem, warm, solution);
     }

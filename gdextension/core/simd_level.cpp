@@ -2,14 +2,14 @@
 
 #include <atomic>
 
-#include "core/cpu_features.h"
-
 namespace spidar {
 
 namespace {
 
 SimdLevel best_level() noexcept {
-    return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
+    return supports(SimdLevel::avx512) ? SimdLevel::avx512
+           : supports(SimdLevel::avx2) ? SimdLevel::avx2
+                                       : SimdLevel::plain;
 }
 
 std::atomic<SimdLevel> &current_level() noexcept {
@@ -26,7 +26,16 @@ bool supports(SimdLevel level) noexcept {
     if (level == SimdLevel::plain) {
         return true;
     }
-    return level == SimdLevel::avx2 && cpu_has_avx2_and_fma();
+#if defined(__x86_64__) && defined(__GNUC__)
+    const bool avx2 = __builtin_cpu_supports("avx2") > 0 && __builtin_cpu_supports("fma") > 0;
+    if (level == SimdLevel::avx512) {
+        return avx2 && __builtin_cpu_supports("avx512f") > 0 &&
+               __builtin_cpu_supports("avx512dq") > 0 && __builtin_cpu_supports("avx512vl") > 0;
+    }
+    return level == SimdLevel::avx2 && avx2;
+#else
+    return false;
+#endif
 }
 
 SimdLevel simd_level() noexcept {
@@ -42,7 +51,15 @@ bool set_simd_level(SimdLevel level) noexcept {
 }
 
 const char *describe(SimdLevel level) noexcept {
-    return level == SimdLevel::avx2 ? "AVX2 and FMA" : "plain 16-byte vectors";
+    switch (level) {
+    case SimdLevel::avx2:
+        return "AVX2 and FMA";
+    case SimdLevel::avx512:
+        return "AVX-512";
+    case SimdLevel::plain:
+        break;
+    }
+    return "plain 16-byte vectors";
 }
 
 } // namespace spidar

@@ -5,6 +5,7 @@
 
 #include <godot_cpp/core/error_macros.hpp>
 
+#include "device/tension_diagnosis.h"
 #include "godot/type_conversions.h"
 
 using spidar::Vec3;
@@ -132,7 +133,8 @@ godot::PackedFloat64Array SpidarG::get_achieved_wrench() const {
 }
 
 godot::PackedFloat64Array SpidarG::get_wrench_bias() const {
-    return spidar::to_godot(world().wrench_to_world(snapshot_.bias));
+    return spidar::to_godot(
+        world().wrench_to_world(spidar::from_paper(tension_report(settings_, snapshot_).bias())));
 }
 
 godot::Dictionary SpidarG::get_contact_impulses() const {
@@ -160,6 +162,20 @@ godot::PackedInt32Array SpidarG::get_touching_contacts() const {
     return ids;
 }
 
+godot::PackedInt32Array SpidarG::get_lateness_histogram() const {
+    godot::PackedInt32Array counts;
+    if (!loop_) {
+        return counts;
+    }
+    counts.resize(spidar::LoopHistogram::kBuckets);
+    std::int32_t *out = counts.ptrw();
+    for (const std::uint32_t count : loop_->lateness_counts()) {
+        *out = static_cast<std::int32_t>(count & INT32_MAX);
+        ++out;
+    }
+    return counts;
+}
+
 godot::Dictionary SpidarG::get_statistics() const {
     godot::Dictionary statistics;
     const spidar::LoopStatistics loop = loop_ ? loop_->statistics() : spidar::LoopStatistics{};
@@ -175,6 +191,7 @@ godot::Dictionary SpidarG::get_statistics() const {
     statistics["real_time_priority"] = loop.real_time_priority;
     statistics["ticks"] = whole(count.ticks);
     statistics["kinematics_skipped"] = whole(count.kinematics_skipped);
+    statistics["tension_skipped"] = whole(count.tension_skipped);
     statistics["cold_starts"] = whole(count.cold_starts);
     statistics["bad_samples"] = whole(count.bad_samples);
     statistics["read_timeouts"] = whole(count.read_timeouts);

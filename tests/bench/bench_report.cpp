@@ -75,12 +75,12 @@ BenchRow make_row(const std::string &method, const std::string &set, const std::
 }
 
 void print_header(const char *title) {
-    std::printf("\n%s\n%-36s %-12s %-8s %8s %8s %8s %8s %7s %10s %9s\n", title, "method", "set",
+    std::printf("\n%s\n%-38s %-12s %-8s %8s %8s %8s %8s %7s %10s %9s\n", title, "method", "set",
                 "mode", "median", "p99", "p99.9", "max ns", "x daqp", "worst err", "failures");
 }
 
 void print_row(const BenchRow &row) {
-    std::printf("%-36s %-12s %-8s %8s %8s %8s %8s %7s %10s %9ld\n", row.method.c_str(),
+    std::printf("%-38s %-12s %-8s %8s %8s %8s %8s %7s %10s %9ld\n", row.method.c_str(),
                 row.set.c_str(), row.mode.c_str(), text_of("%.0f", row.median_ns).c_str(),
                 text_of("%.0f", row.p99_ns).c_str(), text_of("%.0f", row.p999_ns).c_str(),
                 text_of("%.0f", row.max_ns).c_str(), text_of("%.3f", row.ratio_to_daqp).c_str(),
