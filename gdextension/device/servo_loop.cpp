@@ -9,6 +9,7 @@
 #include "device/event_queue.h"
 #include "device/nonblocking.h"
 #include "device/real_time_thread.h"
+#include "device/recording/recorder.h"
 #include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
 #include "device/writer_thread.h"
