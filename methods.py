@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import zipfile
 
-SANITIZERS = ("address", "undefined", "thread")
+SANITIZERS = ("address", "undefined", "thread", "realtime")  # realtime: clang 20 and later
 MINIMUM_GODOT = (4, 4)  # classdb_register_extension_class4 and construct_object2
 
 
@@ -31,8 +31,8 @@ def sanitizers(value):
     unknown = [name for name in names if name not in SANITIZERS]
     if unknown:
         raise BuildError(f"sanitize={value}: unknown {unknown[0]}; use {', '.join(SANITIZERS)}")
-    if "thread" in names and len(names) > 1:
-        raise BuildError(f"sanitize={value}: thread cannot be combined with another sanitizer")
+    if {"thread", "realtime"} & set(names) and len(names) > 1:
+        raise BuildError(f"sanitize={value}: thread and realtime stand alone")
     return [name for name in SANITIZERS if name in names]
 
 

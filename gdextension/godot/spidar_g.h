@@ -14,12 +14,15 @@
 
 #include "device/device_claims.h"
 #include "device/hid/hid_transport.h"
-#include "device/recording/replay_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_config.h"
 #include "godot/world_frame.h"
+
+namespace spidar {
+class ReplayTransport;
+}
 
 class SpidarG : public godot::Node3D {
     GDCLASS(SpidarG, godot::Node3D)
