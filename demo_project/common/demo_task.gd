@@ -186,8 +186,9 @@ func _start_script() -> void:
 		printerr("--out %s: cannot be made: %s" % [arguments.out_dir, error_string(error)])
 		get_tree().quit(PlayArguments.EXIT_BAD_ARGUMENTS)
 		return
-	if arguments.pictures:
+	if arguments.pictures or arguments.movie:
 		_pictures.start(arguments.out_dir)
+		_pictures.filming = arguments.movie
 	_hud.show_result("Played by script, layout %d" % arguments.seed_number)
 	_spidar.forces_enabled = not in_experiment or forces_at_start
 	_scripted_hand.be(arguments.hand, arguments.seed_number)

@@ -9,7 +9,7 @@ const LEVELS := 3
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
-	+ "              [--pictures] [--cut-output] [--freeze-pose]\n"
+	+ "              [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
 	+ "       ... -- --participant N --out DIR [--trials K] [--things K] [--level L]    (simulated)\n"
 	+ "       ... -- [--task TASK] [--level L] [--seed N] [--report FILE]    (interactive)"
 )
@@ -35,6 +35,8 @@ var report := ""
 var participant := 0
 var trials := 1
 var things := 0
+## Save the frames of a short movie there, too.
+var movie := false
 ## Cut the motor currents inside the simulated device: nothing can be felt.
 var cut_output := false
 ## Freeze the simulated encoders: the grip's pose never changes.
@@ -59,6 +61,8 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 		match word:
 			"--pictures":
 				pictures = true
+			"--movie":
+				movie = true
 			"--cut-output":
 				cut_output = true
 			"--freeze-pose":
@@ -118,8 +122,8 @@ func _find_conflict() -> String:
 		return "--participant needs --out DIR, and no --play"
 	if simulates():
 		return ""
-	if not scripted() and (pictures or cut_output or freeze_pose or out_dir != "" or hand != HANDS[0]):
-		return "--hand, --out, --pictures, --cut-output and --freeze-pose need --play TASK"
-	if pictures and DisplayServer.get_name() == "headless":
-		return "--pictures needs a display: run without --headless (under Xvfb where there is none)"
+	if not scripted() and (pictures or movie or cut_output or freeze_pose or out_dir != "" or hand != HANDS[0]):
+		return "--hand, --out, --pictures, --movie, --cut-output and --freeze-pose need --play TASK"
+	if (pictures or movie) and DisplayServer.get_name() == "headless":
+		return "--pictures and --movie need a display: run without --headless (under Xvfb where there is none)"
 	return ""

@@ -27,6 +27,7 @@ func open(folder_: String, session: String) -> String:
 		var problem := _mend(folder.path_join(name), _columns_of(name))
 		if problem != "":
 			return problem
+	_drop_unfinished_traces()
 	return ""
 
 
@@ -70,6 +71,24 @@ func rows_of(name: String) -> Array[Dictionary]:
 				row[header[index]] = cells[index]
 			rows.append(row)
 	return rows
+
+
+## A trial killed between its trace and its row in summary.csv is done again: its trace goes.
+func _drop_unfinished_traces() -> void:
+	var finished := {}
+	for row in rows_of("summary.csv"):
+		finished["%s,%s,%s,%s," % [row["session_id"], row["task"], row["condition"], row["trial"]]] = true
+	var path := folder.path_join("trace.csv")
+	var lines := FileAccess.get_file_as_string(path).split("\n", false)
+	var kept := PackedStringArray()
+	for index in lines.size():
+		var head := ",".join(lines[index].split(",", true, 4).slice(0, 4)) + ","
+		if index == 0 or finished.has(head):
+			kept.append(lines[index])
+	if kept.size() < lines.size():
+		var file := FileAccess.open(path, FileAccess.WRITE)
+		if file != null:
+			file.store_string("\n".join(kept) + "\n")
 
 
 func _columns_of(name: String) -> PackedStringArray:
