@@ -53,6 +53,9 @@ func _open(scene_name: String) -> void:
 	if _scene != null:
 		_scene.queue_free()
 	_scene = _make(scene_name)
+	if not _scene.has_signal(&"left"):
+		_refuse("%s did not load: import the project first (./dev does)." % scene_name, _arguments.scripted())
+		return
 	_scene.set(&"arguments", _arguments)
 	_scene.set(&"settings", _settings)
 	if scene_name == "hub":

@@ -27,6 +27,7 @@ var most_bodies := 0
 var logger := TrialLogger.new()
 var bodies: Array[TaskBody] = []
 var player: TaskPlayer
+var frame_cost := FrameCost.new()
 
 var _running := false
 var _finished := false
@@ -125,6 +126,7 @@ func _physics_process(delta: float) -> void:
 			_start_clock()
 		return
 	logger.sample(_spidar, delta)
+	frame_cost.sample()
 	_placed_for_s = _placed_for_s + delta if placed == bodies.size() else 0.0
 	if _placed_for_s >= DWELL_S and not arguments.scripted():
 		_finish("")

@@ -157,6 +157,7 @@ func _save(folder: String, table: CsvTable) -> bool:
 			"written_utc": Time.get_datetime_string_from_system(true),
 			"operating_system": OS.get_name(),
 			"statistics": _spidar.get_statistics(),
+			"frame_ms": _task.frame_cost.report(),
 		}, "  ") + "\n")
 	return saved
 

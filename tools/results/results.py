@@ -87,10 +87,12 @@ def draw(table, out):
     def bars(axes, figure, measure, title, unit):
         width = 0.8 / len(CONDITIONS)
         for index, condition in enumerate(CONDITIONS):
-            shown = [pick(table, figure, task, condition, measure) for task in TASKS]
-            places = [task + (index - 1.5) * width for task in range(len(TASKS))]
-            axes.bar(places, [value for value, _ in shown], width, yerr=[error for _, error in shown],
-                     color=COLOURS[condition], label=condition.replace("_", " "), capsize=2)
+            shown = [(place, *pick(table, figure, task, condition, measure)) for place, task in enumerate(TASKS)]
+            shown = [one for one in shown if not math.isnan(one[1])]  # the mouse is not compared with itself
+            if shown:
+                axes.bar([place + (index - 1.5) * width for place, _, _ in shown], [value for _, value, _ in shown],
+                         width, yerr=[error for _, _, error in shown], color=COLOURS[condition],
+                         label=condition.replace("_", " "), capsize=2)
         axes.set_xticks(range(len(TASKS)), [task.replace("_", " ") for task in TASKS])
         axes.set_title(title)
         axes.set_ylabel(unit)
