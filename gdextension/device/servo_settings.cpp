@@ -40,6 +40,16 @@ std::string validate_safety(const SafetySettings &safety) {
         {"safety.read_timeout_fade_s", safety.read_timeout_fade_s, "s", 0.001, 1.0},
         {"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s", 0.001, 1.0},
         {"safety.max_grip_speed_m_s", safety.max_grip_speed_m_s, "m/s", 0.1, 10.0},
+        {"safety.fade_grip_speed_m_s", safety.fade_grip_speed_m_s, "m/s", 0.1, 10.0},
+        {"safety.fade_turn_rate_rad_s", safety.fade_turn_rate_rad_s, "rad/s", 1.0, 200.0},
+        {"safety.max_turn_rate_rad_s", safety.max_turn_rate_rad_s, "rad/s", 1.0, 200.0},
+        {"safety.game_timeout_s", safety.game_timeout_s, "s", 0.05, 60.0},
+        {"safety.continuous_tension_n", safety.continuous_tension_n, "N", 0.1, 100.0},
+        {"safety.thermal_time_s", safety.thermal_time_s, "s", 0.1, 1000.0},
+        {"safety.string_error_fade_m", safety.string_error_fade_m, "m", 0.0005, 0.1},
+        {"safety.string_error_fault_m", safety.string_error_fault_m, "m", 0.001, 0.1},
+        {"safety.workspace_margin_m", safety.workspace_margin_m, "m", 0.0, 0.2},
+        {"safety.hand_presence_s", safety.hand_presence_s, "s", 0.0, 3600.0},
         {"safety.wrench_fade_s", safety.wrench_fade_s, "s", 0.001, 1.0},
         {"safety.contacts_full_s", safety.contacts_full_s, "s", 0.001, 1.0},
         {"safety.contacts_gone_s", safety.contacts_gone_s, "s", 0.002, 2.0},
@@ -65,6 +75,7 @@ std::string validate(const ServoSettings &settings) {
     const Range ranges[] = {
         {"rate_hz", settings.rate_hz, "Hz", 100.0, 4000.0},
         {"velocity_cutoff_hz", settings.velocity_cutoff_hz, "Hz", 1.0, 1000.0},
+        {"reopen_interval_s", settings.reopen_interval_s, "s", 0.0, 60.0},
     };
     for (const Range &range : ranges) {
         std::string own = complaint(range);

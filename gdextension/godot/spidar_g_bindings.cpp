@@ -12,14 +12,15 @@ static_assert(static_cast<int>(spidar::DeviceState::fault) == SpidarG::STATE_FAU
 static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRASP_OVER_CLOSED);
 static_assert(static_cast<int>(spidar::ContactTarget::grasp_stop) == SpidarG::CONTACT_GRASP_STOP);
 static_assert(static_cast<int>(spidar::HandFirmness::firm) == SpidarG::HAND_FIRM);
-static_assert(static_cast<int>(spidar::SimulatedFault::broken_string) ==
-              SpidarG::FAULT_BROKEN_STRING);
+static_assert(static_cast<int>(spidar::SimulatedFault::blocked_output) ==
+              SpidarG::FAULT_BLOCKED_OUTPUT);
 
 void SpidarG::_bind_methods() {
     bind_enums();
     bind_setup();
     bind_state();
     bind_requests();
+    bind_recording();
     bind_simulated();
 }
 
@@ -95,6 +96,7 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_achieved_wrench"), &SpidarG::get_achieved_wrench);
     ClassDB::bind_method(D_METHOD("get_wrench_bias"), &SpidarG::get_wrench_bias);
     ClassDB::bind_method(D_METHOD("get_statistics"), &SpidarG::get_statistics);
+    ClassDB::bind_method(D_METHOD("get_lateness_histogram"), &SpidarG::get_lateness_histogram);
 }
 
 void SpidarG::bind_requests() {
@@ -105,6 +107,20 @@ void SpidarG::bind_requests() {
     ClassDB::bind_method(D_METHOD("clear_contacts"), &SpidarG::clear_contacts);
     ClassDB::bind_method(D_METHOD("get_contact_impulses"), &SpidarG::get_contact_impulses);
     ClassDB::bind_method(D_METHOD("get_touching_contacts"), &SpidarG::get_touching_contacts);
+}
+
+void SpidarG::bind_recording() {
+    ClassDB::bind_method(D_METHOD("start_recording", "path"), &SpidarG::start_recording);
+    ClassDB::bind_method(D_METHOD("stop_recording"), &SpidarG::stop_recording);
+    ClassDB::bind_method(D_METHOD("is_recording"), &SpidarG::is_recording);
+    ClassDB::bind_method(D_METHOD("get_recording_statistics"), &SpidarG::get_recording_statistics);
+    ClassDB::bind_method(D_METHOD("start_replay", "path"), &SpidarG::start_replay);
+    ClassDB::bind_method(D_METHOD("stop_replay"), &SpidarG::stop_replay);
+    ClassDB::bind_method(D_METHOD("is_replaying"), &SpidarG::is_replaying);
+    ClassDB::bind_method(D_METHOD("get_replay_statistics"), &SpidarG::get_replay_statistics);
+    ADD_SIGNAL(MethodInfo("recording_failed", PropertyInfo(Variant::STRING, "message")));
+    ADD_SIGNAL(MethodInfo("replay_finished", PropertyInfo(Variant::BOOL, "identical"),
+                          PropertyInfo(Variant::STRING, "message")));
 }
 
 void SpidarG::bind_simulated() {
@@ -149,5 +165,16 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(FAULT_UNPLUGGED);
     BIND_ENUM_CONSTANT(FAULT_STUCK_ENCODER);
     BIND_ENUM_CONSTANT(FAULT_BROKEN_STRING);
+    BIND_ENUM_CONSTANT(FAULT_HAND_RELEASED);
+    BIND_ENUM_CONSTANT(FAULT_JAMMED_DRUM);
+    BIND_ENUM_CONSTANT(FAULT_SLIPPED_STRING);
+    BIND_ENUM_CONSTANT(FAULT_COUNTS_RESET);
+    BIND_ENUM_CONSTANT(FAULT_REVERSED_ENCODER);
+    BIND_ENUM_CONSTANT(FAULT_SWAPPED_ENCODERS);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_LOST);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_REPEATED);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_SWAPPED);
+    BIND_ENUM_CONSTANT(FAULT_LATE_OUTPUT);
+    BIND_ENUM_CONSTANT(FAULT_BLOCKED_OUTPUT);
     BIND_CONSTANT(CONTACT_STRIDE);
 }
