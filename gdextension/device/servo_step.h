@@ -40,6 +40,9 @@ public:
     // Switches the motors off in the next step, latched. For the caller's own watchdogs.
     void stop_motors(Status why) noexcept { stop_asked_ = why; }
 
+    // The next step skips no solve of tensions. It changes no output, only counters().tension_skipped.
+    void forget_settled() noexcept { solver_.forget_settled(); }
+
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }
