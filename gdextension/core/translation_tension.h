@@ -84,11 +84,15 @@ public:
                 Four::max(move.a.absolute() & mask.a, move.b.absolute() & mask.b).largest();
             x = {Four::min(Four::max(u.a, lower.a), upper.a),
                  Four::min(Four::max(u.b, lower.b), upper.b)};
-            low = (~movable & 0xFFU) | Row::bits(u.a <= lower.a, u.b <= lower.b);
-            high = Row::bits(upper.a <= u.a, upper.b <= u.b) & ~low;
+            const unsigned at_least =
+                (~movable & 0xFFU) | Row::bits(u.a <= lower.a, u.b <= lower.b);
+            const unsigned at_most = Row::bits(upper.a <= u.a, upper.b <= u.b) & ~at_least;
+            const bool settled = at_least == low && at_most == high;
+            low = at_least;
+            high = at_most;
             const unsigned now = movable & ~(low | high);
             // From the second step on x is the clamped one that the residual was taken at.
-            if (step > 0 && now == free && largest <= kStep_n) {
+            if (step > 0 && settled && largest <= kStep_n) {
                 return report(x, low, high, step + 1, largest_of(w * z0, w * z1, w * z2),
                               largest_of(b0, b1, b2), solution);
             }
