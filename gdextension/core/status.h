@@ -37,9 +37,9 @@ enum class Status : std::int32_t {
     over_speed = -26,
     fault_latched = -27, // clear_fault() and arm() are needed
     not_armed = -28,
-    string_fault = -29,     // the eight lengths contradict each other: slack, slipped, stuck, broken
-    overheated = -30,       // a motor's thermal budget is spent
-    unstable = -31,         // the rendered forces shake the grip
+    string_fault = -29, // the eight lengths contradict each other: slack, slipped, stuck, broken
+    overheated = -30,   // a motor's thermal budget is spent
+    unstable = -31,     // the rendered forces shake the grip
     device_restarted = -32, // the device's clock or counts began anew: the zero is lost
     zero_needed = -33,      // zero_at_home() is needed before forces
     panic_stopped = -34,
