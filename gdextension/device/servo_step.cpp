@@ -261,6 +261,7 @@ void ServoStep::publish_state() noexcept {
     snapshot_.fault = machine_.fault();
     snapshot_.fault_string = static_cast<std::int8_t>(machine_.fault_string());
     snapshot_.force_scale = machine_.scale();
+    snapshot_.tension_scale = machine_.tension_scale();
     snapshot_.zero_known = machine_.zero_known();
     snapshot_.safety_scale = monitor_.wrench_scale();
     snapshot_.thermal_share = monitor_.heat().spent();
