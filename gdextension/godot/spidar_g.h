@@ -31,8 +31,11 @@ public:
         STATE_ARMING,
         STATE_ACTIVE,
         STATE_FADING,
-        STATE_FAULT
+        STATE_FAULT,
+        STATE_TAUT,
+        STATE_CALIBRATED
     };
+    enum EventLevel { EVENT_INFO, EVENT_WARNING, EVENT_FAULT };
     enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
     enum ContactTarget {
         CONTACT_CENTRE,
@@ -50,7 +53,18 @@ public:
         FAULT_READ_TIMEOUT,
         FAULT_UNPLUGGED,
         FAULT_STUCK_ENCODER,
-        FAULT_BROKEN_STRING
+        FAULT_BROKEN_STRING,
+        FAULT_HAND_RELEASED,
+        FAULT_JAMMED_DRUM,
+        FAULT_SLIPPED_STRING,
+        FAULT_COUNTS_RESET,
+        FAULT_REVERSED_ENCODER,
+        FAULT_SWAPPED_ENCODERS,
+        FAULT_REPORTS_LOST,
+        FAULT_REPORTS_REPEATED,
+        FAULT_REPORTS_SWAPPED,
+        FAULT_LATE_OUTPUT,
+        FAULT_BLOCKED_OUTPUT
     };
     enum { CONTACT_STRIDE = 12 };
 
@@ -65,7 +79,9 @@ public:
     void set_enabled(bool enabled);
     [[nodiscard]] bool is_enabled() const { return enabled_; }
     void set_forces_enabled(bool enabled);
-    [[nodiscard]] bool are_forces_enabled() const { return command_.forces_enabled; }
+    [[nodiscard]] bool are_forces_enabled() const { return forces_wanted_; }
+    void set_release_on_focus_loss(bool release);
+    [[nodiscard]] bool is_release_on_focus_loss() const { return release_on_focus_loss_; }
     void set_drive_mode(DriveMode mode);
     [[nodiscard]] DriveMode get_drive_mode() const { return drive_mode_; }
     void set_workspace_scale(double scale);
@@ -77,6 +93,11 @@ public:
     void disarm();
     void clear_fault();
     int advance_cycles(int cycles);
+
+    // Safety (spidar_g_safety.cpp).
+    void panic_stop();
+    bool zero_at_home();
+    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
@@ -154,6 +175,12 @@ private:
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before);
+    void emit_events();
+    void tell(const spidar::DeviceEvent &event);
+    void beat();
+    void watch_loop();
+    void set_away(bool away);
+    void publish_forces();
     // A recording that cannot go on, a replay that has ended.
     void watch_recordings();
     void tell_recording_failed();
@@ -173,6 +200,10 @@ private:
     spidar::PlantSettings plant_;
     std::string problem_; // why the device is not open
     bool restart_pending_ = false;
+    bool forces_wanted_ = false;
+    bool release_on_focus_loss_ = true;
+    bool away_ = false;       // the application has lost the focus, or was put aside
+    bool stall_told_ = false; // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
@@ -185,6 +216,7 @@ private:
 
 VARIANT_ENUM_CAST(SpidarG::DriveMode);
 VARIANT_ENUM_CAST(SpidarG::State);
+VARIANT_ENUM_CAST(SpidarG::EventLevel);
 VARIANT_ENUM_CAST(SpidarG::GraspPhase);
 VARIANT_ENUM_CAST(SpidarG::ContactTarget);
 VARIANT_ENUM_CAST(SpidarG::HandFirmness);
