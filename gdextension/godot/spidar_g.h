@@ -130,6 +130,7 @@ public:
     [[nodiscard]] godot::Dictionary get_contact_impulses() const;
     [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
     [[nodiscard]] godot::Dictionary get_statistics() const;
+    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
     // Recording and replay (spidar_g_recording.cpp).
     bool start_recording(const godot::String &path);
@@ -145,7 +146,7 @@ public:
     bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
-    void inject_simulated_fault(SimulatedFault fault, int string, double start_s,
+    bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
 

@@ -105,6 +105,7 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_achieved_wrench"), &SpidarG::get_achieved_wrench);
     ClassDB::bind_method(D_METHOD("get_wrench_bias"), &SpidarG::get_wrench_bias);
     ClassDB::bind_method(D_METHOD("get_statistics"), &SpidarG::get_statistics);
+    ClassDB::bind_method(D_METHOD("get_lateness_histogram"), &SpidarG::get_lateness_histogram);
 }
 
 void SpidarG::bind_requests() {

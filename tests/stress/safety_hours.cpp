@@ -72,17 +72,20 @@ struct Game {
 // What a player does: goes places, turns, grasps, taps at surfaces, holds things of some weight.
 void play(Game &game, long frame) {
     HapticCommand &command = game.command;
-    if (frame % 30 == 0) { // twice a second
-        HandTarget target;
-        target.position_m = game.random.vector(0.12);
-        const Vec3 turn = game.random.vector(0.6);
-        const double angle = glm::length(turn);
-        if (angle > 0.0) {
-            target.rotation = glm::mat3_cast(glm::angleAxis(angle, turn / angle));
-        }
-        target.grasp_angle_rad = game.random.within(0.8);
-        game.device->set_hand_target(target);
-        command.wrench.force_n = game.random.one_in(3) ? game.random.vector(2.0) : Vec3(0.0);
+    const double t = static_cast<double>(frame * kFrame_ticks) * kTick_s;
+    // Up to 0.5 m/s, each axis at a rate of its own, so that an hour repeats nothing.
+    HandTarget target;
+    target.position_m = {0.075 * std::sin(3.1 * t), 0.07 * std::sin(4.7 * t + 1.0),
+                         0.06 * std::sin(2.3 * t + 2.0)};
+    const Vec3 turn(0.35 * std::sin(1.9 * t), 0.35 * std::sin(2.9 * t), 0.4 * std::sin(1.3 * t));
+    const double angle = glm::length(turn);
+    if (angle > 0.0) {
+        target.rotation = glm::mat3_cast(glm::angleAxis(angle, turn / angle));
+    }
+    target.grasp_angle_rad = 0.35 + 0.45 * std::sin(1.7 * t);
+    game.device->set_hand_target(target);
+    if (frame % 30 == 0) { // what it holds
+        command.wrench.force_n = game.random.one_in(3) ? game.random.vector(1.0) : Vec3(0.0);
     }
     ++command.contacts_sequence;
     command.contact_count = 4;
