@@ -87,10 +87,8 @@ void SpidarG::set_enabled(bool enabled) {
 }
 
 void SpidarG::set_forces_enabled(bool enabled) {
-    command_.forces_enabled = enabled;
-    if (loop_) {
-        loop_->publish(command_);
-    }
+    forces_wanted_ = enabled;
+    publish_forces();
 }
 
 void SpidarG::set_drive_mode(DriveMode mode) {
@@ -266,6 +264,14 @@ void SpidarG::_notification(int what) {
     case NOTIFICATION_INTERNAL_PHYSICS_PROCESS:
         physics_tick();
         break;
+    case NOTIFICATION_APPLICATION_FOCUS_OUT:
+    case NOTIFICATION_APPLICATION_PAUSED:
+        set_away(release_on_focus_loss_);
+        break;
+    case NOTIFICATION_APPLICATION_FOCUS_IN:
+    case NOTIFICATION_APPLICATION_RESUMED:
+        set_away(false);
+        break;
     case NOTIFICATION_INTERNAL_PROCESS:
         pull_snapshot();
         break;
@@ -281,6 +287,7 @@ void SpidarG::physics_tick() {
     if (!loop_) {
         return;
     }
+    beat();
     if (drive_mode_ == DRIVE_STEPPED) {
         const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
@@ -311,6 +318,10 @@ void SpidarG::pull_snapshot() {
     if (loop_->latest(snapshot_)) {
         emit_edges(before);
         emit_buttons(before.buttons);
+    }
+    emit_events();
+    if (loop_) {
+        watch_loop();
     }
     watch_recordings();
 }

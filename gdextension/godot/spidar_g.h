@@ -35,8 +35,11 @@ public:
         STATE_ARMING,
         STATE_ACTIVE,
         STATE_FADING,
-        STATE_FAULT
+        STATE_FAULT,
+        STATE_TAUT,
+        STATE_CALIBRATED
     };
+    enum EventLevel { EVENT_INFO, EVENT_WARNING, EVENT_FAULT };
     enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
     enum ContactTarget {
         CONTACT_CENTRE,
@@ -80,7 +83,9 @@ public:
     void set_enabled(bool enabled);
     [[nodiscard]] bool is_enabled() const { return enabled_; }
     void set_forces_enabled(bool enabled);
-    [[nodiscard]] bool are_forces_enabled() const { return command_.forces_enabled; }
+    [[nodiscard]] bool are_forces_enabled() const { return forces_wanted_; }
+    void set_release_on_focus_loss(bool release);
+    [[nodiscard]] bool is_release_on_focus_loss() const { return release_on_focus_loss_; }
     void set_drive_mode(DriveMode mode);
     [[nodiscard]] DriveMode get_drive_mode() const { return drive_mode_; }
     void set_workspace_scale(double scale);
@@ -96,6 +101,10 @@ public:
     // Real device (spidar_g_device.cpp).
     bool zero_device();
     [[nodiscard]] godot::Dictionary get_device_info() const;
+
+    // Safety (spidar_g_safety.cpp).
+    void panic_stop();
+    bool zero_at_home();
 
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
@@ -185,6 +194,12 @@ private:
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before);
+    void emit_events();
+    void tell(const spidar::DeviceEvent &event);
+    void beat();
+    void watch_loop();
+    void set_away(bool away);
+    void publish_forces();
     // A recording that cannot go on, a replay that has ended.
     void watch_recordings();
     void tell_recording_failed();
@@ -204,6 +219,10 @@ private:
     spidar::PlantSettings plant_;
     std::string problem_; // why the device is not open
     bool restart_pending_ = false;
+    bool forces_wanted_ = false;
+    bool release_on_focus_loss_ = true;
+    bool away_ = false;       // the application has lost the focus, or was put aside
+    bool stall_told_ = false; // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
     spidar::HidTransport *hid_ = nullptr; // owned by loop_
@@ -218,6 +237,7 @@ private:
 
 VARIANT_ENUM_CAST(SpidarG::DriveMode);
 VARIANT_ENUM_CAST(SpidarG::State);
+VARIANT_ENUM_CAST(SpidarG::EventLevel);
 VARIANT_ENUM_CAST(SpidarG::GraspPhase);
 VARIANT_ENUM_CAST(SpidarG::ContactTarget);
 VARIANT_ENUM_CAST(SpidarG::HandFirmness);
