@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
+#include "core/string_exit.h"
 
 namespace spidar {
 
@@ -16,21 +17,21 @@ constexpr double kShortestString_m = 1e-9;
 WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
                            const GripPose &pose) noexcept {
     WrenchMatrix matrix;
+    const bool rigid = grip.kind == GripKind::rigid;
     const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
     const double area = glm::length(cross);
     const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
-    matrix.grasp_row_vanishes = !(area > kParallelAngle_rad * scale);
+    matrix.grasp_row_vanishes = rigid || !(area > kParallelAngle_rad * scale);
     // Nearer to parallel than the rotation is trusted, n is noise and would turn g into a noisy moment.
     const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
 
     for (int i = 0; i < kStringCount; ++i) {
         const auto s = static_cast<std::size_t>(i);
         const Attachment &tie = grip.attachments[s];
-        const Vec3 lever = tie.sign * (tie.pole == 0 ? pose.r1_m : pose.r2_m);
-        const Vec3 line = frame.motors_m[s] - (pose.position_m + lever);
-        const double length = glm::length(line);
-        // A NaN length takes the division and shows in the column: the solver refuses it by status.
-        const Vec3 pull = length <= kShortestString_m ? Vec3(0.0) : line / length;
+        const Vec3 lever = attachment_lever(grip, pose, s);
+        const StringPath path = string_path(frame, s, pose.position_m + lever);
+        // A NaN takes the direction and shows in the column: the solver refuses it by status.
+        const Vec3 pull = path.length_m <= kShortestString_m ? Vec3(0.0) : -path.direction;
         const Vec3 moment = glm::cross(lever, pull);
         const double grasp = (tie.pole == 0 ? 1.0 : -1.0) * glm::dot(normal, moment);
         matrix.columns[s] = {pull.x, pull.y, pull.z, moment.x, moment.y, moment.z, grasp};

@@ -39,6 +39,9 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
         tension.max_tension_n = std::min(tension.max_tension_n, strongest_n[i]);
     }
     limits_n.fill(tension.max_tension_n);
+    if (settings.grip.kind == GripKind::rigid) {
+        tension.dof_mask &= kNoGrasp;
+    }
     const Status solvable = fresh.solver_.configure(tension);
     if (!usable(solvable)) {
         return solvable;
@@ -177,7 +180,13 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
 
 DriveCommand ServoStep::drive(double dt_s) noexcept {
     const double trust = tracking_ ? 1.0 : 0.0;
-    const Wrench asked = wrench_.value() + contacts_.render(tracker_.grip(), dt_s, trust);
+    Wrench asked = wrench_.value() + contacts_.render(tracker_.grip(), dt_s, trust);
+    // A rigid grip has no hinge to turn: what was asked of it is left out, and said.
+    const bool no_grasp =
+        settings_.grip.kind == GripKind::rigid && asked.grasp_torque_nm != 0.0;
+    if (no_grasp) {
+        asked.grasp_torque_nm = 0.0;
+    }
     const double factor = limit_factor(asked, settings_.safety);
     if (factor < 1.0 && !limiting_) {
         ++snapshot_.counters.clamped_requests;
@@ -230,7 +239,8 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.bias = ramp * from_paper(result.bias);
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
-    snapshot_.tension_status = result.status;
+    snapshot_.tension_status =
+        no_grasp && result.status == Status::ok ? Status::grasp_unavailable : result.status;
 
     DriveCommand command;
     command.motors_on = true;
