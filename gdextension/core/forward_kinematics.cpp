@@ -233,8 +233,7 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
     return search(lengths_m, nullptr, 0.0);
 }
 
-std::optional<Twist>
-ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
+std::optional<Twist> ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
     const LengthProblem problem{frame_, grip_, rates_m_s};
     LengthErrors rates = length_errors(problem, last_pose_);
     rates.residual_m = rates_m_s;
@@ -310,8 +309,8 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     if (frame_.pulley_radius_m > 0.0) {
         for (std::size_t i = 0; i < kStringCount; ++i) {
             const Vec3 end = attachment_point(grip_, last_pose_, static_cast<int>(i));
-            eyelets_m[i] += glm::distance(end, frame_.motors_m[i]) -
-                            string_path(frame_, i, end).length_m;
+            eyelets_m[i] +=
+                glm::distance(end, frame_.motors_m[i]) - string_path(frame_, i, end).length_m;
         }
         tools.eyelet_lengths_m = &eyelets_m;
     }

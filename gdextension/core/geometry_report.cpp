@@ -28,9 +28,8 @@ constexpr double kSamePlace_m = 1e-6;
 constexpr double kLowShare = 0.5; // of the poses tried
 constexpr int kHalvings = 50;
 
-constexpr const char *kMotions[] = {"motion along x", "motion along y",
-                                    "motion along z", "the turn about x",
-                                    "the turn about y", "the turn about z",
+constexpr const char *kMotions[] = {"motion along x",   "motion along y",   "motion along z",
+                                    "the turn about x", "the turn about y", "the turn about z",
                                     "the grasp"};
 
 TensionProblem problem_of(const WrenchMatrix &matrix, const GripGeometry &grip) noexcept {
@@ -245,8 +244,7 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
     };
     int closed = 0;
     for (int i = 0; i < poses; ++i) {
-        const Vec3 position =
-            middle + Vec3(draw(reach.x), draw(reach.y), draw(reach.z));
+        const Vec3 position = middle + Vec3(draw(reach.x), draw(reach.y), draw(reach.z));
         const double x = draw(kTurn_rad);
         const double y = draw(kTurn_rad);
         const double z = draw(kTurn_rad);

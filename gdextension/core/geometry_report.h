@@ -14,9 +14,9 @@ namespace spidar {
 
 // What the strings can do at one pose, moments over the grip's lever so that all rows are newtons.
 struct PoseStatics {
-    int rank = 0;         // of the wrench matrix; degrees_of_freedom where nothing is lost
-    bool closed = false;  // some tensions, all above 0, give no wrench: the grip can be held
-    double margin = 0.0;  // smallest over largest of them, 0..1
+    int rank = 0;        // of the wrench matrix; degrees_of_freedom where nothing is lost
+    bool closed = false; // some tensions, all above 0, give no wrench: the grip can be held
+    double margin = 0.0; // smallest over largest of them, 0..1
     // Where not closed: a motion (v, omega d, -psi_rate/2 d; length 1) that every string helps or leaves alone and no
     // string hinders. Zero where closed.
     DofArray unopposed{};
@@ -28,7 +28,8 @@ struct PoseStatics {
 struct GeometryReport {
     int degrees_of_freedom = 7; // 6 for a rigid grip
     PoseStatics at_rest;
-    double closure_share = 0.0; // of the poses tried: P0 within a quarter of the frame, turns within 30 degrees
+    double closure_share =
+        0.0; // of the poses tried: P0 within a quarter of the frame, turns within 30 degrees
     int poses = 0;
     // Largest that can be given in every one of the six directions at rest (unit: N, N m), tensions within min..max.
     double force_capacity_n = 0.0;

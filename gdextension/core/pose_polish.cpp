@@ -30,7 +30,8 @@ struct NewtonEquations {
 };
 
 // How an attachment moves with each of the unknowns that reach it.
-template <std::size_t Count> struct Motions {
+template <std::size_t Count>
+struct Motions {
     std::array<Vec3, Count> of_attachment{};
     std::array<std::size_t, Count> unknown{};
 };
@@ -67,14 +68,13 @@ NewtonEquations newton_equations(const LengthProblem &problem, const LengthError
         const auto pole = static_cast<std::size_t>(attachment.pole);
         const Tangents &t = tangents.poles[pole];
         const Vec3 &r = pole == 0 ? pose.r1_m : pose.r2_m;
-        const Motions<5> motions{
-            {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), attachment.sign * t.u,
-             attachment.sign * t.v},
-            {0, 1, 2, 3 + 2 * pole, 4 + 2 * pole}};
+        const Motions<5> motions{{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
+                                  attachment.sign * t.u, attachment.sign * t.v},
+                                 {0, 1, 2, 3 + 2 * pole, 4 + 2 * pole}};
         add_string(eq, errors, i, motions);
         // A displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
-        const double fall = errors.residual_m[i] * attachment.sign *
-                            glm::dot(errors.direction[i], r) / (d * d);
+        const double fall =
+            errors.residual_m[i] * attachment.sign * glm::dot(errors.direction[i], r) / (d * d);
         eq.curvature[3 + 2 * pole][3 + 2 * pole] += fall;
         eq.curvature[4 + 2 * pole][4 + 2 * pole] += fall;
     }
@@ -172,9 +172,8 @@ PolishResult polish_pose(const LengthProblem &problem, const GripPose &start) no
     while (result.steps < kMaxPolishSteps && !result.converged) {
         ++result.steps;
         const PoseTangents tangents = tangents_of(result.pose);
-        const NewtonEquations eq =
-            rigid ? rigid_newton_equations(problem, errors, result.pose)
-                  : newton_equations(problem, errors, result.pose, tangents);
+        const NewtonEquations eq = rigid ? rigid_newton_equations(problem, errors, result.pose)
+                                         : newton_equations(problem, errors, result.pose, tangents);
         PoseStep step{};
         if (!descent_step(eq, damping, step)) {
             break;

@@ -167,11 +167,9 @@ void Search::judge(const PolishResult &candidate) noexcept {
 }
 
 void Search::try_root_pairs() noexcept {
-    const ClosedForm form = solve_closed_form(*tools_.closed_form_half_extents_m,
-                                              problem_.grip.pole_half_length_m,
-                                              tools_.eyelet_lengths_m != nullptr
-                                                  ? *tools_.eyelet_lengths_m
-                                                  : problem_.lengths_m);
+    const ClosedForm form = solve_closed_form(
+        *tools_.closed_form_half_extents_m, problem_.grip.pole_half_length_m,
+        tools_.eyelet_lengths_m != nullptr ? *tools_.eyelet_lengths_m : problem_.lengths_m);
     if (tools_.layout == nullptr) {
         // Starts too rough for their misfits to mean anything.
         for (int pair = 0; pair < kRootPairCount && !settled(); ++pair) {

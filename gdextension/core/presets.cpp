@@ -8,10 +8,22 @@ namespace spidar {
 namespace {
 
 // HISpidar.cpp of Springhead (see THIRDPARTY.md): positions, length of a count, tension range.
-constexpr StringVectors kX3rMotors_m{Vec3(-0.08485, -0.076, 0), Vec3(0, -0.076, 0.08485), Vec3(0.08485, -0.076, 0), Vec3(0, -0.076, -0.08485), Vec3(-0.08485, 0.076, 0), Vec3(0, 0.076, 0.08485), Vec3(0.08485, 0.076, 0), Vec3(0, 0.076, -0.08485)};
-constexpr StringVectors kX3rJoints_m{Vec3(-0.01591, 0, -0.01591), Vec3(0.01591, 0, 0.01591), Vec3(0, -0.0225, 0), Vec3(0, -0.0225, 0), Vec3(-0.01591, 0, -0.01591), Vec3(0.01591, 0, 0.01591), Vec3(0, 0.0225, 0), Vec3(0, 0.0225, 0)};
-constexpr StringVectors kX3lMotors_m{Vec3(0.08485, 0.076, 0), Vec3(0, 0.076, 0.08485), Vec3(-0.08485, 0.076, 0), Vec3(0, 0.076, -0.08485), Vec3(0.08485, -0.076, 0), Vec3(0, -0.076, 0.08485), Vec3(-0.08485, -0.076, 0), Vec3(0, -0.076, -0.08485)};
-constexpr StringVectors kX3lJoints_m{Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591), Vec3(0, 0.0225, 0), Vec3(0, 0.0225, 0), Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591), Vec3(0, -0.0225, 0), Vec3(0, -0.0225, 0)};
+constexpr StringVectors kX3rMotors_m{Vec3(-0.08485, -0.076, 0), Vec3(0, -0.076, 0.08485),
+                                     Vec3(0.08485, -0.076, 0),  Vec3(0, -0.076, -0.08485),
+                                     Vec3(-0.08485, 0.076, 0),  Vec3(0, 0.076, 0.08485),
+                                     Vec3(0.08485, 0.076, 0),   Vec3(0, 0.076, -0.08485)};
+constexpr StringVectors kX3rJoints_m{Vec3(-0.01591, 0, -0.01591), Vec3(0.01591, 0, 0.01591),
+                                     Vec3(0, -0.0225, 0),         Vec3(0, -0.0225, 0),
+                                     Vec3(-0.01591, 0, -0.01591), Vec3(0.01591, 0, 0.01591),
+                                     Vec3(0, 0.0225, 0),          Vec3(0, 0.0225, 0)};
+constexpr StringVectors kX3lMotors_m{Vec3(0.08485, 0.076, 0),   Vec3(0, 0.076, 0.08485),
+                                     Vec3(-0.08485, 0.076, 0),  Vec3(0, 0.076, -0.08485),
+                                     Vec3(0.08485, -0.076, 0),  Vec3(0, -0.076, 0.08485),
+                                     Vec3(-0.08485, -0.076, 0), Vec3(0, -0.076, -0.08485)};
+constexpr StringVectors kX3lJoints_m{Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591),
+                                     Vec3(0, 0.0225, 0),         Vec3(0, 0.0225, 0),
+                                     Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591),
+                                     Vec3(0, -0.0225, 0),        Vec3(0, -0.0225, 0)};
 constexpr double kX3MetresPerCount = 1.66555e-5;
 constexpr double kX3MinTension_n = 0.3;
 constexpr double kX3MaxTension_n = 20.0;

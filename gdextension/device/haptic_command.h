@@ -44,6 +44,9 @@ struct HapticCommand {
     std::uint32_t arm_count = 0;
     std::uint32_t disarm_count = 0;
     std::uint32_t clear_fault_count = 0;
+    std::uint32_t zero_count = 0; // zero_at_home(): the grip is held at home
+    // Sign of life: the game changes it each frame. 0: nobody promised one, so nobody is missed.
+    std::uint32_t heartbeat = 0;
 
     // Raw wrench, full for wrench_duration_s after wrench_sequence changes, then faded.
     std::uint64_t wrench_sequence = 0;

@@ -13,6 +13,7 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 
 #include "device/device_claims.h"
+#include "device/recording/replay_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
 #include "godot/spidar_g_calibration.h"
@@ -109,6 +110,16 @@ public:
     [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
     [[nodiscard]] godot::Dictionary get_statistics() const;
 
+    // Recording and replay (spidar_g_recording.cpp).
+    bool start_recording(const godot::String &path);
+    void stop_recording();
+    [[nodiscard]] bool is_recording() const;
+    [[nodiscard]] godot::Dictionary get_recording_statistics() const;
+    bool start_replay(const godot::String &path);
+    void stop_replay();
+    [[nodiscard]] bool is_replaying() const;
+    [[nodiscard]] godot::Dictionary get_replay_statistics() const;
+
     // Simulated device (spidar_g_simulated.cpp).
     bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
@@ -126,6 +137,7 @@ private:
     static void bind_setup();
     static void bind_state();
     static void bind_requests();
+    static void bind_recording();
     static void bind_simulated();
     static void bind_enums();
 
@@ -135,12 +147,16 @@ private:
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
     [[nodiscard]] bool may_run() const;
     void open_device();
+    void open_replay();
     void close_device();
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before);
+    // A recording that cannot go on, a replay that has ended.
+    void watch_recordings();
+    void tell_recording_failed();
     bool reject(const std::string &message);
     [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] std::string fault_message() const;
@@ -160,6 +176,9 @@ private:
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
+    std::string replay_path_;                         // in place of a device, unless empty
+    spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
+    bool replay_end_told_ = false;
     spidar::HapticCommand command_;
     spidar::ServoSnapshot snapshot_;
 };

@@ -20,6 +20,7 @@ void SpidarG::_bind_methods() {
     bind_setup();
     bind_state();
     bind_requests();
+    bind_recording();
     bind_simulated();
 }
 
@@ -105,6 +106,20 @@ void SpidarG::bind_requests() {
     ClassDB::bind_method(D_METHOD("clear_contacts"), &SpidarG::clear_contacts);
     ClassDB::bind_method(D_METHOD("get_contact_impulses"), &SpidarG::get_contact_impulses);
     ClassDB::bind_method(D_METHOD("get_touching_contacts"), &SpidarG::get_touching_contacts);
+}
+
+void SpidarG::bind_recording() {
+    ClassDB::bind_method(D_METHOD("start_recording", "path"), &SpidarG::start_recording);
+    ClassDB::bind_method(D_METHOD("stop_recording"), &SpidarG::stop_recording);
+    ClassDB::bind_method(D_METHOD("is_recording"), &SpidarG::is_recording);
+    ClassDB::bind_method(D_METHOD("get_recording_statistics"), &SpidarG::get_recording_statistics);
+    ClassDB::bind_method(D_METHOD("start_replay", "path"), &SpidarG::start_replay);
+    ClassDB::bind_method(D_METHOD("stop_replay"), &SpidarG::stop_replay);
+    ClassDB::bind_method(D_METHOD("is_replaying"), &SpidarG::is_replaying);
+    ClassDB::bind_method(D_METHOD("get_replay_statistics"), &SpidarG::get_replay_statistics);
+    ADD_SIGNAL(MethodInfo("recording_failed", PropertyInfo(Variant::STRING, "message")));
+    ADD_SIGNAL(MethodInfo("replay_finished", PropertyInfo(Variant::BOOL, "identical"),
+                          PropertyInfo(Variant::STRING, "message")));
 }
 
 void SpidarG::bind_simulated() {
