@@ -15,6 +15,9 @@ namespace spidar {
 
 namespace {
 
+// Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
+constexpr double kFaceMargin_m = 1e-6;
+
 bool all_finite(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
         if (!std::isfinite(length)) {
@@ -100,7 +103,7 @@ KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
         return hold(result, Status::impossible_lengths);
     }
     if (is_box_ && grip_.kind == GripKind::crossed &&
-        !(std::fabs(result.pose.position_m.z) < half_extents_m_.z)) {
+        !(std::fabs(result.pose.position_m.z) < half_extents_m_.z - kFaceMargin_m)) {
         return hold(result, Status::outside_frame);
     }
     if (!(result.conditioning >= kRankDeficientPivot)) {
@@ -211,16 +214,23 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
         return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
     const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    GaussNewtonStep last = second;
+    int steps = 2;
+    if (second.solvable && second.step_m <= kMaxSecondStep_m &&
+        kLengthCurvature * second.step_m * second.step_m > kTrackingFloor_m) {
+        last = gauss_newton_step(problem, length_errors(problem, pose), pose);
+        ++steps;
+    }
     const double residual_rms_m = length_errors(problem, pose).rms_m();
-    if (!second.solvable || !(second.step_m <= kMaxSecondStep_m) ||
+    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) ||
         !(residual_rms_m <= kWarmResidualGate_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
     KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
-    result.conditioning = second.min_pivot;
-    result.steps = 2;
+    result.conditioning = last.min_pivot;
+    result.steps = steps;
     return accept(result);
 }
 

@@ -9,13 +9,13 @@
 namespace spidar {
 
 // A field added to one of these structs: add it to the list below, then correct the number.
-static_assert(count_members<FrameGeometry>() == 1, "FrameGeometry changed: list its fields here");
-static_assert(count_members<GripGeometry>() == 2, "GripGeometry changed: list its fields here");
+static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list its fields here");
+static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
 static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
-static_assert(count_members<SafetySettings>() == 13, "SafetySettings changed: list them here");
+static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<ServoSettings>() == 9, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
@@ -24,7 +24,11 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("rate_hz", 0, settings.rate_hz);
     visit("velocity_cutoff_hz", 0, settings.velocity_cutoff_hz);
     visit_vectors("frame.motors_m", settings.frame.motors_m, visit);
+    visit("frame.pulley_radius_m", 0, settings.frame.pulley_radius_m);
+    visit_vector("frame.pulley_axis", 0, settings.frame.pulley_axis, visit);
     visit("grip.pole_half_length_m", 0, settings.grip.pole_half_length_m);
+    visit("grip.kind", 0, settings.grip.kind);
+    visit_vectors("grip.joints_m", settings.grip.joints_m, visit);
     int i = 0;
     for (auto &attachment : settings.grip.attachments) {
         visit("grip.attachment.pole", i, attachment.pole);
@@ -67,9 +71,19 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.read_timeout_fade_s", 0, safety.read_timeout_fade_s);
     visit("safety.read_timeout_fault_s", 0, safety.read_timeout_fault_s);
     visit("safety.max_grip_speed_m_s", 0, safety.max_grip_speed_m_s);
+    visit("safety.fade_grip_speed_m_s", 0, safety.fade_grip_speed_m_s);
+    visit("safety.fade_turn_rate_rad_s", 0, safety.fade_turn_rate_rad_s);
+    visit("safety.max_turn_rate_rad_s", 0, safety.max_turn_rate_rad_s);
     visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
     visit("safety.contacts_full_s", 0, safety.contacts_full_s);
     visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
+    visit("safety.game_timeout_s", 0, safety.game_timeout_s);
+    visit("safety.continuous_tension_n", 0, safety.continuous_tension_n);
+    visit("safety.thermal_time_s", 0, safety.thermal_time_s);
+    visit("safety.string_error_fade_m", 0, safety.string_error_fade_m);
+    visit("safety.string_error_fault_m", 0, safety.string_error_fault_m);
+    visit("safety.workspace_margin_m", 0, safety.workspace_margin_m);
+    visit("safety.hand_presence_s", 0, safety.hand_presence_s);
 }
 
 } // namespace spidar
