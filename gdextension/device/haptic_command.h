@@ -47,6 +47,9 @@ struct HapticCommand {
     std::uint32_t zero_count = 0; // zero_at_home(): the grip is held at home
     // Sign of life: the game changes it each frame. 0: nobody promised one, so nobody is missed.
     std::uint32_t heartbeat = 0;
+    // The loop's own watchdogs and panic_stop() set these, not the game: motors off for this reason, latched.
+    std::uint32_t stop_count = 0;
+    Status stop_reason = Status::ok;
 
     // Raw wrench, full for wrench_duration_s after wrench_sequence changes, then faded.
     std::uint64_t wrench_sequence = 0;

@@ -9,7 +9,7 @@ namespace spidar {
 
 // A field added to one of these structs: add it to the list below, then correct the number.
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 12, "HapticCommand changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 14, "HapticCommand changed: list its fields here");
 
 template <typename Command, typename Visit>
 void for_each_field(Command &command, Visit &&visit) requires
@@ -20,6 +20,8 @@ void for_each_field(Command &command, Visit &&visit) requires
     visit("clear_fault_count", 0, command.clear_fault_count);
     visit("zero_count", 0, command.zero_count);
     visit("heartbeat", 0, command.heartbeat);
+    visit("stop_count", 0, command.stop_count);
+    visit("stop_reason", 0, command.stop_reason);
     visit("wrench_sequence", 0, command.wrench_sequence);
     visit_vector("wrench.force_n", 0, command.wrench.force_n, visit);
     visit_vector("wrench.moment_nm", 0, command.wrench.moment_nm, visit);

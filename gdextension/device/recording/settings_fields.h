@@ -16,13 +16,15 @@ static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed:
 static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
-static_assert(count_members<ServoSettings>() == 9, "ServoSettings changed: list its fields here");
+static_assert(count_members<ServoSettings>() == 11, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
 void for_each_field(Settings &settings, Visit &&visit) requires
     std::is_same_v<std::remove_const_t<Settings>, ServoSettings> {
     visit("rate_hz", 0, settings.rate_hz);
     visit("velocity_cutoff_hz", 0, settings.velocity_cutoff_hz);
+    visit("device_clocked", 0, settings.device_clocked);
+    visit("reopen_interval_s", 0, settings.reopen_interval_s);
     visit_vectors("frame.motors_m", settings.frame.motors_m, visit);
     visit("frame.pulley_radius_m", 0, settings.frame.pulley_radius_m);
     visit_vector("frame.pulley_axis", 0, settings.frame.pulley_axis, visit);
@@ -74,9 +76,6 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.fade_grip_speed_m_s", 0, safety.fade_grip_speed_m_s);
     visit("safety.fade_turn_rate_rad_s", 0, safety.fade_turn_rate_rad_s);
     visit("safety.max_turn_rate_rad_s", 0, safety.max_turn_rate_rad_s);
-    visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
-    visit("safety.contacts_full_s", 0, safety.contacts_full_s);
-    visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
     visit("safety.game_timeout_s", 0, safety.game_timeout_s);
     visit("safety.continuous_tension_n", 0, safety.continuous_tension_n);
     visit("safety.thermal_time_s", 0, safety.thermal_time_s);
@@ -84,6 +83,9 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.string_error_fault_m", 0, safety.string_error_fault_m);
     visit("safety.workspace_margin_m", 0, safety.workspace_margin_m);
     visit("safety.hand_presence_s", 0, safety.hand_presence_s);
+    visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
+    visit("safety.contacts_full_s", 0, safety.contacts_full_s);
+    visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
 }
 
 } // namespace spidar
