@@ -13,6 +13,9 @@
 #include "device/simulated_plant.h"
 #include "godot/resource_field.h"
 
+// Values of SpidarGConfig.preset: a crossed grip in a box of one's own sizes, then the devices of core/presets.h.
+inline constexpr int kPresetCustom = 0;
+
 class SpidarGConfig : public godot::Resource {
     GDCLASS(SpidarGConfig, godot::Resource)
 
@@ -21,6 +24,7 @@ public:
 
 private:
     // Frame and grip.
+    SPIDAR_G_FIELD(int, preset, kPresetCustom);
     SPIDAR_G_FIELD(godot::Vector3, frame_size, godot::Vector3(0.48F, 0.48F, 0.48F));
     SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
     SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
