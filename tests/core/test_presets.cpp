@@ -3,6 +3,7 @@
 #include "core/geometry_report.h"
 #include "core/pose_helpers.h"
 #include "core/presets.h"
+#include "core/wrench_matrix.h"
 
 using namespace spidar;
 
