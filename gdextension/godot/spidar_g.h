@@ -13,12 +13,16 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 
 #include "device/device_claims.h"
-#include "device/recording/replay_transport.h"
+#include "device/hid/hid_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_config.h"
 #include "godot/world_frame.h"
+
+namespace spidar {
+class ReplayTransport;
+}
 
 class SpidarG : public godot::Node3D {
     GDCLASS(SpidarG, godot::Node3D)
@@ -89,6 +93,10 @@ public:
     void clear_fault();
     int advance_cycles(int cycles);
 
+    // Real device (spidar_g_device.cpp).
+    bool zero_device();
+    [[nodiscard]] godot::Dictionary get_device_info() const;
+
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
                         double grasp_torque, double duration_s);
@@ -139,6 +147,7 @@ public:
     bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
+    bool simulated_buttons(int mask);
 
     void _notification(int what);
 
@@ -151,6 +160,7 @@ private:
     static void bind_requests();
     static void bind_recording();
     static void bind_simulated();
+    static void bind_device();
     static void bind_enums();
 
     void resource_changed();
@@ -161,6 +171,15 @@ private:
     void open_device();
     void open_replay();
     void close_device();
+    // Null, with the reason: none.
+    std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
+                                                        std::string &problem);
+    std::unique_ptr<spidar::HidTransport> open_hid(spidar::Status &status, std::string &problem);
+    std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
+                                                           std::string &problem);
+    [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
+    void use_hid_calibration();
+    void emit_buttons(std::uint8_t before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
@@ -187,6 +206,8 @@ private:
     bool restart_pending_ = false;
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
+    spidar::HidTransport *hid_ = nullptr; // owned by loop_
+    std::string fallback_;                // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_

@@ -22,6 +22,7 @@ void SpidarG::_bind_methods() {
     bind_requests();
     bind_recording();
     bind_simulated();
+    bind_device();
 }
 
 void SpidarG::bind_setup() {
@@ -177,4 +178,12 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(FAULT_LATE_OUTPUT);
     BIND_ENUM_CONSTANT(FAULT_BLOCKED_OUTPUT);
     BIND_CONSTANT(CONTACT_STRIDE);
+}
+
+void SpidarG::bind_device() {
+    ClassDB::bind_method(D_METHOD("zero_device"), &SpidarG::zero_device);
+    ClassDB::bind_method(D_METHOD("get_device_info"), &SpidarG::get_device_info);
+    ClassDB::bind_method(D_METHOD("simulated_buttons", "mask"), &SpidarG::simulated_buttons);
+    ADD_SIGNAL(MethodInfo("button_changed", PropertyInfo(Variant::INT, "button"),
+                          PropertyInfo(Variant::BOOL, "pressed")));
 }
