@@ -97,7 +97,6 @@ public:
     // Safety (spidar_g_safety.cpp).
     void panic_stop();
     bool zero_at_home();
-    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,

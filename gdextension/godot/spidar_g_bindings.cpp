@@ -58,7 +58,6 @@ void SpidarG::bind_setup() {
     ClassDB::bind_method(D_METHOD("disarm"), &SpidarG::disarm);
     ClassDB::bind_method(D_METHOD("panic_stop"), &SpidarG::panic_stop);
     ClassDB::bind_method(D_METHOD("zero_at_home"), &SpidarG::zero_at_home);
-    ClassDB::bind_method(D_METHOD("get_lateness_histogram"), &SpidarG::get_lateness_histogram);
     ClassDB::bind_method(D_METHOD("set_release_on_focus_loss", "release"),
                          &SpidarG::set_release_on_focus_loss);
     ClassDB::bind_method(D_METHOD("is_release_on_focus_loss"), &SpidarG::is_release_on_focus_loss);

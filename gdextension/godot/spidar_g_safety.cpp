@@ -101,13 +101,3 @@ void SpidarG::tell(const spidar::DeviceEvent &event) {
     told["repeated"] = static_cast<int>(event.repeated);
     emit_signal("device_event", told);
 }
-
-godot::PackedInt32Array SpidarG::get_lateness_histogram() const {
-    godot::PackedInt32Array counts;
-    if (loop_) {
-        for (const std::uint32_t count : loop_->lateness_counts()) {
-            counts.push_back(static_cast<std::int32_t>(count));
-        }
-    }
-    return counts;
-}
