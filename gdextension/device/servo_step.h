@@ -3,16 +3,15 @@
 #pragma once
 
 #include "core/tension_solver.h"
-#include "device/contact_renderer.h"
 #include "device/device_state_machine.h"
 #include "device/grip_tracker.h"
 #include "device/haptic_command.h"
+#include "device/haptic_renderer.h"
 #include "device/safety_gate.h"
 #include "device/sample_guard.h"
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
 #include "device/transport.h"
-#include "device/wrench_request.h"
 
 namespace spidar {
 
@@ -42,19 +41,19 @@ private:
         bool clear_fault = false;
     };
     Edges take_edges(const HapticCommand &command) noexcept;
-    void take_requests(const HapticCommand &command, double dt_s) noexcept;
     void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
     void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
     DriveCommand drive(double dt_s) noexcept;
     void publish_state() noexcept;
+    void add_rotor_compensation(StringArray &tensions_n) const noexcept;
 
     ServoSettings settings_{};
     double nominal_dt_s_ = 0.001;
+    double max_tension_n_ = 0.0;
     SampleGuard guard_;
     GripTracker tracker_;
     GraspDetector grasp_;
-    WrenchRequest wrench_;
-    ContactRenderer contacts_;
+    HapticRenderer renderer_;
     DeviceStateMachine machine_;
     TensionSolver solver_;
     SafetyGate gate_;
@@ -70,8 +69,6 @@ private:
     std::uint32_t arm_count_ = 0;
     std::uint32_t disarm_count_ = 0;
     std::uint32_t clear_fault_count_ = 0;
-    std::uint64_t wrench_sequence_ = 0;
-    std::uint64_t contacts_sequence_ = 0;
     ServoSnapshot snapshot_{};
 };
 
