@@ -82,6 +82,24 @@ def version_header(version):
     )
 
 
+def sources_header(*roots):
+    """One number for what is in all sources under `roots`: builds of the same number hold the servo step's memory in
+    the same way, and can replay each other's recordings."""
+    digest = hashlib.sha256()
+    for path in sorted(path for root in roots for path in find_sources(root, (".cpp", ".h"))):
+        digest.update(path.replace(os.sep, "/").encode() + b"\0")
+        with open(path, "rb") as file:
+            digest.update(file.read() + b"\0")
+    return (
+        "// Written by the build from the sources.\n"
+        "#pragma once\n\n"
+        "#include <cstdint>\n\n"
+        "namespace spidar {\n\n"
+        f"inline constexpr std::uint64_t kSourcesHash = 0x{digest.hexdigest()[:16]}U;\n\n"
+        "} // namespace spidar\n"
+    )
+
+
 # --- Godot API -----------------------------------------------------------------------------------
 
 

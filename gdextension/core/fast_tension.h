@@ -16,5 +16,7 @@ namespace spidar {
                                     TensionSolution &solution) noexcept;
 [[nodiscard]] bool solve_fast_avx2(const TensionProblem &problem, const ActiveSet *warm,
                                    TensionSolution &solution) noexcept;
+[[nodiscard]] bool solve_fast_avx512(const TensionProblem &problem, const ActiveSet *warm,
+                                     TensionSolution &solution) noexcept;
 
 } // namespace spidar

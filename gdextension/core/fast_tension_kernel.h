@@ -11,26 +11,10 @@
 //    checked; a string held wrongly goes back to 1, anything in doubt is left to the exact search.
 #pragma once
 
+#include "core/fast_tension_limits.h"
 #include "core/sweep_table.h"
 
 namespace spidar {
-
-// A correction shorter than this ends them. Longer ones do when the contraction seen, correction over first step,
-// leaves less than kLeft_n for the next.
-inline constexpr double kStep_n = 1e-13;
-inline constexpr double kLeft_n = 1e-14;
-inline constexpr double kShort_n = 1e-8; // not longer than this, whatever the contraction
-inline constexpr int kCorrections = 4;
-// Rounding of the gradient as a share of the largest force that cancels in it, and how far it may move a string.
-inline constexpr double kNoise = 2e-15;
-inline constexpr double kNoiseMove_n = 4e-12;
-// What the table (about 1e-9 N at w = 1e-6) cannot tell from zero.
-inline constexpr double kTableTolerance = 1e-9;
-// Passes over all violated strings; then one at a time, the last first (Murty), which cannot cycle.
-inline constexpr int kBlockPasses = 4;
-inline constexpr int kPasses = 24;
-inline constexpr int kTables = 4; // inversions; a warm start seldom needs a second
-inline constexpr double kOpen = 1e300;
 
 namespace { // each source compiles its own, for its own target
 
@@ -364,6 +348,7 @@ private:
         const Four away = Four::mul_add(da, da, db * db);
         solution.objective =
             (Four::mul_add(away, Four::all(p_.proximal_weight), squares) + gain_).sum();
+        solution.largest_error_n = Four::max(front_.absolute(), back_.absolute()).largest();
         solution.iterations = iterations;
         solution.status = Status::ok;
         return solution.objective < kOpen;

@@ -21,6 +21,9 @@ bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
 bool solve_fast(const TensionProblem &problem, const ActiveSet *warm,
                 TensionSolution &solution) noexcept {
 #if defined(__x86_64__) && defined(__GNUC__)
+    if (simd_level() == SimdLevel::avx512) {
+        return solve_fast_avx512(problem, warm, solution);
+    }
     if (simd_level() == SimdLevel::avx2) {
         return solve_fast_avx2(problem, warm, solution);
     }

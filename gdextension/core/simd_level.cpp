@@ -7,7 +7,9 @@ namespace spidar {
 namespace {
 
 SimdLevel best_level() noexcept {
-    return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
+    return supports(SimdLevel::avx512) ? SimdLevel::avx512
+           : supports(SimdLevel::avx2) ? SimdLevel::avx2
+                                       : SimdLevel::plain;
 }
 
 std::atomic<SimdLevel> &current_level() noexcept {
@@ -25,8 +27,12 @@ bool supports(SimdLevel level) noexcept {
         return true;
     }
 #if defined(__x86_64__) && defined(__GNUC__)
-    return level == SimdLevel::avx2 && __builtin_cpu_supports("avx2") > 0 &&
-           __builtin_cpu_supports("fma") > 0;
+    const bool avx2 = __builtin_cpu_supports("avx2") > 0 && __builtin_cpu_supports("fma") > 0;
+    if (level == SimdLevel::avx512) {
+        return avx2 && __builtin_cpu_supports("avx512f") > 0 &&
+               __builtin_cpu_supports("avx512dq") > 0 && __builtin_cpu_supports("avx512vl") > 0;
+    }
+    return level == SimdLevel::avx2 && avx2;
 #else
     return false;
 #endif
@@ -45,7 +51,15 @@ bool set_simd_level(SimdLevel level) noexcept {
 }
 
 const char *describe(SimdLevel level) noexcept {
-    return level == SimdLevel::avx2 ? "AVX2 and FMA" : "plain 16-byte vectors";
+    switch (level) {
+    case SimdLevel::avx2:
+        return "AVX2 and FMA";
+    case SimdLevel::avx512:
+        return "AVX-512";
+    case SimdLevel::plain:
+        break;
+    }
+    return "plain 16-byte vectors";
 }
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// Which build of the vector kernels runs. Both give the exact optimum; their last bits differ, so a recording stores
+// Which build of the vector kernels runs. All give the exact optimum; their last bits differ, so a recording stores
 // the level it ran at and replay sets it.
 #pragma once
 
@@ -7,8 +7,9 @@
 namespace spidar {
 
 enum class SimdLevel : std::uint8_t {
-    plain = 0, // 16-byte vectors: SSE2 on x86-64, NEON on arm64
-    avx2 = 1,  // 32-byte vectors and fused multiply-add
+    plain = 0,  // 16-byte vectors: SSE2 on x86-64, NEON on arm64
+    avx2 = 1,   // 32-byte vectors and fused multiply-add
+    avx512 = 2, // 64-byte vectors
 };
 
 // Can this processor, and this build, run that level?

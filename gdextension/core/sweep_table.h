@@ -3,21 +3,16 @@
 // for one vector type; see fast_tension_kernel.h.
 #pragma once
 
+#include "core/fast_tension_limits.h"
+
 namespace spidar {
 
-inline constexpr std::size_t kFastStrings = 8;
-inline constexpr std::size_t kFastDofs = 7;
 inline constexpr std::uint64_t kOn = ~std::uint64_t{0};
 alignas(32) inline constexpr std::uint64_t kLanes[16][4] = {
     {0, 0, 0, 0},     {kOn, 0, 0, 0},     {0, kOn, 0, 0},     {kOn, kOn, 0, 0},
     {0, 0, kOn, 0},   {kOn, 0, kOn, 0},   {0, kOn, kOn, 0},   {kOn, kOn, kOn, 0},
     {0, 0, 0, kOn},   {kOn, 0, 0, kOn},   {0, kOn, 0, kOn},   {kOn, kOn, 0, kOn},
     {0, 0, kOn, kOn}, {kOn, 0, kOn, kOn}, {0, kOn, kOn, kOn}, {kOn, kOn, kOn, kOn}};
-
-// Pivots of the table that are a smaller share of the mean diagonal of H (its square for pairs) have lost more digits
-// than the corrections can make good: they would contract too slowly to tell convergence from standstill.
-inline constexpr double kCancelled = 1e-10;
-inline constexpr double kLargest = 1e12;
 
 namespace { // each source compiles its own, for its own target
 

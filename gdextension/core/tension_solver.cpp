@@ -1,10 +1,13 @@
 #include "core/tension_solver.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "core/box_least_squares.h"
+#include "core/fast_tension.h"
 
 namespace spidar {
 
@@ -13,23 +16,22 @@ namespace {
 constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
 constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
 
-// Bounds, broken strings or a lost direction that change the weighted wrench by more than this are reported
-// (unit: N at the pole ends; a tenth of what a fingertip can tell).
+// An error of the weighted wrench above this is reported (unit: N at the pole ends; a tenth of what a fingertip
+// can tell), when the regularising terms do not explain it.
 constexpr double kWrenchLimited_n = 1e-3;
+// What they explain: R'f = -w (x - t) where no bound holds, so |f| <= sqrt(8) w |x - t| / s, and s, the smallest
+// singular value of R = W A, is 0.7 or more within 20 cm of the centre.
+constexpr double kTermReach = 4.0;
 
-// Weight that stands for "no regularising terms" when their cost is measured: small enough to cost nothing,
-// large enough to leave the least-squares answer unique.
+// Ridge and pull together: below this nothing makes the answer unique in double precision.
 constexpr double kVanishingWeight = 1e-12;
 
-// Share of the regularised error that one more step from there may leave when every DOF can be reached. (The
-// steps shrink it by w / (w + s^2), s the singular value of W A; 2.5e-5 at rest.)
-constexpr double kUnreachableShare = 0.05;
+// Tensions nearer to the last ones than this are the last ones: rounding of the solver is 1e-14 N, and the change
+// term lets them creep by a tenth of their distance a tick, so that they end 1e-12 N from where they were going.
+constexpr double kSettled_n = 1e-13;
 
 // Above this a setting is a slip of units, and squares of it lose the digits of the rest.
 constexpr double kLargestSetting = 1e6;
-
-// A bound that no string ever meets.
-constexpr double kNoBound_n = 1e9;
 
 bool finite(const DofArray &values) noexcept {
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -40,64 +42,17 @@ bool finite(const WrenchMatrix &matrix) noexcept {
                        [](const DofArray &column) { return finite(column); });
 }
 
-DofArray wrench_error(const TensionProblem &problem, const StringArray &tensions_n) noexcept {
-    DofArray error = spidar::apply(problem.matrix, tensions_n);
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        error[k] -= problem.wrench[k];
-    }
-    return error;
+template <class T>
+bool same_bits(const T &a, const T &b) noexcept {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-double largest_weighted(const TensionProblem &problem, const DofArray &error) noexcept {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        largest = std::max(largest, std::abs(problem.weights[k] * error[k]));
-    }
-    return largest;
-}
-
-DofArray difference(const DofArray &a, const DofArray &b) noexcept {
-    DofArray result{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        result[k] = a[k] - b[k];
-    }
-    return result;
-}
-
-// The optimum of the problem without its bounds; strings outside `free` stay at 0.
-StringArray unbounded_optimum(const TensionProblem &problem, StringMask free) noexcept {
-    TensionProblem open = problem;
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        const double reach = has_string(free, i) ? kNoBound_n : 0.0;
-        open.lower_n[i] = -reach;
-        open.upper_n[i] = reach;
-    }
-    return solve_tension_problem(open, nullptr).tensions_n;
-}
-
-struct SteadyCost {
-    DofArray bias{};        // what the regularising terms cost
-    DofArray unreachable{}; // what no tension, of either sign, can give
-};
-
-// `problem` holds the steady terms only (ridge and reference).
-SteadyCost steady_cost(const TensionProblem &problem, StringMask free) noexcept {
-    const StringArray tensions = unbounded_optimum(problem, free);
-    SteadyCost cost;
-    cost.bias = wrench_error(problem, tensions);
-    const double size = largest_weighted(problem, cost.bias);
-    // One more step, the target moved to where the tensions are.
-    TensionProblem moved = problem;
-    moved.proximal_target_n = tensions;
-    const double left =
-        largest_weighted(problem, wrench_error(problem, unbounded_optimum(moved, free)));
-    if (left > kUnreachableShare * size) {
-        TensionProblem bare = problem;
-        bare.proximal_weight = kVanishingWeight;
-        cost.unreachable = wrench_error(bare, unbounded_optimum(bare, free));
-        cost.bias = difference(cost.bias, cost.unreachable);
-    }
-    return cost;
+// The strings whose byte has this bit: the product gathers the lowest bits of all eight in its top byte.
+std::uint8_t strings_at(const ActiveSet &active, unsigned bit) noexcept {
+    constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
+    constexpr std::uint64_t kGather = 0x0102040810204080ULL;
+    const auto bytes = std::bit_cast<std::uint64_t>(active);
+    return static_cast<std::uint8_t>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
 // The first setting that is out of range; field null when none is.
@@ -162,96 +117,130 @@ Status TensionSolver::configure(const TensionSettings &settings) noexcept {
         return Status::invalid_settings;
     }
     settings_ = settings;
+    prepare();
     return Status::ok;
 }
 
-TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+void TensionSolver::prepare() noexcept {
     const TensionSettings &s = settings_;
-    const bool wrench_is_finite = finite(wrench);
-    const auto free = static_cast<StringMask>(~static_cast<unsigned>(s.broken_mask));
+    problem_.weights = tension_weights(s);
+    working_mask_ = static_cast<std::uint8_t>(~static_cast<unsigned>(s.broken_mask));
+    const double steady_weight = s.ridge + s.reference_weight;
+    const double whole_weight = steady_weight + s.change_weight;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = has_string(working_mask_, i);
+        const double pull = works ? s.reference_weight * s.reference_tension_n : 0.0;
+        problem_.lower_n[i] = works ? s.min_tension_n : 0.0;
+        problem_.upper_n[i] = works ? s.max_tension_n : 0.0;
+        steady_target_n_[i] = pull / steady_weight;
+        steady_pull_[i] = pull / whole_weight;
+        change_pull_[i] = works ? s.change_weight / whole_weight : 0.0;
+    }
+    settled_ = false;
+}
 
-    TensionProblem problem;
-    problem.matrix = matrix;
-    problem.wrench = wrench_is_finite ? wrench : DofArray{};
-    problem.weights = {s.weight_force,        s.weight_force,        s.weight_force,
-                       s.weight_moment_per_m, s.weight_moment_per_m, s.weight_moment_per_m,
-                       s.weight_grasp_per_m};
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        if (((static_cast<unsigned>(s.dof_mask) >> k) & 1U) == 0U) {
-            problem.weights[k] = 0.0;
+// The proximal term of this tick.
+void TensionSolver::aim() noexcept {
+    problem_.proximal_weight = settings_.ridge + settings_.reference_weight;
+    problem_.proximal_target_n = steady_target_n_;
+    if (has_last_) {
+        problem_.proximal_weight += settings_.change_weight;
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            problem_.proximal_target_n[i] = steady_pull_[i] + change_pull_[i] * last_tensions_n_[i];
         }
     }
-    const double steady_weight = s.ridge + s.reference_weight;
-    const double steady_target = s.reference_weight * s.reference_tension_n / steady_weight;
-    const double change_weight = has_last_ ? s.change_weight : 0.0;
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        const bool is_free = has_string(free, i);
-        problem.proximal_target_n[i] = is_free ? steady_target : 0.0;
-        problem.lower_n[i] = is_free ? s.min_tension_n : 0.0;
-        problem.upper_n[i] = is_free ? s.max_tension_n : 0.0;
-    }
-    problem.proximal_weight = steady_weight;
+}
 
+TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+    if (settled_ && same_bits(wrench, problem_.wrench) &&
+        same_bits(matrix.columns, problem_.matrix.columns)) {
+        last_result_.skipped = true;
+        return last_result_;
+    }
+    problem_.matrix = matrix;
+    problem_.wrench = wrench;
+    aim();
+    TensionSolution solution;
+    // The fast path certifies its answer, so it refuses whatever is not finite.
+    if (solve_fast(problem_, warm_ ? &last_active_ : nullptr, solution)) {
+        return remember(solution);
+    }
+    return update_carefully(wrench);
+}
+
+TensionResult TensionSolver::update_carefully(const DofArray &wrench) noexcept {
     TensionResult result;
-    if (!finite(matrix)) {
-        result.tensions_n = problem.lower_n; // the strings stay taut; memory stands
+    settled_ = false;
+    if (!finite(problem_.matrix)) {
+        result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
         result.status = Status::not_finite;
         return result;
     }
-    const SteadyCost cost = steady_cost(problem, free);
-    result.bias = cost.bias;
-
-    problem.proximal_weight = steady_weight + change_weight;
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        if (has_string(free, i)) {
-            problem.proximal_target_n[i] =
-                (steady_weight * steady_target + change_weight * last_tensions_n_[i]) /
-                problem.proximal_weight;
-        }
+    const bool wrench_is_finite = finite(wrench);
+    if (!wrench_is_finite) {
+        problem_.wrench = {};
     }
     const TensionSolution solution =
-        solve_tension_problem(problem, warm_ ? &last_active_ : nullptr);
-    result.tensions_n = solution.tensions_n;
+        solve_tension_problem(problem_, warm_ ? &last_active_ : nullptr);
+    if (!usable(solution.status)) {
+        result.tensions_n = solution.tensions_n;
+        result.iterations = solution.iterations;
+        result.status = solution.status;
+        return result;
+    }
+    result = remember(solution);
+    if (!wrench_is_finite) {
+        result.status = Status::not_finite;
+        settled_ = false;
+    }
+    return result;
+}
+
+TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept {
+    TensionResult result;
     result.iterations = solution.iterations;
-    result.status = solution.status;
-    result.achieved = spidar::apply(matrix, result.tensions_n);
-    result.error = wrench_error(problem, result.tensions_n);
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        if (!has_string(free, i)) {
-            continue;
-        }
-        if (solution.active[i] == StringBound::at_lower) {
-            result.at_min_mask = with_string(result.at_min_mask, i);
-        } else if (solution.active[i] == StringBound::at_upper) {
-            result.at_max_mask = with_string(result.at_max_mask, i);
+    result.at_min_mask = strings_at(solution.active, 0) & working_mask_;
+    result.at_max_mask = strings_at(solution.active, 1) & working_mask_;
+    result.tensions_n = solution.tensions_n;
+    bool near_last = has_last_;
+    for (std::size_t i = 0; near_last && i < kStrings; ++i) {
+        near_last = std::abs(solution.tensions_n[i] - last_tensions_n_[i]) <= kSettled_n &&
+                    last_tensions_n_[i] >= problem_.lower_n[i] &&
+                    last_tensions_n_[i] <= problem_.upper_n[i];
+    }
+    if (near_last) {
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            if (solution.active[i] == StringBound::free) {
+                result.tensions_n[i] = last_tensions_n_[i];
+            }
         }
     }
-    if (!usable(solution.status)) {
-        return result;
+    settled_ = near_last && same_bits(result.tensions_n, last_tensions_n_) &&
+               same_bits(solution.active, last_active_);
+
+    if (solution.largest_error_n > kWrenchLimited_n) {
+        double furthest_n = 0.0;
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            furthest_n = std::max(furthest_n,
+                                  std::abs(result.tensions_n[i] - problem_.proximal_target_n[i]));
+        }
+        if (solution.largest_error_n >
+            kWrenchLimited_n + kTermReach * problem_.proximal_weight * furthest_n) {
+            result.status = Status::wrench_limited;
+        }
     }
     last_tensions_n_ = result.tensions_n;
     last_active_ = solution.active;
+    last_result_ = result;
     warm_ = true;
     has_last_ = true;
-
-    bool limited = largest_weighted(problem, cost.unreachable) > kWrenchLimited_n;
-    if ((result.at_min_mask | result.at_max_mask) != 0) {
-        const DofArray unbounded = wrench_error(problem, unbounded_optimum(problem, free));
-        limited = limited ||
-                  largest_weighted(problem, difference(result.error, unbounded)) > kWrenchLimited_n;
-    }
-    if (limited) {
-        result.status = Status::wrench_limited;
-    }
-    if (!wrench_is_finite) {
-        result.status = Status::not_finite;
-    }
     return result;
 }
 
 void TensionSolver::set_last_tensions(const StringArray &tensions_n) noexcept {
     if (std::all_of(tensions_n.begin(), tensions_n.end(),
                     [](double t) { return std::isfinite(t); })) {
+        settled_ = settled_ && same_bits(tensions_n, last_tensions_n_);
         last_tensions_n_ = tensions_n;
         has_last_ = true;
     }
@@ -262,6 +251,20 @@ void TensionSolver::reset() noexcept {
     last_active_ = {};
     warm_ = false;
     has_last_ = false;
+    settled_ = false;
+}
+
+DofArray tension_weights(const TensionSettings &settings) noexcept {
+    DofArray weights = {settings.weight_force,        settings.weight_force,
+                        settings.weight_force,        settings.weight_moment_per_m,
+                        settings.weight_moment_per_m, settings.weight_moment_per_m,
+                        settings.weight_grasp_per_m};
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        if (((static_cast<unsigned>(settings.dof_mask) >> k) & 1U) == 0U) {
+            weights[k] = 0.0;
+        }
+    }
+    return weights;
 }
 
 std::string validate(const TensionSettings &settings) {

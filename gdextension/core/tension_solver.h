@@ -34,7 +34,8 @@ struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
     double objective = 0.0;
-    int iterations = 0; // factorisations
+    double largest_error_n = 0.0; // max |W (A tau - q)|
+    int iterations = 0;           // factorisations
     Status status = Status::ok;
 };
 
@@ -69,19 +70,21 @@ struct TensionSettings {
 
 struct TensionResult {
     StringArray tensions_n{};
-    DofArray achieved{}; // A tau
-    DofArray error{};    // A tau - q
-    DofArray bias{};     // what the ridge and reference terms alone cost at this pose, strings free
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
+    bool skipped =
+        false; // nothing had changed and everything had settled: the last answer, bit for bit
     int iterations = 0;
-    Status status =
-        Status::ok; // wrench_limited when strings at a bound change the wrench noticeably
+    // wrench_limited: the wrench misses the request by more than the regularising terms explain. What each of
+    // them costs: tension_report().
+    Status status = Status::ok;
 };
 
-// The solver of the servo loop: settings, memory of the last tick, reports.
+// The solver of the servo loop: settings and memory of the last tick. One solve a tick, no reports.
 class TensionSolver {
 public:
+    TensionSolver() noexcept { prepare(); }
+
     // On a negative status the old settings stand.
     Status configure(const TensionSettings &settings) noexcept;
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
@@ -91,17 +94,33 @@ public:
     // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
     // Ignored when not finite.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
+    // The next update() solves even when nothing has changed. It changes no answer.
+    void forget_settled() noexcept { settled_ = false; }
     // Forget the last tick: the next update() starts cold and has no change term.
     void reset() noexcept;
 
 private:
+    void prepare() noexcept;
+    void aim() noexcept;
+    TensionResult update_carefully(const DofArray &wrench) noexcept;
+    TensionResult remember(const TensionSolution &solution) noexcept;
+
     TensionSettings settings_{};
+    TensionProblem problem_{};      // of the last tick; bounds and weights of the settings
+    StringArray steady_pull_{};     // proximal target without change term
+    StringArray change_pull_{};     // share of last_tensions_n_ in it
+    StringArray steady_target_n_{}; // with it, when the last tensions are not known
     StringArray last_tensions_n_{};
     ActiveSet last_active_{};
-    bool warm_ = false;     // last_active_ is worth starting from
-    bool has_last_ = false; // last_tensions_n_ is known: the change term counts
+    TensionResult last_result_{};
+    std::uint8_t working_mask_ = 0xFF; // strings that are not broken
+    bool warm_ = false;                // last_active_ is worth starting from
+    bool has_last_ = false;            // last_tensions_n_ is known: the change term counts
+    bool settled_ = false; // the last update left last_tensions_n_ and last_active_ as they were
 };
 
 [[nodiscard]] std::string validate(const TensionSettings &settings);
+// Diagonal of W; 0 where the mask leaves a DOF out.
+[[nodiscard]] DofArray tension_weights(const TensionSettings &settings) noexcept;
 
 } // namespace spidar

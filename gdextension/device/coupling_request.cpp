@@ -44,6 +44,12 @@ Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     return length > limit ? v * (limit / length) : v;
 }
 
+// How old a proxy is when it comes; a time of another clock counts as now.
+double state_age(const Coupling &coupling, double now_s) noexcept {
+    const bool stamped = coupling.state_time_s >= 0.0 && coupling.state_time_s <= now_s;
+    return stamped ? std::min(now_s - coupling.state_time_s, kCouplingExtrapolation_s) : 0.0;
+}
+
 bool has(std::uint8_t mask, int dof) noexcept {
     return ((mask >> dof) & 1U) != 0;
 }
@@ -62,7 +68,7 @@ double CouplingRequest::faded_in() const noexcept {
 }
 
 CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
-    const double moved_s = std::min(age_s_, kCouplingExtrapolation_s);
+    const double moved_s = std::min(state_age_s_ + age_s_, kCouplingExtrapolation_s);
     const double left = 1.0 - faded_in();
     const Twist &twist = coupling_.twist;
     Proxy proxy;
@@ -74,7 +80,7 @@ CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
     return proxy;
 }
 
-GainClamp CouplingRequest::accept(const Coupling &coupling) noexcept {
+GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexcept {
     using Gain = GainClamp::Gain;
     GainClamp clamp;
     clamp.request = GainClamp::Request::coupling;
@@ -128,9 +134,15 @@ GainClamp CouplingRequest::accept(const Coupling &coupling) noexcept {
             from_stiffness_[i] += s * (coupling_.stiffness[i] - from_stiffness_[i]);
             from_damping_[i] += s * (coupling_.damping[i] - from_damping_[i]);
         }
-        jump_ = {old.position_m - next.position_m,
-                 rotation_log(old.rotation * glm::transpose(next.rotation)),
-                 old.grasp_angle_rad - next.grasp_angle_rad};
+        // From where the old proxy is to where the new one is by now.
+        coupling_ = next;
+        age_s_ = 0.0;
+        state_age_s_ = state_age(next, now_s);
+        jump_ = Displacement();
+        const Proxy young = proxy_now();
+        jump_ = {old.position_m - young.position_m,
+                 rotation_log(old.rotation * glm::transpose(young.rotation)),
+                 old.grasp_angle_rad - young.grasp_angle_rad};
     } else {
         from_stiffness_ = next.stiffness;
         from_damping_ = next.damping;
@@ -139,6 +151,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling) noexcept {
     }
     coupling_ = next;
     age_s_ = 0.0;
+    state_age_s_ = state_age(next, now_s);
     live_ = next.dof_mask != 0 || carries_on; // an empty one still fades the last one out
     return clamp;
 }
@@ -167,7 +180,7 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     }
     const Proxy proxy = proxy_now();
     const GripState &grip = motion.grip;
-    const Twist pull = age_s_ <= kCouplingExtrapolation_s ? coupling_.twist : Twist();
+    const Twist pull = state_age_s_ + age_s_ <= kCouplingExtrapolation_s ? coupling_.twist : Twist();
     const Vec3 apart_m = proxy.position_m - grip.pose.position_m - motion.ahead.linear_m;
     const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) -
                            motion.ahead.angular_rad;

@@ -12,7 +12,8 @@ class CouplingRequest {
 public:
     void configure(const ServoSettings &settings) noexcept;
     // A valid coupling (validate_coupling). What jumps against the last one is spread over one game period.
-    GainClamp accept(const Coupling &coupling) noexcept;
+    // now_s: the clock of Coupling::state_time_s.
+    GainClamp accept(const Coupling &coupling, double now_s) noexcept;
     // Once a cycle, before accept(). True in the cycle in which the coupling is dropped for its age.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
@@ -36,6 +37,7 @@ private:
     Displacement jump_{}; // where the last proxy was, relative to this one
     bool live_ = false;
     double age_s_ = 0.0;
+    double state_age_s_ = 0.0; // how old the proxy was when it came
     double strength_ = 0.0;
 };
 

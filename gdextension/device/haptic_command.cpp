@@ -111,7 +111,7 @@ Status validate_coupling(const Coupling &coupling) noexcept {
         !std::isfinite(coupling.grasp_angle_rad) || !all_finite(coupling.twist) ||
         !all_finite(coupling.stiffness) || !all_finite(coupling.damping) ||
         !std::isfinite(coupling.max_force_n) || !std::isfinite(coupling.max_moment_nm) ||
-        !std::isfinite(coupling.max_grasp_torque_nm)) {
+        !std::isfinite(coupling.max_grasp_torque_nm) || !std::isfinite(coupling.state_time_s)) {
         return Status::not_finite;
     }
     const bool usable_gains = none_negative(coupling.stiffness) && none_negative(coupling.damping);

@@ -49,7 +49,7 @@ struct ContactPlane {
 };
 
 // A spring and damper in all seven DOF between the grip and a proxy of the game's: something held or dragged.
-// The proxy moves on by its twist between updates, at most kCouplingExtrapolation_s.
+// The proxy moves on by its twist from the time that it was computed for, at most kCouplingExtrapolation_s.
 inline constexpr double kCouplingExtrapolation_s = 0.030;
 struct Coupling {
     Vec3 position_m{0.0}; // of the proxy, where the grip's centre should be
@@ -61,6 +61,8 @@ struct Coupling {
     double max_force_n = 5.0;
     double max_moment_nm = 0.2;
     double max_grasp_torque_nm = 0.2;
+    // ServoSnapshot::time_s of the pose that the game computed it from; negative: when it arrives.
+    double state_time_s = -1.0;
     std::uint8_t dof_mask = 0; // 0: no coupling
 };
 

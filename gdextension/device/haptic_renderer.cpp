@@ -32,7 +32,7 @@ void HapticRenderer::note(const GainClamp &clamp, ServoCounters &counters) noexc
     }
 }
 
-void HapticRenderer::take(const HapticCommand &command, double dt_s,
+void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_s,
                           ServoCounters &counters) noexcept {
     counters.expired_requests += wrench_.age(dt_s) ? 1U : 0U;
     counters.expired_requests += contacts_.age(dt_s) ? 1U : 0U;
@@ -58,7 +58,7 @@ void HapticRenderer::take(const HapticCommand &command, double dt_s,
     }
     if (is_new(coupling_sequence_, command.coupling_sequence,
                [&] { return validate_coupling(command.coupling); })) {
-        note(coupling_.accept(command.coupling), counters);
+        note(coupling_.accept(command.coupling, now_s), counters);
     }
     if (is_new(effects_sequence_, command.effects_sequence,
                [&] { return validate_effects(command); })) {

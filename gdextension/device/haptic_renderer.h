@@ -18,7 +18,9 @@ public:
 
     // Once a cycle, first: ages what there is, then takes what is new. What is not valid is counted, and the last
     // good request stands.
-    void take(const HapticCommand &command, double dt_s, ServoCounters &counters) noexcept;
+    // now_s: ServoSnapshot::time_s of this cycle.
+    void take(const HapticCommand &command, double now_s, double dt_s,
+              ServoCounters &counters) noexcept;
 
     // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. trusted: the pose is
     // of now; otherwise nothing that depends on speed acts.

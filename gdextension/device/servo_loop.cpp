@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <system_error>
+#include <vector>
 
 #include "device/loop_histogram.h"
 #include "device/real_time_thread.h"
+#include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
 
 namespace spidar {
@@ -23,6 +25,7 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 struct ServoLoop::Impl {
     std::unique_ptr<Transport> transport;
+    ReplayTransport *replay = nullptr; // the transport, when it is one
     ServoStep step;
     HapticCommand command;
     DeviceReading reading;
@@ -34,6 +37,17 @@ struct ServoLoop::Impl {
     bool is_running = false; // the controlling thread's own
     bool is_threaded = false;
 
+    // The one that records now is the last. One that was closed stays until the loop has surely let go of it.
+    struct OwnedRecorder {
+        std::unique_ptr<Recorder> recorder;
+        std::uint64_t free_at_cycle = UINT64_MAX;
+    };
+    std::vector<OwnedRecorder> recorders;
+    std::atomic<Recorder *> recorder{nullptr};
+    std::atomic<std::uint64_t> cycles_done{0};
+    RecorderStatistics last_recording;
+
+    ServoSettings settings_in_use;
     double rate_hz = 1000.0;
     double period_s = 0.001;
     // Stepped: the part of a cycle not run yet, in units of 1 / carry_denominator cycles.
@@ -48,16 +62,37 @@ struct ServoLoop::Impl {
 
     // Read, compute, write in one cycle; then simulated time moves on.
     void cycle(double dt_s) noexcept {
+        Recorder *const recording = recorder.load(std::memory_order_acquire);
+        bool may_arm_itself = transport->simulated();
+        bool command_is_new = commands.read(command);
+        if (replay != nullptr) {
+            if (!replay->next(step, command, dt_s)) {
+                return; // the end: what was last shown stays
+            }
+            may_arm_itself = replay->may_arm_itself();
+            command_is_new = true;
+        }
         const Status read = transport->read(reading);
-        commands.read(command);
-        const DriveCommand drive = step.step(read, reading, command, dt_s, transport->simulated());
+        if (recording != nullptr) {
+            recording->begin(step);
+        }
+        const DriveCommand drive = step.step(read, reading, command, dt_s, may_arm_itself);
         const bool lost = step.snapshot().state == DeviceState::closed;
         const Status written = transport->write(drive);
         if (!lost) {
             step.report_write(written); // a lost device is not lost a second time
         }
+        if (recording != nullptr) {
+            recording->end({reading, dt_s, read, written, may_arm_itself}, drive, step.snapshot(),
+                           command, command_is_new);
+        }
+        if (replay != nullptr) {
+            replay->compare(step.snapshot(), drive);
+        }
         snapshots.write(step.snapshot());
         transport->advance(dt_s);
+        cycles_done.store(cycles_done.load(std::memory_order_relaxed) + 1,
+                          std::memory_order_release);
     }
 
     Status prepare(const ServoSettings &settings) noexcept {
@@ -69,6 +104,7 @@ struct ServoLoop::Impl {
         command = before;
         commands.read(command);
         step.acknowledge(command);
+        settings_in_use = settings;
         rate_hz = settings.rate_hz;
         period_s = 1.0 / rate_hz;
         reading = DeviceReading();
@@ -126,6 +162,7 @@ struct ServoLoop::Impl {
 
 ServoLoop::ServoLoop(std::unique_ptr<Transport> transport) : impl_(std::make_unique<Impl>()) {
     impl_->transport = std::move(transport);
+    impl_->replay = impl_->transport->as_replay();
 }
 
 ServoLoop::~ServoLoop() {
@@ -171,6 +208,8 @@ void ServoLoop::stop() noexcept {
     } else {
         impl_->transport->write(DriveCommand());
     }
+    stop_recording();
+    impl_->recorders.clear(); // the loop rests: none is in use
     impl_->transport->close();
     impl_->is_running = false;
     impl_->is_threaded = false;
@@ -180,7 +219,6 @@ void ServoLoop::stop() noexcept {
     last.tensions_n = {};
     last.requested = Wrench();
     last.achieved = Wrench();
-    last.bias = Wrench();
     last.force_scale = 0.0;
     last.at_min_mask = 0;
     last.at_max_mask = 0;
@@ -245,6 +283,48 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     statistics.missed_deadlines = impl.missed_deadlines.load(std::memory_order_relaxed);
     statistics.real_time_priority = impl.real_time_priority.load(std::memory_order_relaxed);
     return statistics;
+}
+
+std::string ServoLoop::start_recording(const std::string &path) {
+    Impl &impl = *impl_;
+    if (!impl.is_running) {
+        return "No device is open: there is nothing to record. Open one first.";
+    }
+    if (recording()) {
+        return "A recording runs already. Stop it before the next one starts.";
+    }
+    const std::uint64_t done = impl.cycles_done.load(std::memory_order_acquire);
+    std::erase_if(impl.recorders, [done, &impl](const Impl::OwnedRecorder &owned) {
+        return !impl.is_threaded || done >= owned.free_at_cycle;
+    });
+    auto recorder = std::make_unique<Recorder>(impl.settings_in_use, impl.is_threaded);
+    std::string problem = recorder->open(path);
+    if (problem.empty()) {
+        impl.recorders.push_back({std::move(recorder)});
+        impl.recorder.store(impl.recorders.back().recorder.get(), std::memory_order_release);
+    }
+    return problem;
+}
+
+void ServoLoop::stop_recording() noexcept {
+    Recorder *const recorder = impl_->recorder.exchange(nullptr, std::memory_order_acq_rel);
+    if (recorder != nullptr) {
+        // The cycle that runs now may hold it, and the one that is about to begin has not seen the change.
+        constexpr std::uint64_t kCyclesToLetGo = 2;
+        impl_->recorders.back().free_at_cycle =
+            impl_->cycles_done.load(std::memory_order_acquire) + kCyclesToLetGo;
+        recorder->close();
+        impl_->last_recording = recorder->statistics();
+    }
+}
+
+bool ServoLoop::recording() const noexcept {
+    return impl_->recorder.load(std::memory_order_relaxed) != nullptr;
+}
+
+RecorderStatistics ServoLoop::recording_statistics() const noexcept {
+    const Recorder *const recorder = impl_->recorder.load(std::memory_order_relaxed);
+    return recorder != nullptr ? recorder->statistics() : impl_->last_recording;
 }
 
 Transport &ServoLoop::transport() noexcept {

@@ -5,8 +5,10 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <thread>
 
+#include "device/recording/recorder.h"
 #include "device/servo_step.h"
 #include "device/transport.h"
 
@@ -48,6 +50,14 @@ public:
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept;
     [[nodiscard]] Transport &transport() noexcept;
+
+    // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
+    // a recording that runs goes on. stop() ends a recording too.
+    [[nodiscard]] std::string start_recording(const std::string &path);
+    void stop_recording() noexcept;
+    [[nodiscard]] bool recording() const noexcept;
+    // Of the recording that runs, or else of the last one.
+    [[nodiscard]] RecorderStatistics recording_statistics() const noexcept;
 
 private:
     struct Impl;

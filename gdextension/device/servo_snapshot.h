@@ -44,6 +44,7 @@ struct ContactReport {
 struct ServoCounters {
     std::uint64_t ticks = 0;
     std::uint64_t kinematics_skipped = 0; // counts unchanged
+    std::uint64_t tension_skipped = 0;    // same pose and request, all settled: the last tensions
     std::uint64_t cold_starts = 0;
     std::uint64_t bad_samples = 0; // count jumps and impossible lengths
     std::uint64_t read_timeouts = 0;
@@ -69,8 +70,7 @@ struct ServoSnapshot {
     StringArray lengths_m{};
     StringArray tensions_n{}; // commanded, after every limit
     Wrench requested;         // all requests summed, after limits and ramp
-    Wrench achieved;          // what tensions_n give
-    Wrench bias;              // the part of achieved - requested owed to ridge and pretension
+    Wrench achieved;          // what tensions_n give; where the rest went: tension_report()
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/rotor_compensation.h"
+#include "device/tension_diagnosis.h"
 
 namespace spidar {
 
@@ -33,13 +34,8 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     if (!usable(tracked)) {
         return tracked;
     }
-    // No string is ever asked for more than its motor gives: then currents are never cut behind the solver's back.
-    const StringArray strongest_n = max_tensions(settings.motors);
-    TensionSettings tension = settings.tension;
+    const TensionSettings tension = solver_settings(settings);
     StringArray limits_n{};
-    for (std::size_t i = 0; i < limits_n.size(); ++i) {
-        tension.max_tension_n = std::min(tension.max_tension_n, strongest_n[i]);
-    }
     limits_n.fill(tension.max_tension_n);
     const Status solvable = fresh.solver_.configure(tension);
     if (!usable(solvable)) {
@@ -187,7 +183,6 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         snapshot_.tensions_n = {};
         snapshot_.requested = Wrench();
         snapshot_.achieved = Wrench();
-        snapshot_.bias = Wrench();
         snapshot_.at_min_mask = 0;
         snapshot_.at_max_mask = 0;
         snapshot_.tension_status = Status::ok;
@@ -215,11 +210,11 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     }
     snapshot_.counters.slewed_ticks += gate.slewed ? 1U : 0U;
     snapshot_.counters.gate_clamps += gate.clamped ? 1U : 0U;
+    snapshot_.counters.tension_skipped += result.skipped ? 1U : 0U;
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
     snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
-    snapshot_.bias = ramp * from_paper(result.bias);
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status = result.status;
@@ -262,7 +257,7 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
         since_report_s_ = 0.0;
         unsolved_in_row_ = 0;
     }
-    renderer_.take(command, dt_s, snapshot_.counters);
+    renderer_.take(command, snapshot_.time_s, dt_s, snapshot_.counters);
     observe(read_status, reading, dt_s);
     if (tracking_) {
         grasp_.update(tracker_.grip().frame.grasp_angle_rad, dt_s);

@@ -5,6 +5,7 @@
 
 #include <godot_cpp/core/error_macros.hpp>
 
+#include "device/tension_diagnosis.h"
 #include "godot/type_conversions.h"
 
 using spidar::Vec3;
@@ -132,7 +133,8 @@ godot::PackedFloat64Array SpidarG::get_achieved_wrench() const {
 }
 
 godot::PackedFloat64Array SpidarG::get_wrench_bias() const {
-    return spidar::to_godot(world().wrench_to_world(snapshot_.bias));
+    return spidar::to_godot(
+        world().wrench_to_world(spidar::from_paper(tension_report(settings_, snapshot_).bias())));
 }
 
 godot::Dictionary SpidarG::get_contact_impulses() const {
@@ -175,6 +177,7 @@ godot::Dictionary SpidarG::get_statistics() const {
     statistics["real_time_priority"] = loop.real_time_priority;
     statistics["ticks"] = whole(count.ticks);
     statistics["kinematics_skipped"] = whole(count.kinematics_skipped);
+    statistics["tension_skipped"] = whole(count.tension_skipped);
     statistics["cold_starts"] = whole(count.cold_starts);
     statistics["bad_samples"] = whole(count.bad_samples);
     statistics["read_timeouts"] = whole(count.read_timeouts);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench/allocation_count.h"
+#include "bench/bench_recording.h"
 #include "bench/sample_times.h"
 #include "core/forward_kinematics.h"
 #include "core/tension_solver.h"
@@ -194,6 +195,7 @@ int bench_step(std::vector<BenchRow> &rows) {
     }
     add_row(rows, "(an empty call: the clock itself)", "-", empty);
     good = report_memory(settings) && good;
+    good = bench_recording(rows) == 0 && good;
     return good ? 0 : 1;
 }
 

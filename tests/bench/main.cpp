@@ -1,4 +1,4 @@
-// spidar_bench fk|tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
+// spidar_bench fk|recording|tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/bench_fk.h"
+#include "bench/bench_recording.h"
 #include "bench/bench_report.h"
 #include "bench/bench_step.h"
 #include "bench/bench_tension.h"
@@ -22,6 +23,7 @@ struct Problem {
 
 constexpr Problem kProblems[] = {
     {"fk", spidar::bench::bench_fk},
+    {"recording", spidar::bench::bench_recording},
     {"step", spidar::bench::bench_step},
     {"tension", spidar::bench::bench_tension},
 };

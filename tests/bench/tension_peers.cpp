@@ -361,6 +361,9 @@ std::vector<std::unique_ptr<TensionMethod>> tension_methods() {
         }
         libraries.emplace_back(build, library);
     }
+    if (supports(SimdLevel::avx512)) {
+        methods.push_back(std::make_unique<Ours>("ours, AVX-512", SimdLevel::avx512, false));
+    }
     if (supports(SimdLevel::avx2)) {
         methods.push_back(std::make_unique<Ours>("ours, AVX2", SimdLevel::avx2, false));
     }

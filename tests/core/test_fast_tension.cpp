@@ -12,7 +12,7 @@ using namespace spidar;
 
 namespace {
 
-constexpr SimdLevel kLevels[] = {SimdLevel::plain, SimdLevel::avx2};
+constexpr SimdLevel kLevels[] = {SimdLevel::plain, SimdLevel::avx2, SimdLevel::avx512};
 
 // Puts the level back when a test ends, however it ends.
 class LevelInUse {

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "device/servo_fixture.h"
+#include "device/tension_diagnosis.h"
 
 using namespace spidar;
 using spidar::test::ideal_settings;
@@ -80,7 +81,7 @@ TEST_CASE("closed loop: each DOF is felt by the hand within 1 % beyond the repor
             device.play(60);
             const DofArray q = to_paper(asked);
             const DofArray felt = to_paper(device.truth.strings);
-            const DofArray bias = to_paper(device.snapshot.bias);
+            const DofArray bias = tension_report(device.settings, device.snapshot).bias();
             CAPTURE(dof);
             CAPTURE(sign);
             for (std::size_t k = 0; k < felt.size(); ++k) {

@@ -35,7 +35,7 @@ struct Rig {
         for (int i = 0; i < ticks; ++i) {
             request.age(kTick_s);
             if (i % 16 == 0) {
-                request.accept(coupling);
+                request.accept(coupling, 0.0);
             }
             wrench = request.render(motion);
         }
@@ -79,7 +79,7 @@ TEST_CASE("coupling: damping against the proxy's own speed; the proxy moves on f
     rig.motion.velocity.linear_m_s.x = 0.1;
     rig.play(96); // the last update is 16 ms old in the next cycle
     rig.request.age(kTick_s);
-    rig.request.accept(rig.coupling);
+    rig.request.accept(rig.coupling, 0.0);
     for (int ms = 1; ms <= 60; ++ms) {
         rig.request.age(kTick_s);
         if (ms >= 17 && ms != 30) { // the jump of the update itself is over
@@ -92,11 +92,30 @@ TEST_CASE("coupling: damping against the proxy's own speed; the proxy moves on f
     }
 }
 
+TEST_CASE("coupling: a proxy that says when it was computed is moved on from then") {
+    Rig rig;
+    rig.coupling.twist.linear_m_s.x = 0.1;
+    rig.coupling.state_time_s = 5.0;
+    rig.motion.velocity.linear_m_s.x = 0.1;
+    rig.play(96);
+    rig.request.accept(rig.coupling, 5.004); // 4 ms old
+    for (int ms = 1; ms <= 40; ++ms) {
+        rig.request.age(kTick_s);
+        if (ms >= 17 && ms != 26) {
+            const double proxy_m = 0.1e-3 * std::min(ms + 4, 30);
+            const double pull_m_s = ms + 4 <= 30 ? 0.1 : 0.0;
+            CAPTURE(ms);
+            CHECK(rig.request.render(rig.motion).force_n.x ==
+                  doctest::Approx(350.0 * proxy_m + 2.0 * (pull_m_s - 0.1)));
+        }
+    }
+}
+
 TEST_CASE("coupling: a proxy that jumps is followed over one game period") {
     Rig rig;
     rig.play(96);
     rig.coupling.position_m.x = 0.004;
-    rig.request.accept(rig.coupling);
+    rig.request.accept(rig.coupling, 0.0);
     double last_n = 0.0;
     for (int ms = 1; ms <= 20; ++ms) {
         rig.request.age(kTick_s);
@@ -116,7 +135,7 @@ TEST_CASE("coupling: force caps hold; gains beyond the caps are named") {
     CHECK(w.force_n.x / w.force_n.y == doctest::Approx(-0.75)); // direction kept
     CHECK(w.grasp_torque_nm == doctest::Approx(-rig.coupling.max_grasp_torque_nm));
     rig.coupling.stiffness[4] = 1000.0;
-    const GainClamp clamp = rig.request.accept(rig.coupling);
+    const GainClamp clamp = rig.request.accept(rig.coupling, 0.0);
     CHECK(clamp.gain == GainClamp::Gain::turn_stiffness);
     CHECK(clamp.request == GainClamp::Request::coupling);
     CHECK(clamp.index == 4);
@@ -127,7 +146,7 @@ TEST_CASE("coupling: begins gradually, fades when forgotten, goes when withdrawn
     Rig rig;
     rig.coupling.position_m.x = 0.004;
     const double full_n = 350.0 * 0.004;
-    rig.request.accept(rig.coupling);
+    rig.request.accept(rig.coupling, 0.0);
     rig.request.age(kTick_s);
     CHECK(rig.request.render(rig.motion).force_n.x <= full_n / 50.0 + 1e-9);
     rig.play(97); // the last update is now of this cycle
@@ -142,7 +161,7 @@ TEST_CASE("coupling: begins gradually, fades when forgotten, goes when withdrawn
     CHECK(ended);
     rig.play(97);
     rig.coupling.dof_mask = 0;
-    rig.request.accept(rig.coupling);
+    rig.request.accept(rig.coupling, 0.0);
     for (int ms = 1; ms <= 20; ++ms) {
         CHECK_FALSE(rig.request.age(kTick_s)); // withdrawn: not an expiry
     }

@@ -2,41 +2,17 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <new>
 #include <random>
 
 #include <glm/geometric.hpp>
 
+#include "device/allocation_trap.h"
 #include "device/servo_fixture.h"
 
-namespace {
-
-thread_local std::size_t allocations = 0;
-
-} // namespace
-
-// Counts for the whole test program; only this file looks. The nothrow form too: std::stable_sort uses it, and what
-// it gives goes to the delete below, which a sanitizer checks.
-void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
-    ++allocations;
-    return std::malloc(size > 0 ? size : 1);
-}
-void *operator new(std::size_t size) {
-    if (void *const memory = ::operator new(size, std::nothrow)) {
-        return memory;
-    }
-    throw std::bad_alloc();
-}
-void operator delete(void *memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void *memory, std::size_t) noexcept {
-    std::free(memory);
-}
-
 using namespace spidar;
+using spidar::test::allocations_of_this_thread;
 using spidar::test::Bench;
 
 namespace {
@@ -142,7 +118,7 @@ TEST_CASE("a step allocates nothing: a thousand steps with contacts, faults and 
     bench.settings.safety.arming_time_s = 0.02;
     bench.start();
     std::uint64_t in_arms = 0;
-    const std::size_t before = allocations;
+    const std::size_t before = allocations_of_this_thread();
     for (int i = 0; i < 1000; ++i) {
         fuzz.change(bench.command);
         bench.reading.counts[static_cast<std::size_t>(i % 8)] +=
@@ -151,9 +127,9 @@ TEST_CASE("a step allocates nothing: a thousand steps with contacts, faults and 
         bench.tick();
         in_arms += bench.drive.motors_on ? 1U : 0U;
     }
-    const std::size_t made = allocations - before;
+    const std::size_t made = allocations_of_this_thread() - before;
     CHECK(made == 0);
     CHECK(in_arms > 100);
-    ::operator delete(::operator new(1)); // no new-expression: those may be optimised away
-    CHECK(allocations > before);          // the trap itself works
+    ::operator delete(::operator new(1));         // no new-expression: those may be optimised away
+    CHECK(allocations_of_this_thread() > before); // the trap itself works
 }

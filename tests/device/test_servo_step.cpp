@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "device/servo_fixture.h"
+#include "device/tension_diagnosis.h"
 
 using namespace spidar;
 using spidar::test::Bench;
@@ -63,7 +64,7 @@ TEST_CASE(
             bench.tick(300);
             const DofArray requested = to_paper(bench.now().requested);
             const DofArray achieved = to_paper(bench.now().achieved);
-            const DofArray bias = to_paper(bench.now().bias);
+            const DofArray bias = tension_report(bench.settings, bench.now()).bias();
             for (std::size_t k = 0; k < achieved.size(); ++k) {
                 CAPTURE(dof);
                 CAPTURE(k);

@@ -15,6 +15,7 @@
 
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
+#include "device/tension_diagnosis.h"
 
 using namespace spidar;
 
@@ -120,7 +121,8 @@ std::string broken_invariant(const ServoSettings &settings, const ServoSnapshot 
             return "tension at a force scale of zero";
         }
     }
-    if (!finite(now.requested) || !finite(now.achieved) || !finite(now.bias)) {
+    if (!finite(now.requested) || !finite(now.achieved) ||
+        !finite(from_paper(tension_report(settings, now).bias()))) {
         return "a wrench is not finite";
     }
     if (glm::length(now.requested.force_n) > settings.safety.max_force_n + kRounding ||

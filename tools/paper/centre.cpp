@@ -102,7 +102,7 @@ void smoothness(const PaperDevice &device, Outputs &outputs) {
         last = result.tensions_n;
         (closed ? inside : outside) = std::fmax(closed ? inside : outside, step_here);
         if (tick % 25 == 0) {
-            table.row({100.0 * x_m, result.achieved[0], step_here, closed});
+            table.row({100.0 * x_m, apply(matrix, result.tensions_n)[0], step_here, closed});
         }
         step_here = tick % 25 == 0 ? 0.0 : step_here;
     }
@@ -133,9 +133,9 @@ void taut_strings(const PaperDevice &device, Outputs &outputs) {
             const double tilt = one.tilt_deg * kDegree_rad;
             const GripPose pose = random.pose(device.grip, one.cube_m, tilt, tilt);
             TensionSolver solver;
-            const TensionResult result =
-                solver.update(wrench_matrix(device.frame, device.grip, pose), DofArray{});
-            const DofArray &q = result.achieved;
+            const WrenchMatrix matrix = wrench_matrix(device.frame, device.grip, pose);
+            const TensionResult result = solver.update(matrix, DofArray{});
+            const DofArray q = apply(matrix, result.tensions_n);
             const double force = std::hypot(q[0], q[1], q[2]);
             const double moment = std::hypot(q[3], q[4], q[5]);
             least = std::min(least,

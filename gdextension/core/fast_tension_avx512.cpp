@@ -1,0 +1,46 @@
+// The fast path for AVX-512. Everything shared is included before the target changes: no inline function that another
+// source may call is compiled for AVX-512 here.
+#include "core/fast_tension.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/fast_tension_limits.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#if !defined(__clang__)
+// GCC 12 calls the "undefined" operands of its own intrinsics uninitialised (its bug 105593, mended in 13).
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <immintrin.h>
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,avx512f,avx512dq,avx512vl"))),        \
+                             apply_to = function)
+#else
+#pragma GCC target("avx2,fma,avx512f,avx512dq,avx512vl") // to the end of this file
+#endif
+
+#include "core/simd_eight_avx512.h"
+
+#include "core/fast_tension_wide.h"
+
+namespace spidar {
+
+bool solve_fast_avx512(const TensionProblem &problem, const ActiveSet *warm,
+                       TensionSolution &solution) noexcept {
+    WideTension<EightAvx512, kFastDofs> kernel(problem);
+    return kernel.run(warm, solution);
+}
+
+} // namespace spidar
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+#endif

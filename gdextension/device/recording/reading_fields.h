@@ -1,0 +1,19 @@
+// The one list of what a DeviceReading holds beside its counts.
+#pragma once
+
+#include "device/recording/field_words.h"
+#include "device/transport.h"
+
+namespace spidar {
+
+static_assert(count_members<DeviceReading>() == 4, "DeviceReading changed: list its fields here");
+
+template <typename Reading, typename Visit>
+void for_each_field(Reading &reading, Visit &&visit) requires
+    std::is_same_v<std::remove_const_t<Reading>, DeviceReading> {
+    visit("device_time_us", 0, reading.device_time_us);
+    visit("sequence", 0, reading.sequence);
+    visit("buttons", 0, reading.buttons);
+}
+
+} // namespace spidar

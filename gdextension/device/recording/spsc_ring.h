@@ -1,0 +1,65 @@
+// Queue between one writing and one reading thread. Wait-free on both sides; memory is taken once, at construction.
+// A full queue refuses: the writer decides what that means.
+#pragma once
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+namespace spidar {
+
+template <typename T>
+class SpscRing {
+public:
+    // Room for at least this many elements.
+    explicit SpscRing(std::size_t capacity) : slots_(std::bit_ceil(capacity)) {}
+
+    [[nodiscard]] std::size_t capacity() const noexcept { return slots_.size(); }
+
+    // Writing thread: where the next element goes, or null when the queue is full. commit() hands it over.
+    [[nodiscard]] T *free_slot() noexcept {
+        const std::size_t tail = tail_.load(std::memory_order_relaxed);
+        if (tail - known_head_ >= slots_.size()) {
+            known_head_ = head_.load(std::memory_order_acquire);
+            if (tail - known_head_ >= slots_.size()) {
+                return nullptr;
+            }
+        }
+        return &slots_[tail & (slots_.size() - 1)];
+    }
+    void commit() noexcept {
+        tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    }
+
+    // Reading thread: the oldest element, or null when there is none. pop() gives its place back.
+    [[nodiscard]] const T *oldest() noexcept {
+        const std::size_t head = head_.load(std::memory_order_relaxed);
+        if (head == known_tail_) {
+            known_tail_ = tail_.load(std::memory_order_acquire);
+            if (head == known_tail_) {
+                return nullptr;
+            }
+        }
+        return &slots_[head & (slots_.size() - 1)];
+    }
+    void pop() noexcept {
+        head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    }
+
+    // From either thread: how many elements wait. The other side may be changing it.
+    [[nodiscard]] std::size_t size() const noexcept {
+        const std::size_t head = head_.load(std::memory_order_acquire);
+        return tail_.load(std::memory_order_acquire) - head;
+    }
+
+private:
+    std::vector<T> slots_;
+    // Each side on cache lines of its own, with what it last saw of the other.
+    alignas(64) std::atomic<std::size_t> tail_{0};
+    std::size_t known_head_ = 0;
+    alignas(64) std::atomic<std::size_t> head_{0};
+    std::size_t known_tail_ = 0;
+};
+
+} // namespace spidar

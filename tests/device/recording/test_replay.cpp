@@ -1,0 +1,272 @@
+// A recorded run and its replay: the same bits, wherever the recording began and whatever happened in it.
+#include <doctest/doctest.h>
+
+#include <new>
+#include <thread>
+
+#include "device/allocation_trap.h"
+#include "device/recording/command_fields.h"
+#include "device/recording/recording_fixture.h"
+
+using namespace spidar;
+using namespace spidar::test;
+
+namespace {
+
+// What is left of `all` after its first `skipped`.
+std::vector<std::uint64_t> from(const std::vector<std::uint64_t> &all, std::size_t skipped) {
+    return {all.begin() + static_cast<std::ptrdiff_t>(skipped), all.end()};
+}
+
+} // namespace
+
+TEST_CASE(
+    "replay: a run from its first cycle, with contacts, wrenches, a lost device and a fault") {
+    const TemporaryFile file;
+    Session session;
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    REQUIRE(session.loop->start_recording(file.path()) == "");
+    CHECK(session.loop->recording());
+    session.frames_of(60);
+    CHECK(session.last.state == DeviceState::active);
+    CHECK(session.last.counters.gate_clamps == 0);
+    session.unplug_for(0.05);
+    session.frames_of(10);
+    CHECK(session.last.state == DeviceState::closed);
+    session.clear_and_arm();
+    session.frames_of(20);
+    session.device->inject({SimulatedFault::count_jump, 3, 0.0, 0.1});
+    session.frames_of(10);
+    CHECK(session.last.state == DeviceState::fault);
+    session.device->inject({SimulatedFault::read_timeout, 0, 0.0, 0.03});
+    session.clear_and_arm();
+    session.frames_of(20);
+    session.loop->stop_recording();
+    CHECK_FALSE(session.loop->recording());
+    const RecorderStatistics statistics = session.loop->recording_statistics();
+    CHECK(statistics.cycles == session.bits.size());
+    CHECK(statistics.lost == 0);
+    CHECK_FALSE(statistics.failed);
+    CHECK(statistics.bytes == std::filesystem::file_size(file.path()));
+
+    const Replayed replayed = replay(file.path());
+    CHECK(replayed.problem == "");
+    CHECK(replayed.damage == "");
+    CHECK(replayed.bits == session.bits);
+    CHECK(replayed.report.cycles == session.bits.size());
+    CHECK(replayed.report.differing == 0);
+    CHECK(replayed.report.lost == 0);
+}
+
+TEST_CASE("replay: a recording that starts in the middle of a touch, twice in one run") {
+    const TemporaryFile first;
+    const TemporaryFile second;
+    Session session;
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    session.frames_of(37);
+    const std::size_t first_from = session.bits.size();
+    REQUIRE(session.loop->start_recording(first.path()) == "");
+    session.frames_of(20);
+    const std::size_t first_to = session.bits.size();
+    // The same path or another: a second recording beside the first is refused.
+    CHECK(session.loop->start_recording(second.path()).find("runs already") != std::string::npos);
+    session.loop->stop_recording();
+    session.frames_of(5);
+    const std::size_t second_from = session.bits.size();
+    REQUIRE(session.loop->start_recording(second.path()) == "");
+    session.frames_of(30);
+    session.loop->stop(); // ends the recording too
+
+    const Replayed early = replay(first.path());
+    CHECK(early.problem == "");
+    std::vector<std::uint64_t> expected = from(session.bits, first_from);
+    expected.resize(first_to - first_from);
+    CHECK(early.bits == expected);
+    CHECK(early.report.differing == 0);
+    const Replayed late = replay(second.path());
+    CHECK(late.bits == from(session.bits, second_from));
+    CHECK(late.report.differing == 0);
+    CHECK(late.damage == "");
+}
+
+TEST_CASE(
+    "replay: other inputs give other outputs, and that is noticed at the cycle where it happens") {
+    const TemporaryFile file;
+    Session session;
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    REQUIRE(session.loop->start_recording(file.path()) == "");
+    session.frames_of(30);
+    session.loop->stop();
+    // The same recording with one count of one cycle moved by one.
+    RecordingReader reader;
+    REQUIRE(reader.open(file.path()) == "");
+    const TemporaryFile changed;
+    RecordingWriter writer;
+    REQUIRE(writer.open(changed.path(), reader.info()) == "");
+    constexpr std::uint64_t kChangedTick = 200;
+    RecordedCycle cycle;
+    HapticCommand command;
+    while (reader.next(cycle)) {
+        if (cycle.segment_start) {
+            writer.memory(reader.memory());
+        }
+        load_words(cycle.command_words, command);
+        CycleRecord record;
+        record.input = cycle.input;
+        record.tick = cycle.tick;
+        record.segment_start = cycle.segment_start;
+        record.command_is_new = cycle.command_is_new;
+        record.input.reading.counts[2] += cycle.tick == kChangedTick ? 1 : 0;
+        writer.cycle(record, command);
+    }
+    writer.close();
+    // Its outputs are not the recorded ones (all zero), so the transport's own count says nothing here: the bits do.
+    const Replayed before = replay(file.path());
+    const Replayed after = replay(changed.path());
+    REQUIRE(before.bits.size() == after.bits.size());
+    CHECK(after.report.differing == after.bits.size());
+    CHECK(after.report.first_differing == 1);
+    std::size_t same = 0;
+    while (same < before.bits.size() && before.bits[same] == after.bits[same]) {
+        ++same;
+    }
+    CHECK(same == kChangedTick - 1);
+    CHECK(before.report.differing == 0);
+}
+
+TEST_CASE("replay: a threaded loop in real time, recorded beside its own thread") {
+    const TemporaryFile file;
+    Session session;
+    REQUIRE(session.loop->start_threaded(session.settings) == Status::ok);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    REQUIRE(session.loop->start_recording(file.path()) == "");
+    for (int i = 0; i < 20; ++i) {
+        ++session.command.contacts_sequence;
+        session.command.contact_count = i % 3;
+        session.loop->publish(session.command);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    session.loop->stop_recording();
+    const RecorderStatistics statistics = session.loop->recording_statistics();
+    CHECK(statistics.cycles > 20);
+    session.loop->stop();
+    const Replayed replayed = replay(file.path());
+    CHECK(replayed.problem == "");
+    CHECK(replayed.report.differing == 0);
+    CHECK(replayed.report.cycles + replayed.report.lost >= statistics.cycles);
+    CHECK(replayed.damage == "");
+}
+
+TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with exact segments") {
+    const TemporaryFile file;
+    Bench bench;
+    bench.settings.rate_hz = 100.0; // a ring of 400 cycles
+    bench.start();
+    REQUIRE(usable(bench.started));
+    bench.command.forces_enabled = true;
+    Recorder recorder(bench.settings, true);
+    REQUIRE(recorder.open(file.path()) == "");
+    std::vector<std::uint64_t> bits;
+    constexpr double kStep_s = 0.01;
+    for (int burst = 0; burst < 3; ++burst) {
+        for (int i = 0; i < 3000; ++i) { // far faster than the writing thread looks
+            bench.reading.counts[0] = (i / 7) % 20;
+            recorder.begin(bench.step);
+            bench.tick(1, kStep_s);
+            recorder.end({bench.reading, kStep_s, bench.read_status, Status::ok, true}, bench.drive,
+                         bench.now(), bench.command, false);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100)); // and time to catch up
+    }
+    recorder.close();
+    const RecorderStatistics statistics = recorder.statistics();
+    CHECK(statistics.lost > 0);
+    CHECK(statistics.cycles + statistics.lost == 9000);
+
+    RecordingReader reader;
+    REQUIRE(reader.open(file.path()) == "");
+    RecordedCycle cycle;
+    int segments = 0;
+    while (reader.next(cycle)) {
+        segments += cycle.segment_start ? 1 : 0;
+    }
+    CHECK(segments >= 3);
+    CHECK(reader.closed());
+    CHECK(reader.cycles() == statistics.cycles);
+    CHECK(reader.lost() == statistics.lost);
+    const Replayed replayed = replay(file.path());
+    CHECK(replayed.report.differing == 0);
+    CHECK(replayed.report.cycles == statistics.cycles);
+    CHECK(replayed.report.lost == statistics.lost);
+}
+
+TEST_CASE("recording: the servo thread's part allocates nothing, not at the start and not when it "
+          "loses") {
+    const TemporaryFile file;
+    Bench bench;
+    bench.settings.rate_hz = 200.0;
+    bench.settings.safety.arming_time_s = 0.02;
+    bench.start();
+    bench.command.forces_enabled = true;
+    Recorder recorder(bench.settings, true);
+    REQUIRE(recorder.open(file.path()) == "");
+    const std::size_t before = allocations_of_this_thread();
+    for (int i = 0; i < 5000; ++i) {
+        const bool command_is_new = i % 16 == 0;
+        bench.command.contacts_sequence += command_is_new ? 1 : 0;
+        bench.command.contact_count = 1 + i % 4;
+        bench.reading.counts[static_cast<std::size_t>(i % 8)] += i % 3 - 1;
+        recorder.begin(bench.step);
+        bench.tick(1, 0.005);
+        recorder.end({bench.reading, 0.005, bench.read_status, Status::ok, true}, bench.drive,
+                     bench.now(), bench.command, command_is_new);
+    }
+    const std::size_t made = allocations_of_this_thread() - before;
+    CHECK(made == 0);
+    const RecorderStatistics statistics = recorder.statistics();
+    CHECK(statistics.cycles > 0);
+    CHECK(statistics.lost > 0); // both ways were gone
+    ::operator delete (::operator new (1, std::align_val_t{64}), std::align_val_t{64});
+    CHECK(allocations_of_this_thread() > before); // the trap itself works
+}
+
+TEST_CASE("replay: the vector level of the recording is used, and given back") {
+    const TemporaryFile file;
+    const SimdLevel best = simd_level();
+    REQUIRE(set_simd_level(SimdLevel::plain));
+    Session session;
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    REQUIRE(session.loop->start_recording(file.path()) == "");
+    session.frames_of(30);
+    session.loop->stop();
+    REQUIRE(set_simd_level(best));
+    const Replayed replayed = replay(file.path());
+    CHECK(replayed.report.differing == 0);
+    CHECK(replayed.bits == session.bits);
+    CHECK(simd_level() == best);
+}
+
+TEST_CASE("replay: another build, another schema or no file at all is refused with the reason") {
+    const TemporaryFile file;
+    RecordingInfo info = describe_recording(ideal_settings());
+    CHECK(why_no_replay(info) == "");
+    info.build ^= 1U;
+    RecordingWriter writer;
+    REQUIRE(writer.open(file.path(), info) == "");
+    writer.close();
+    ReplayTransport transport;
+    CHECK(transport.load(file.path()).find("another build") != std::string::npos);
+    info = describe_recording(ideal_settings());
+    ++info.command_words;
+    CHECK(why_no_replay(info).find("another form") != std::string::npos);
+    info = describe_recording(ideal_settings());
+    ++info.state_bytes;
+    CHECK(why_no_replay(info).find("another form") != std::string::npos);
+    CHECK(transport.load(file.path() + ".absent").find("no such file") != std::string::npos);
+    Session session;
+    CHECK(session.loop->start_recording(file.path()).find("No device") != std::string::npos);
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    const std::string nowhere = file.path() + "_no_folder/a.rec";
+    CHECK(session.loop->start_recording(nowhere).find("No such file") != std::string::npos);
+    CHECK_FALSE(session.loop->recording());
+}
