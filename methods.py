@@ -82,6 +82,25 @@ def version_header(version):
     )
 
 
+# --- hidapi --------------------------------------------------------------------------------------
+
+
+def find_hidapi(env):
+    """hidapi's static library as a list of nodes: `hidapi=`, or where the compiler finds it."""
+    name = "libhidapi-hidraw.a"
+    path = env["hidapi"]
+    if not path:
+        command = [env.subst("$CXX").split()[0], f"-print-file-name={name}"]
+        done = subprocess.run(command, check=False, text=True, capture_output=True)
+        path = done.stdout.strip()
+    if not os.path.isfile(path):
+        raise BuildError(
+            f"{name} is missing: install hidapi with its static library (Debian: libhidapi-dev), "
+            "or give hidapi=FILE"
+        )
+    return [env.File(os.path.abspath(path))]
+
+
 def sources_header(*roots):
     """One number for what is in all sources under `roots`: builds of the same number hold the servo step's memory in
     the same way, and can replay each other's recordings."""

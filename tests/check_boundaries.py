@@ -21,7 +21,7 @@ MAY_INCLUDE = {
     # The device layer talks to the operating system (threads, clocks) and to hidapi.
     "gdextension/device": (
         r'"core/', r'"device/', r"<glm/", r"<hidapi", STANDARD,
-        r"<(pthread|sched|time|unistd|fcntl|errno|windows)\.h>", r"<sys/[a-z]+\.h>",
+        r"<(pthread|sched|time|unistd|fcntl|errno|dlfcn|windows)\.h>", r"<sys/[a-z]+\.h>",
         r"<[a-z]+intrin\.h>", r'"spidar_(version|sources)\.h"',
     ),
     "gdextension/godot": (

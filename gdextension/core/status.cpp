@@ -66,6 +66,44 @@ const char *describe(Status status) noexcept {
         return "A fault is latched; clear it, then arm again.";
     case Status::not_armed:
         return "The device is not armed; arm it to feel forces.";
+    case Status::string_fault:
+        return "The string lengths contradict each other; check for a slack, slipped or broken "
+               "string and zero the device again.";
+    case Status::overheated:
+        return "A motor's thermal budget is spent; let the motors cool and ask for less force.";
+    case Status::unstable:
+        return "The rendered forces shake the grip; lower the stiffness or damping.";
+    case Status::device_restarted:
+        return "The device restarted and its counts began anew; zero it at home.";
+    case Status::zero_needed:
+        return "The device has no zero; hold the grip at home and zero it.";
+    case Status::panic_stopped:
+        return "Stopped by panic_stop(); clear the fault, then arm again.";
+    case Status::loop_stalled:
+        return "The servo thread stands still; the motors are switched off.";
+    case Status::device_not_zeroed:
+        return "The device does not know its zero; hold the grip at its home pose and zero it.";
+    case Status::device_emergency_stop:
+        return "The device's emergency stop is pressed; release it, clear the fault, then arm.";
+    case Status::device_watchdog:
+        return "The device missed commands and switched its motors off; clear the fault, then arm.";
+    case Status::device_no_power:
+        return "The device's motors have no power; check its supply and emergency stop.";
+    case Status::device_encoder_fault:
+        return "The device reports a faulty encoder; check the strings and its wiring.";
+    case Status::device_over_temperature:
+        return "The device is too hot; let its motors cool.";
+    case Status::no_device:
+        return "No such device is plugged in; check the cable, the power and the names it is "
+               "sought "
+               "by.";
+    case Status::no_permission:
+        return "This user may not open the device; install addons/spidar_g/udev/70-spidar-g.rules, "
+               "then plug it in again.";
+    case Status::protocol_mismatch:
+        return "The device speaks another protocol version, or is no SPIDAR-G; check its firmware.";
+    case Status::hid_unavailable:
+        return "The system's HID access did not start; only the simulated device can be used.";
     }
     return "Unknown status value.";
 }

@@ -37,6 +37,24 @@ enum class Status : std::int32_t {
     over_speed = -26,
     fault_latched = -27, // clear_fault() and arm() are needed
     not_armed = -28,
+    string_fault = -29, // the eight lengths contradict each other: slack, slipped, stuck, broken
+    overheated = -30,   // a motor's thermal budget is spent
+    unstable = -31,     // the rendered forces shake the grip
+    device_restarted = -32, // the device's clock or counts began anew: the zero is lost
+    zero_needed = -33,      // zero_at_home() is needed before forces
+    panic_stopped = -34,
+    loop_stalled = -35, // the servo thread stands still
+    // What a real device says of itself, or what keeps one from being opened.
+    device_not_zeroed = -40, // its counts have no reference: zero it at the home pose
+    device_emergency_stop = -41,
+    device_watchdog = -42, // it missed the host's commands and switched its motors off
+    device_no_power = -43, // the motors' supply is absent
+    device_encoder_fault = -44,
+    device_over_temperature = -45,
+    no_device = -46,         // nothing matches vendor, product, serial and name
+    no_permission = -47,     // found, but this user may not open it: the udev rule is missing
+    protocol_mismatch = -48, // it speaks another version, or is no SPIDAR-G
+    hid_unavailable = -49,   // the system's HID library did not start
 };
 
 [[nodiscard]] constexpr bool usable(Status status) noexcept {

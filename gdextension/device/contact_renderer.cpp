@@ -96,19 +96,18 @@ GainClamp ContactRenderer::accept(const HapticCommand &command) noexcept {
         } else {
             plane.normal = glm::normalize(plane.normal);
             const bool turn = is_turn_stop(plane);
-            plane.stiffness_n_m =
-                capped(plane.stiffness_n_m, turn ? caps_.turn_stiffness_nm_rad : caps_.stiffness_n_m,
-                       turn ? Gain::turn_stiffness : Gain::stiffness, index, caps_.from_latency,
-                       clamp);
-            plane.damping_n_s_m =
-                capped(plane.damping_n_s_m, turn ? caps_.turn_damping_nm_s_rad : caps_.damping_n_s_m,
-                       turn ? Gain::turn_damping : Gain::damping, index, false, clamp);
+            plane.stiffness_n_m = capped(
+                plane.stiffness_n_m, turn ? caps_.turn_stiffness_nm_rad : caps_.stiffness_n_m,
+                turn ? Gain::turn_stiffness : Gain::stiffness, index, caps_.from_latency, clamp);
+            plane.damping_n_s_m = capped(
+                plane.damping_n_s_m, turn ? caps_.turn_damping_nm_s_rad : caps_.damping_n_s_m,
+                turn ? Gain::turn_damping : Gain::damping, index, false, clamp);
         }
         plane.friction = capped(plane.friction, kMaxFriction, Gain::friction, index, false, clamp);
         plane.offset_m = std::clamp(plane.offset_m, -kFarAway_m, kFarAway_m);
         for (int k = 0; k < 3; ++k) {
-            plane.velocity_m_s[k] = capped(plane.velocity_m_s[k], kMaxPlaneSpeed_m_s, Gain::speed,
-                                           index, false, clamp);
+            plane.velocity_m_s[k] =
+                capped(plane.velocity_m_s[k], kMaxPlaneSpeed_m_s, Gain::speed, index, false, clamp);
         }
 
         Track track;
@@ -229,8 +228,9 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
     const double softness = 1.0 / std::sqrt(stiffness_n_m);
     const double turn_softness = is_turn_stop(track.plane) ? softness : kTurnSoftness;
     const double grasp_softness = is_grasp_stop(track.plane) ? softness : kGraspSoftness;
-    row.row = {softness * along.x,     softness * along.y,     softness * along.z,
-               turn_softness * turn.x, turn_softness * turn.y, turn_softness * turn.z,
+    row.row = {softness * along.x,     softness * along.y,
+               softness * along.z,     turn_softness * turn.x,
+               turn_softness * turn.y, turn_softness * turn.z,
                grasp_softness * grasp, 0.0};
     return row;
 }
@@ -255,8 +255,8 @@ void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept
         track.anchor_m = point_m;
     }
     // Of several contacts with one surface each rubs with its share, which is that of its push.
-    const double share =
-        std::min(1.0, track.push / (surface.stiffness_n_m * std::max(track.depth_m, kLeastDepth_m)));
+    const double share = std::min(
+        1.0, track.push / (surface.stiffness_n_m * std::max(track.depth_m, kLeastDepth_m)));
     const double stiffness_n_m = share * surface.stiffness_n_m;
     const double limit_n = surface.friction * track.push;
     const auto along = [&surface](const Vec3 &v) {
@@ -268,8 +268,7 @@ void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept
         stretch_m *= limit_n / spring_n; // slips: the anchor is dragged along
         track.anchor_m = point_m - stretch_m;
     }
-    Vec3 rub_n =
-        -stiffness_n_m * stretch_m - (share * surface.damping_n_s_m) * along(velocity_m_s);
+    Vec3 rub_n = -stiffness_n_m * stretch_m - (share * surface.damping_n_s_m) * along(velocity_m_s);
     const double size_n = glm::length(rub_n);
     if (size_n > limit_n) {
         rub_n *= limit_n / size_n;
@@ -306,9 +305,8 @@ Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
             track.grasp_torque_nm = track.push * track.now.normal.x;
             sum.grasp_torque_nm += track.grasp_torque_nm;
         } else if (is_turn_stop(track.plane)) {
-            track.moment_nm =
-                track.push *
-                turn_gradient(rotation_log(motion.grip.frame.rotation), track.now.normal);
+            track.moment_nm = track.push * turn_gradient(rotation_log(motion.grip.frame.rotation),
+                                                         track.now.normal);
             sum.moment_nm += track.moment_nm;
         } else {
             track.force_n = track.push * track.now.normal;

@@ -73,8 +73,8 @@ CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
     const Twist &twist = coupling_.twist;
     Proxy proxy;
     proxy.position_m = coupling_.position_m + moved_s * twist.linear_m_s + left * jump_.linear_m;
-    proxy.rotation = rotation_exp(moved_s * twist.angular_rad_s + left * jump_.angular_rad) *
-                     coupling_.rotation;
+    proxy.rotation =
+        rotation_exp(moved_s * twist.angular_rad_s + left * jump_.angular_rad) * coupling_.rotation;
     proxy.grasp_angle_rad =
         coupling_.grasp_angle_rad + moved_s * twist.grasp_rate_rad_s + left * jump_.grasp_rad;
     return proxy;
@@ -93,15 +93,14 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         }
         const bool linear = dof < 3;
         const bool grasp = dof == 6;
-        next.stiffness[i] =
-            capped(next.stiffness[i],
-                   linear  ? caps_.stiffness_n_m
-                   : grasp ? caps_.grasp_stiffness_nm_rad
-                           : caps_.turn_stiffness_nm_rad,
-                   linear  ? Gain::stiffness
-                   : grasp ? Gain::grasp_stiffness
-                           : Gain::turn_stiffness,
-                   dof, caps_.from_latency, clamp);
+        next.stiffness[i] = capped(next.stiffness[i],
+                                   linear  ? caps_.stiffness_n_m
+                                   : grasp ? caps_.grasp_stiffness_nm_rad
+                                           : caps_.turn_stiffness_nm_rad,
+                                   linear  ? Gain::stiffness
+                                   : grasp ? Gain::grasp_stiffness
+                                           : Gain::turn_stiffness,
+                                   dof, caps_.from_latency, clamp);
         next.damping[i] = capped(next.damping[i],
                                  linear  ? caps_.damping_n_s_m
                                  : grasp ? caps_.grasp_damping_nm_s_rad
@@ -113,14 +112,14 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
     }
     for (int k = 0; k < 3; ++k) {
         next.position_m[k] = std::clamp(next.position_m[k], -kFarAway_m, kFarAway_m);
-        next.twist.linear_m_s[k] = capped(next.twist.linear_m_s[k], kMaxProxySpeed_m_s, Gain::speed,
-                                          k, false, clamp);
+        next.twist.linear_m_s[k] =
+            capped(next.twist.linear_m_s[k], kMaxProxySpeed_m_s, Gain::speed, k, false, clamp);
         next.twist.angular_rad_s[k] = capped(next.twist.angular_rad_s[k], kMaxProxyTurnRate_rad_s,
                                              Gain::speed, 3 + k, false, clamp);
     }
     next.grasp_angle_rad = std::clamp(next.grasp_angle_rad, -kFarAway_m, kFarAway_m);
-    next.twist.grasp_rate_rad_s = capped(next.twist.grasp_rate_rad_s, kMaxProxyTurnRate_rad_s,
-                                         Gain::speed, 6, false, clamp);
+    next.twist.grasp_rate_rad_s =
+        capped(next.twist.grasp_rate_rad_s, kMaxProxyTurnRate_rad_s, Gain::speed, 6, false, clamp);
     // Exactly orthonormal: the game computes in single precision.
     next.rotation[0] = glm::normalize(next.rotation[0]);
     next.rotation[2] = glm::normalize(glm::cross(next.rotation[0], next.rotation[1]));
@@ -180,7 +179,8 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     }
     const Proxy proxy = proxy_now();
     const GripState &grip = motion.grip;
-    const Twist pull = state_age_s_ + age_s_ <= kCouplingExtrapolation_s ? coupling_.twist : Twist();
+    const Twist pull =
+        state_age_s_ + age_s_ <= kCouplingExtrapolation_s ? coupling_.twist : Twist();
     const Vec3 apart_m = proxy.position_m - grip.pose.position_m - motion.ahead.linear_m;
     const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) -
                            motion.ahead.angular_rad;
@@ -192,9 +192,9 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const Twist &v = motion.velocity;
-        wrench.force_n[k] = gain(from_stiffness_, coupling_.stiffness, i) * apart_m[k] +
-                            gain(from_damping_, coupling_.damping, i) *
-                                (pull.linear_m_s[k] - v.linear_m_s[k]);
+        wrench.force_n[k] =
+            gain(from_stiffness_, coupling_.stiffness, i) * apart_m[k] +
+            gain(from_damping_, coupling_.damping, i) * (pull.linear_m_s[k] - v.linear_m_s[k]);
         wrench.moment_nm[k] = gain(from_stiffness_, coupling_.stiffness, i + 3) * apart_rad[k] +
                               gain(from_damping_, coupling_.damping, i + 3) *
                                   (pull.angular_rad_s[k] - v.angular_rad_s[k]);

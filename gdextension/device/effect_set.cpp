@@ -75,10 +75,10 @@ GainClamp EffectSet::cap(Effect &effect, std::int32_t index) const noexcept {
                           index, false, clamp);
             break;
         case EffectKind::spring:
-            gain = capped(
-                gain, stiffest,
-                gain_name(i, Gain::stiffness, Gain::turn_stiffness, Gain::grasp_stiffness), index,
-                caps_.from_latency, clamp);
+            gain =
+                capped(gain, stiffest,
+                       gain_name(i, Gain::stiffness, Gain::turn_stiffness, Gain::grasp_stiffness),
+                       index, caps_.from_latency, clamp);
             break;
         case EffectKind::detents:
             // The stiffness at the bottom of a valley is 2 pi / spacing times its depth.
@@ -112,14 +112,18 @@ GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
         clamp = clamp.gain == GainClamp::Gain::none ? own : clamp;
         for (std::size_t j = 0; j < old_count; ++j) {
             const Effect &before = old[j].effect;
-            if (!used[j] && !old[j].ended && before.id == track.effect.id &&
-                before.kind == track.effect.kind) {
-                used[j] = true;
+            if (used[j] || before.id != track.effect.id || before.kind != track.effect.kind) {
+                continue;
+            }
+            used[j] = true;
+            last_[i] = given[j];
+            if (before.renewal == track.effect.renewal) {
+                track = old[j]; // not renewed: as it was, or over
+            } else {
                 track.from = gain_now(old[j]);
                 track.phase_rad = old[j].phase_rad;
-                last_[i] = given[j];
-                break;
             }
+            break;
         }
         tracks_[i] = track;
     }
@@ -142,17 +146,22 @@ int EffectSet::age(double dt_s) noexcept {
         Track &track = tracks_[i];
         track.age_s += dt_s;
         track.fade_s += dt_s;
-        track.phase_rad = std::fmod(track.phase_rad + kTurn_rad * track.effect.frequency_hz * dt_s,
-                                    kTurn_rad);
+        track.phase_rad =
+            std::fmod(track.phase_rad + kTurn_rad * track.effect.frequency_hz * dt_s, kTurn_rad);
         if (!track.ended && track.age_s >= track.effect.duration_s + fade_out_s_) {
             track.ended = true;
             ++ended;
         }
     }
-    while (count_ > 0 && tracks_[count_ - 1].ended) {
-        --count_;
-    }
     return ended;
+}
+
+bool EffectSet::empty() const noexcept {
+    bool over = leaving_part_ <= 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        over = over && tracks_[i].ended;
+    }
+    return over;
 }
 
 DofGains EffectSet::gain_now(const Track &track) const noexcept {

@@ -17,12 +17,12 @@ public:
     // Once a cycle, before accept(). Number of effects that ended in this cycle.
     int age(double dt_s) noexcept;
     Wrench render(const GripMotion &motion) noexcept;
-    [[nodiscard]] bool empty() const noexcept { return count_ == 0 && leaving_part_ <= 0.0; }
+    [[nodiscard]] bool empty() const noexcept;
 
 private:
     struct Track {
-        Effect effect; // as last given, capped
-        DofGains from{}; // gain at the time of the last change
+        Effect effect;       // as last given, capped
+        DofGains from{};     // gain at the time of the last change
         double fade_s = 0.0; // since then
         double age_s = 0.0;
         double phase_rad = 0.0;

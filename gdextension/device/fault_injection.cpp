@@ -1,5 +1,6 @@
 #include "device/fault_injection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,7 @@ constexpr double kTimeTolerance_s = 5e-7;
 } // namespace
 
 bool is_usable(const FaultInjection &fault) noexcept {
-    return fault.fault <= SimulatedFault::broken_string && fault.string >= 0 &&
+    return fault.fault <= SimulatedFault::blocked_output && fault.string >= 0 &&
            fault.string < kStringCount && std::isfinite(fault.start_s) && fault.start_s >= 0.0 &&
            std::isfinite(fault.duration_s);
 }
@@ -64,6 +65,40 @@ ActiveFaults FaultSchedule::at(double now_s) const noexcept {
             break;
         case SimulatedFault::broken_string:
             active.broken_mask |= bit;
+            break;
+        case SimulatedFault::hand_released:
+            active.hand_released = true;
+            break;
+        case SimulatedFault::jammed_drum:
+            active.jammed_mask |= bit;
+            break;
+        case SimulatedFault::slipped_string:
+            active.slip_m[static_cast<std::size_t>(faults_[i].injection.string)] =
+                std::min(kSlip_m, kSlipSpeed_m_s * (now - begin_s_[i]));
+            break;
+        case SimulatedFault::counts_reset:
+            active.counts_reset = true;
+            break;
+        case SimulatedFault::reversed_encoder:
+            active.reversed_mask |= bit;
+            break;
+        case SimulatedFault::swapped_encoders:
+            active.swapped_mask |= bit;
+            break;
+        case SimulatedFault::reports_lost:
+            active.reports_lost = true;
+            break;
+        case SimulatedFault::reports_repeated:
+            active.reports_repeated = true;
+            break;
+        case SimulatedFault::reports_swapped:
+            active.reports_swapped = true;
+            break;
+        case SimulatedFault::late_output:
+            active.late_output = true;
+            break;
+        case SimulatedFault::blocked_output:
+            active.blocked_output = true;
             break;
         }
     }

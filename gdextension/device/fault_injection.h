@@ -7,15 +7,29 @@
 namespace spidar {
 
 enum class SimulatedFault : std::uint8_t {
-    output_cut = 0,    // currents never reach the motors
-    frozen_counts = 1, // the encoders stand still
-    count_jump = 2,    // every count of string `string` is off by kCountJump
-    read_timeout = 3,  // no reports
-    unplugged = 4,     // open, read and write fail; motors without power
-    stuck_encoder = 5, // one string's count stands still
-    broken_string = 6, // one string pulls no more
+    output_cut = 0,        // currents never reach the motors
+    frozen_counts = 1,     // the encoders stand still
+    count_jump = 2,        // every count of string `string` is off by kCountJump
+    read_timeout = 3,      // no reports
+    unplugged = 4,         // open, read and write fail; motors without power
+    stuck_encoder = 5,     // one string's count stands still
+    broken_string = 6,     // one string pulls no more
+    hand_released = 7,     // nobody holds the grip
+    jammed_drum = 8,       // one drum is caught: its string goes slack or holds the grip back
+    slipped_string = 9,    // one count creeps away by kSlip_m, and stays off while the fault lasts
+    counts_reset = 10,     // the device restarts: counts and clock begin anew, and stay so
+    reversed_encoder = 11, // one string's count runs the wrong way from here on
+    swapped_encoders = 12, // the counts of this string and the next are exchanged
+    reports_lost = 13,     // one in a hundred
+    reports_repeated = 14, // one in a hundred comes a second time
+    reports_swapped = 15,  // one in fifty is overtaken by the next
+    late_output = 16,      // currents act 4 ms later
+    blocked_output = 17,   // currents do not arrive; the last ones go on
 };
 
+inline constexpr double kSlip_m = 0.020;
+inline constexpr double kSlipSpeed_m_s = 0.2;
+inline constexpr double kLateOutput_s = 0.004;
 inline constexpr std::int32_t kCountJump = 1000; // 25 mm with the paper's pulley
 inline constexpr int kMaxFaults = 8;
 
@@ -45,6 +59,17 @@ struct ActiveFaults {
     std::uint8_t jumped_mask = 0; // bit i: string i
     std::uint8_t stuck_mask = 0;
     std::uint8_t broken_mask = 0;
+    std::uint8_t jammed_mask = 0;
+    std::uint8_t reversed_mask = 0;
+    std::uint8_t swapped_mask = 0;
+    std::array<double, 8> slip_m{}; // of each string
+    bool hand_released = false;
+    bool counts_reset = false;
+    bool reports_lost = false;
+    bool reports_repeated = false;
+    bool reports_swapped = false;
+    bool late_output = false;
+    bool blocked_output = false;
 };
 
 // Runs faults on the simulated clock.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "device/render_settings.h"
 
@@ -18,9 +19,9 @@ struct GainClamp {
         grasp_stiffness = 5, // N m/rad of grasp_angle
         grasp_damping = 6,   // N m s/rad of grasp_angle
         friction = 7,
-        speed = 8,           // m/s or rad/s, of a plane or proxy
-        force = 9,           // N or N m, of a vibration
-        wrench = 10,         // the whole request, scaled: `asked` and `given` in parts of it
+        speed = 8,   // m/s or rad/s, of a plane or proxy
+        force = 9,   // N or N m, of a vibration
+        wrench = 10, // the whole request, scaled: `asked` and `given` in parts of it
     };
     enum class Request : std::uint8_t { contact, coupling, effect, wrench };
 
@@ -49,5 +50,9 @@ inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_
     }
     return std::copysign(cap, value);
 }
+
+// One sentence: what was asked, what is given, why, and the remedy. Empty when nothing was clamped. Allocates.
+[[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
+                                   double rate_hz);
 
 } // namespace spidar

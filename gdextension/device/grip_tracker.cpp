@@ -37,6 +37,11 @@ void GripTracker::restart() noexcept {
     grip_.status = Status::held_last_pose;
 }
 
+void GripTracker::set_zero(const CountArray &counts) noexcept {
+    strings_.zero_count = counts;
+    restart();
+}
+
 void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
     const double alpha = -std::expm1(-cutoff_rad_s_ * dt_s);
     Twist &twist = grip_.twist;

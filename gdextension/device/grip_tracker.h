@@ -15,6 +15,9 @@ public:
     // The next sample is solved from no memory; the twist starts again from zero.
     void restart() noexcept;
 
+    // These counts are those of the home pose: lengths start from them. Then as restart().
+    void set_zero(const CountArray &counts) noexcept;
+
     struct Update {
         Status status = Status::ok; // < 0: the pose is the last good one
         bool skipped = false;       // counts unchanged: nothing to solve

@@ -72,7 +72,8 @@ enum class EffectKind : std::uint8_t {
     constant = 1,  // gain as a wrench
     spring = 2,    // gain * (centre - pose)
     vibration = 3, // gain * sin(2 pi frequency t) as a wrench
-    detents = 4,   // valleys at centre + n * spacing, gain deep: the greatest force on the way out of one
+    detents =
+        4, // valleys at centre + n * spacing, gain deep: the greatest force on the way out of one
 };
 inline constexpr int kEffectKindCount = 5;
 // Bounds of a vibration: a string should buzz, not hammer.
@@ -88,13 +89,14 @@ struct Effect {
     std::uint8_t dof_mask = 0; // 0: no effect
     std::int32_t id = 0;       // persistent: the same id and kind carries on
     DofGains gain{};
-    Vec3 centre_m{0.0};         // spring, detents
-    Mat3 centre_rotation{1.0};  // spring, detents
+    Vec3 centre_m{0.0};        // spring, detents
+    Mat3 centre_rotation{1.0}; // spring, detents
     double centre_grasp_rad = 0.0;
     double frequency_hz = 0.0; // vibration
     DofGains spacing{};        // detents: m, rad
-    // Full for so long after effects_sequence changes, then faded like a wrench.
+    // Full for so long from when it came, or came with another `renewal`; then faded like a wrench.
     double duration_s = 0.0;
+    std::uint32_t renewal = 0;
 };
 
 struct HapticCommand {
@@ -103,6 +105,9 @@ struct HapticCommand {
     std::uint32_t arm_count = 0;
     std::uint32_t disarm_count = 0;
     std::uint32_t clear_fault_count = 0;
+    std::uint32_t zero_count = 0; // zero_at_home(): the grip is held at home
+    // Sign of life: the game changes it each frame. 0: nobody promised one, so nobody is missed.
+    std::uint32_t heartbeat = 0;
 
     // Raw wrench, full for wrench_duration_s after wrench_sequence changes, then faded.
     std::uint64_t wrench_sequence = 0;

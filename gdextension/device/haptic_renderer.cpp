@@ -13,8 +13,8 @@ void HapticRenderer::configure(const ServoSettings &settings) noexcept {
     const double share = render.passivity_share;
     const double linear = share * render.max_damping_n_s_m;
     const double turn = share * render.max_turn_damping_nm_s_rad;
-    controller_.configure({linear, linear, linear, turn, turn, turn,
-                           share * render.max_grasp_damping_nm_s_rad});
+    controller_.configure(
+        {linear, linear, linear, turn, turn, turn, share * render.max_grasp_damping_nm_s_rad});
     load_.force_n = -render.compensated_mass_kg * render.gravity_m_s2;
 }
 

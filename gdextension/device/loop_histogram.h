@@ -53,6 +53,14 @@ public:
         return std::min(std::exp2(0.5 * index + 0.25) * 1e-3, max_us());
     }
 
+    [[nodiscard]] std::uint32_t count(int bucket) const noexcept {
+        return buckets_[static_cast<std::size_t>(bucket)].load(std::memory_order_relaxed);
+    }
+    // Where a bucket begins; the next one ends it.
+    [[nodiscard]] static double begin_us(int bucket) noexcept {
+        return bucket > 0 ? std::exp2(0.5 * bucket) * 1e-3 : 0.0;
+    }
+
     [[nodiscard]] double max_us() const noexcept {
         return static_cast<double>(max_ns_.load(std::memory_order_relaxed)) * 1e-3;
     }

@@ -7,8 +7,8 @@ namespace spidar {
 
 namespace {
 
-// A slow part below this (N, N m) is over.
-constexpr double kNoForce = 1e-9;
+// A slow part below this (N, N m) is over: nobody feels it end.
+constexpr double kNoForce = 1e-5;
 
 DofGains lanes(const Wrench &w) noexcept {
     return {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,

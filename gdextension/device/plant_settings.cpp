@@ -46,6 +46,9 @@ std::string validate(const PlantSettings &settings) {
         {"grip_mass_kg", settings.grip_mass_kg, 0.0, 10.0, "kg"},
         {"grip_inertia_kg_m2", settings.grip_inertia_kg_m2, 0.0, 1.0, "kg m^2"},
         {"grasp_inertia_kg_m2", settings.grasp_inertia_kg_m2, 0.0, 1.0, "kg m^2"},
+        {"output_latency_s", settings.output_latency_s, 0.0, 0.02, "s"},
+        {"output_jitter_s", settings.output_jitter_s, 0.0, 0.005, "s"},
+        {"report_loss", settings.report_loss, 0.0, 0.5, "(share)"},
         {"hinge_open_rad", settings.hinge_open_rad, -kRightAngle_rad, 0.0, "rad"},
         {"hinge_closed_rad", settings.hinge_closed_rad, 0.0, kRightAngle_rad, "rad"},
     };

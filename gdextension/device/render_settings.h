@@ -34,8 +34,8 @@ struct RenderSettings {
     Vec3 gravity_m_s2{0.0, -9.80665, 0.0};
     // Taken off the tension of a string that is paid out, added to one that is wound in. A share below 1 of what
     // was measured: a friction that is more than compensated would push by itself.
-    double compensated_friction_n = 0.0;       // Coulomb
-    double compensated_viscous_n_s_m = 0.0;    // rotor and back-EMF
+    double compensated_friction_n = 0.0;    // Coulomb
+    double compensated_viscous_n_s_m = 0.0; // rotor and back-EMF
 };
 
 // Largest stable gains for a loop of this latency and rate, never above the settings' caps.

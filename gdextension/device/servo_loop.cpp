@@ -5,7 +5,6 @@
 #include <system_error>
 #include <vector>
 
-#include "device/loop_histogram.h"
 #include "device/real_time_thread.h"
 #include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
@@ -283,6 +282,14 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     statistics.missed_deadlines = impl.missed_deadlines.load(std::memory_order_relaxed);
     statistics.real_time_priority = impl.real_time_priority.load(std::memory_order_relaxed);
     return statistics;
+}
+
+std::array<std::uint32_t, LoopHistogram::kBuckets> ServoLoop::lateness_counts() const noexcept {
+    std::array<std::uint32_t, LoopHistogram::kBuckets> counts{};
+    for (int i = 0; i < LoopHistogram::kBuckets; ++i) {
+        counts[static_cast<std::size_t>(i)] = impl_->lateness.count(i);
+    }
+    return counts;
 }
 
 std::string ServoLoop::start_recording(const std::string &path) {

@@ -2,12 +2,14 @@
 // One controlling thread (the game's) calls everything here.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include "device/loop_histogram.h"
 #include "device/recording/recorder.h"
 #include "device/servo_step.h"
 #include "device/transport.h"
@@ -49,6 +51,9 @@ public:
     // The newest snapshot. True when it is newer than at the last call. Wait-free.
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept;
+    // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
+    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
+    lateness_counts() const noexcept;
     [[nodiscard]] Transport &transport() noexcept;
 
     // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;

@@ -24,9 +24,19 @@ struct SafetySettings {
     double read_timeout_fade_s = 0.005;  // no report for this long: wrench to zero in 20 ms
     double read_timeout_fault_s = 0.020; // motors off
     double max_grip_speed_m_s = 2.0;     // over-speed: motors off
+    double fade_grip_speed_m_s = 1.2;    // held for 3 ms: wrench to zero in 20 ms, back below it
+    double fade_turn_rate_rad_s = 15.0;  // the same for rotation
+    double max_turn_rate_rad_s = 30.0;   // over-speed: motors off
     double wrench_fade_s = 0.050;        // after its duration
     double contacts_full_s = 0.100;      // age to which contacts act in full
     double contacts_gone_s = 0.300;      // age at which they have faded out
+    double game_timeout_s = 0.5;         // no heartbeat of the game for this long: disarmed
+    double continuous_tension_n = 3.5;   // what a motor bears for ever
+    double thermal_time_s = 12.0;        // time constant of its winding
+    double string_error_fade_m = 0.002;  // lengths contradict each other anew by this: fade
+    double string_error_fault_m = 0.006; // for 50 ms: motors off
+    double workspace_margin_m = 0.01;    // soft wall this far inside the reach of the grip; 0: none
+    double hand_presence_s = 5.0;        // real devices: the grip moved within this before arming
 };
 
 struct ServoSettings {

@@ -16,6 +16,10 @@ const char *describe(DeviceState state) noexcept {
         return "Fading: the forces are falling to zero.";
     case DeviceState::fault:
         return "Fault: the motors are off until clear_fault() and arm().";
+    case DeviceState::taut:
+        return "Taut: the zero is being taken; move the grip to check it.";
+    case DeviceState::calibrated:
+        return "Calibrated: the zero is known, the strings are held taut.";
     }
     return "Unknown device state.";
 }

@@ -13,7 +13,9 @@
 
 namespace spidar {
 
-// CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED; FAULT is latched.
+// Simulated device: CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED.
+// Real device: CLOSED -> CONNECTED -> TAUT -> CALIBRATED -> ARMING -> ACTIVE -> FADING -> CALIBRATED.
+// FAULT is latched.
 enum class DeviceState : std::uint8_t {
     closed = 0,    // no device
     connected = 1, // reading; motors at zero
@@ -21,6 +23,8 @@ enum class DeviceState : std::uint8_t {
     active = 3,
     fading = 4, // forces fall, then connected
     fault = 5,  // motors off until clear_fault() and arm()
+    taut = 6,   // zero_at_home(): strings drawn taut, zero taken, then checked by moving the grip
+    calibrated = 7, // zero known; pretension keeps the strings taut, so that it stays known
 };
 [[nodiscard]] const char *describe(DeviceState state) noexcept;
 
@@ -54,6 +58,9 @@ struct ServoCounters {
     std::uint64_t saturated_ticks = 0; // strings at a bound changed the wrench
     std::uint64_t slewed_ticks = 0;    // the slew limit changed a tension
     std::uint64_t write_failures = 0;
+    std::uint64_t reports_missed = 0; // gaps in the device's sequence numbers
+    std::uint64_t old_reports = 0;    // repeated or out of order: left out
+    std::uint64_t faded_ticks = 0;    // a safety monitor scaled the wrench down
     std::uint64_t bad_time_steps = 0; // not in [1e-6, 0.05] s: taken as 1 / rate
     std::uint64_t gate_clamps =
         0; // a tension outside [0, max] or NaN reached the safety gate: a defect
@@ -74,7 +81,11 @@ struct ServoSnapshot {
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0; // arming ramp, 0..1
+    double force_scale = 0.0;    // arming ramp, 0..1
+    double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
+    double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
+    double parity_error_m = 0.0; // what no pose explains of the eight lengths
+    bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
     // Work done on the hand in each DOF since the start, by what was asked of the strings.

@@ -41,6 +41,10 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     if (!usable(solvable)) {
         return solvable;
     }
+    const Status watched = fresh.monitor_.configure(settings);
+    if (!usable(watched)) {
+        return watched;
+    }
     const SafetySettings &safety = settings.safety;
     fresh.settings_ = settings;
     fresh.nominal_dt_s_ = 1.0 / settings.rate_hz;
@@ -66,6 +70,10 @@ ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
     edges.arm = command.arm_count != arm_count_;
     edges.disarm = command.disarm_count != disarm_count_;
     edges.clear_fault = command.clear_fault_count != clear_fault_count_;
+    edges.zero = command.zero_count != zero_count_;
+    edges.heartbeat = command.heartbeat != heartbeat_ || command.heartbeat == 0;
+    zero_count_ = command.zero_count;
+    heartbeat_ = command.heartbeat;
     arm_count_ = command.arm_count;
     disarm_count_ = command.disarm_count;
     clear_fault_count_ = command.clear_fault_count;
@@ -73,6 +81,11 @@ ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
 }
 
 void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept {
+    if (!machine_.zero_known() && !machine_.checking_zero()) {
+        tracking_ = false; // lengths without a zero mean nothing
+        tracker_.hold(Status::zero_needed, dt_s, true);
+        return;
+    }
     const GripTracker::Update update = tracker_.update(counts, unchanged, dt_s);
     ServoCounters &counters = snapshot_.counters;
     counters.kinematics_skipped += update.skipped ? 1U : 0U;
@@ -81,6 +94,8 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
         matrix_valid_ = false;
     }
     if (usable(update.status)) {
+        fresh_ = true;
+        moved_ = update.moved;
         tracking_ = true;
         unsolved_in_row_ = 0;
         snapshot_.counts = counts;
@@ -93,7 +108,7 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
     tracker_.hold(update.status, dt_s, unsolved_in_row_ >= settings_.safety.max_bad_samples);
     // Without forces a grip that cannot be located harms nobody: it is reported, and arming waits for it.
     if (unsolved_in_row_ >= settings_.safety.max_bad_samples && machine_.motors_on()) {
-        machine_.raise(update.status, -1);
+        raise(update.status, -1);
     }
 }
 
@@ -102,14 +117,14 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
     ServoCounters &counters = snapshot_.counters;
     if (!usable(read_status) && read_status != Status::read_timeout) {
         tracking_ = false;
-        machine_.lose(read_status);
+        lose(read_status);
         tracker_.hold(read_status, dt_s, true);
         guard_.wait(dt_s);
         return;
     }
-    machine_.open();
-    if (read_status == Status::read_timeout) {
-        ++counters.read_timeouts;
+    machine_.open(reading.zeroed);
+    if (read_status == Status::read_timeout || !accept_report(reading)) {
+        counters.read_timeouts += read_status == Status::read_timeout ? 1U : 0U;
         guard_.wait(dt_s);
         since_report_s_ += dt_s;
         // Half a step of slack: sums of time steps carry rounding.
@@ -118,8 +133,11 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
         tracking_ = tracking_ && !stale;
         tracker_.hold(stale ? Status::read_timeout : Status::held_last_pose, dt_s, stale);
         link_scale_ = stale ? std::max(0.0, link_scale_ - dt_s / kLinkFade_s) : link_scale_;
+        if (stale && machine_.motors_on()) {
+            events_.tell(DeviceEventKind::reports_late, -1, since_report_s_);
+        }
         if (answered_ && since_report_s_ + slack_s >= safety.read_timeout_fault_s) {
-            machine_.raise(Status::read_timeout, -1);
+            raise(Status::read_timeout, -1);
         }
         return;
     }
@@ -136,17 +154,15 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
         break;
     case SampleGuard::Verdict::bad:
         ++counters.bad_samples;
+        events_.tell(DeviceEventKind::sample_refused, guard_.bad_string());
         tracker_.hold(Status::held_last_pose, dt_s, false);
         break;
     case SampleGuard::Verdict::jumped:
         ++counters.bad_samples;
         tracking_ = false;
         tracker_.hold(Status::count_jump, dt_s, true);
-        machine_.raise(Status::count_jump, guard_.bad_string());
+        raise(Status::count_jump, guard_.bad_string());
         break;
-    }
-    if (machine_.motors_on() && tracker_.fastest_point_m_s() > safety.max_grip_speed_m_s) {
-        machine_.raise(Status::over_speed, -1);
     }
 }
 
@@ -155,7 +171,7 @@ void ServoStep::add_rotor_compensation(StringArray &tensions_n) const noexcept {
     if (render.compensated_friction_n == 0.0 && render.compensated_viscous_n_s_m == 0.0) {
         return;
     }
-    const double ramp = machine_.scale();
+    const double ramp = machine_.tension_scale();
     const StringArray extra_n = rotor_compensation(render, matrix_, tracker_.grip().twist);
     for (std::size_t i = 0; i < tensions_n.size(); ++i) {
         tensions_n[i] = std::clamp(tensions_n[i] + ramp * extra_n[i], 0.0, max_tension_n_);
@@ -163,29 +179,32 @@ void ServoStep::add_rotor_compensation(StringArray &tensions_n) const noexcept {
 }
 
 DriveCommand ServoStep::drive(double dt_s) noexcept {
-    const Wrench asked =
-        renderer_.render(tracker_.grip(), tracker_.moved(), tracking_, dt_s);
+    const bool trusted = tracking_ && monitor_.velocity_trusted();
+    const Wrench rendered = renderer_.render(tracker_.grip(), tracker_.moved(), trusted, dt_s);
+    const Wrench asked = rendered + monitor_.wall(tracker_.grip());
     const double factor = limit_factor(asked, settings_.safety);
     if (factor < 1.0 && !limiting_) {
         ++snapshot_.counters.clamped_requests;
+        events_.tell(DeviceEventKind::request_limited);
     }
     limiting_ = factor < 1.0;
-    const double ramp = machine_.scale();
-    const double request_scale = factor * link_scale_;
+    rendering_ = to_paper(asked) != DofArray{};
+    const double ramp = machine_.tension_scale();
+    const double left = monitor_.wrench_scale();
+    snapshot_.counters.faded_ticks += left < 1.0 && machine_.motors_on() ? 1U : 0U;
+    const double request_scale = factor * link_scale_ * left * machine_.wrench_scale();
     // A factor of 0 means a sum that is not finite: 0 times it would still be NaN.
     const Wrench full = request_scale > 0.0 ? request_scale * asked : Wrench();
 
+    const bool taut = machine_.state() == DeviceState::taut;
     const bool on = machine_.motors_on() && tracker_.has_pose();
-    renderer_.given(on ? request_scale * ramp : 0.0, on ? ramp * full : Wrench(), dt_s);
+    const bool gives = on && !taut;
+    renderer_.given(gives ? request_scale * ramp : 0.0, gives ? ramp * full : Wrench(), dt_s);
+    if (taut) {
+        return hold_pretension(dt_s);
+    }
     if (!on) {
-        gate_.shut();
-        motors_were_on_ = false;
-        snapshot_.tensions_n = {};
-        snapshot_.requested = Wrench();
-        snapshot_.achieved = Wrench();
-        snapshot_.at_min_mask = 0;
-        snapshot_.at_max_mask = 0;
-        snapshot_.tension_status = Status::ok;
+        clear_outputs();
         return {};
     }
     if (!motors_were_on_) {
@@ -209,7 +228,11 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         solver_.set_last_tensions(gate.tensions_n);
     }
     snapshot_.counters.slewed_ticks += gate.slewed ? 1U : 0U;
-    snapshot_.counters.gate_clamps += gate.clamped ? 1U : 0U;
+    if (gate.clamped) {
+        ++snapshot_.counters.gate_clamps;
+        events_.tell(DeviceEventKind::impossible_tension);
+    }
+    monitor_.spend(gate.tensions_n, dt_s);
     snapshot_.counters.tension_skipped += result.skipped ? 1U : 0U;
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
@@ -219,13 +242,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status = result.status;
 
-    DriveCommand command;
-    command.motors_on = true;
-    command.currents_a = currents_from_tensions(settings_.motors, gate.tensions_n).current_a;
-    for (std::size_t i = 0; i < wanted_n.size(); ++i) {
-        command.tensions_n[i] = gate.tensions_n[i] / settings_.motors.tension_gain[i];
-    }
-    return command;
+    return command_for(gate.tensions_n);
 }
 
 void ServoStep::publish_state() noexcept {
@@ -233,6 +250,10 @@ void ServoStep::publish_state() noexcept {
     snapshot_.fault = machine_.fault();
     snapshot_.fault_string = static_cast<std::int8_t>(machine_.fault_string());
     snapshot_.force_scale = machine_.scale();
+    snapshot_.zero_known = machine_.zero_known();
+    snapshot_.safety_scale = monitor_.wrench_scale();
+    snapshot_.thermal_share = monitor_.heat().spent();
+    snapshot_.parity_error_m = monitor_.strings().parity_m();
     snapshot_.grip = tracker_.grip();
     snapshot_.grasp = grasp_.phase();
     renderer_.report(snapshot_);
@@ -241,30 +262,44 @@ void ServoStep::publish_state() noexcept {
 DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
                              const HapticCommand &command, double dt_s,
                              bool may_arm_itself) noexcept {
-    if (!(dt_s >= kShortestStep_s && dt_s <= kLongestStep_s)) {
+    simulated_ = may_arm_itself;
+    fresh_ = false;
+    moved_ = false;
+    const bool jumped = !(dt_s >= 0.0 && dt_s <= kLongestStep_s);
+    const double asked_dt_s = dt_s;
+    if (jumped || !(dt_s >= kShortestStep_s)) {
         dt_s = nominal_dt_s_;
         ++snapshot_.counters.bad_time_steps;
     }
     ++snapshot_.counters.ticks;
     snapshot_.time_s += dt_s;
+    events_.begin_cycle(snapshot_.time_s);
 
     const Edges edges = take_edges(command);
-    const bool answers = usable(read_status);
     if (edges.clear_fault && machine_.fault() != Status::ok) {
-        machine_.clear(answers);
-        guard_.reset();
-        tracker_.restart();
-        since_report_s_ = 0.0;
-        unsolved_in_row_ = 0;
+        clear_fault(usable(read_status));
     }
+    if (stop_asked_ != Status::ok) {
+        raise(stop_asked_, -1);
+        stop_asked_ = Status::ok;
+    }
+    if (jumped) {
+        jump_clock(asked_dt_s);
+    }
+    const std::uint64_t refused = snapshot_.counters.rejected_requests;
     renderer_.take(command, snapshot_.time_s, dt_s, snapshot_.counters);
+    if (snapshot_.counters.rejected_requests != refused) {
+        events_.tell(DeviceEventKind::request_refused);
+    }
     observe(read_status, reading, dt_s);
+    watch(dt_s);
+    check_zero(dt_s);
     if (tracking_) {
         grasp_.update(tracker_.grip().frame.grasp_angle_rad, dt_s);
     }
-    machine_.advance({command.forces_enabled, edges.arm, edges.disarm, tracking_, may_arm_itself},
-                     dt_s);
-    const DriveCommand output = drive(dt_s);
+    advance_state(command, edges, reading, dt_s);
+    DriveCommand output = drive(dt_s);
+    output.clear_faults = edges.clear_fault && !output.motors_on;
     publish_state();
     return output;
 }
@@ -274,13 +309,9 @@ void ServoStep::report_write(Status write_status) noexcept {
         return;
     }
     ++snapshot_.counters.write_failures;
-    machine_.lose(write_status);
-    gate_.shut();
-    motors_were_on_ = false;
+    lose(write_status);
     tracking_ = false;
-    snapshot_.tensions_n = {};
-    snapshot_.requested = Wrench();
-    snapshot_.achieved = Wrench();
+    clear_outputs();
     publish_state();
 }
 

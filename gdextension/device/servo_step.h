@@ -3,15 +3,19 @@
 #pragma once
 
 #include "core/tension_solver.h"
+#include "device/device_event.h"
 #include "device/device_state_machine.h"
 #include "device/grip_tracker.h"
 #include "device/haptic_command.h"
 #include "device/haptic_renderer.h"
+#include "device/report_order.h"
 #include "device/safety_gate.h"
+#include "device/safety_monitor.h"
 #include "device/sample_guard.h"
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
 #include "device/transport.h"
+#include "device/zero_check.h"
 
 namespace spidar {
 
@@ -32,18 +36,42 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
+    // Switches the motors off in the next step, latched. For the caller's own watchdogs.
+    void stop_motors(Status why) noexcept { stop_asked_ = why; }
+
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
+    // What happened in the last step.
+    [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }
 
 private:
     struct Edges {
         bool arm = false;
         bool disarm = false;
         bool clear_fault = false;
+        bool zero = false;
+        bool heartbeat = false;
     };
     Edges take_edges(const HapticCommand &command) noexcept;
+    void clear_fault(bool answers) noexcept;
+    void jump_clock(double asked_dt_s) noexcept;
+    // False: an old report, or none of this device's.
+    bool accept_report(const DeviceReading &reading) noexcept;
     void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
     void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
+    void watch(double dt_s) noexcept;
+    void check_zero(double dt_s) noexcept;
+    void take_zero(const CountArray &counts) noexcept;
+    void advance_state(const HapticCommand &command, const Edges &edges,
+                       const DeviceReading &reading, double dt_s) noexcept;
+    void tell_state() noexcept;
+    void tell_fault(Status why, int string) noexcept;
+    void raise(Status why, int string) noexcept;
+    void lose(Status why) noexcept;
     DriveCommand drive(double dt_s) noexcept;
+    DriveCommand hold_pretension(double dt_s) noexcept;
+    [[nodiscard]] DriveCommand command_for(const StringArray &tensions_n) const noexcept;
+    void clear_reports() noexcept;
+    void clear_outputs() noexcept;
     void publish_state() noexcept;
     void add_rotor_compensation(StringArray &tensions_n) const noexcept;
 
@@ -57,18 +85,33 @@ private:
     DeviceStateMachine machine_;
     TensionSolver solver_;
     SafetyGate gate_;
+    SafetyMonitor monitor_;
+    ReportOrder order_;
+    ZeroCheck zero_check_;
+    EventLog events_;
     WrenchMatrix matrix_{};
     bool matrix_valid_ = false; // of the present pose
     bool motors_were_on_ = false;
-    bool limiting_ = false; // the sum of all requests is being brought down
-    bool tracking_ = false; // the newest sample gave a pose
-    bool answered_ = false; // any reading yet
+    bool limiting_ = false;  // the sum of all requests is being brought down
+    bool tracking_ = false;  // the newest sample gave a pose
+    bool answered_ = false;  // any reading yet
+    bool fresh_ = false;     // a good sample in this cycle
+    bool moved_ = false;     // with another pose
+    bool rendering_ = false; // a wrench was asked for in the last cycle
+    bool simulated_ = false;
+    bool device_zeroed_ = true; // as the device said last
+    Status stop_asked_ = Status::ok;
+    DeviceState told_state_ = DeviceState::closed;
+    double since_beat_s_ = 0.0; // of the game
+    std::uint64_t device_time_us_ = 0;
     double since_report_s_ = 0.0;
     int unsolved_in_row_ = 0; // samples without a pose
     double link_scale_ = 1.0; // of the wrench, while reports fail to come
     std::uint32_t arm_count_ = 0;
     std::uint32_t disarm_count_ = 0;
     std::uint32_t clear_fault_count_ = 0;
+    std::uint32_t zero_count_ = 0;
+    std::uint32_t heartbeat_ = 0;
     ServoSnapshot snapshot_{};
 };
 

@@ -17,6 +17,9 @@ constexpr double kSeriesLimit = 0.05;
 constexpr double kArrivedDistance = 1e-10; // m, rad
 constexpr double kArrivedSpeed = 1e-9;     // m/s, rad/s
 
+// A gram keeps a grip without mass of its own from dividing by zero.
+constexpr HandImpedance kNoHand{1e-3, 0.0, 0.0, 1e-6, 0.0, 0.0, 2.5e-7, 0.0, 0.0};
+
 bool is_finite(const Vec3 &v) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -114,7 +117,15 @@ void SimulatedHand::set_target(const HandTarget &target) noexcept {
 }
 
 void SimulatedHand::set_firmness(HandFirmness firmness) noexcept {
-    impedance_ = impedance_of(firmness);
+    firmness_ = firmness;
+    impedance_ = released_ ? kNoHand : impedance_of(firmness);
+}
+
+void SimulatedHand::set_released(bool released) noexcept {
+    if (released != released_) {
+        released_ = released;
+        set_firmness(firmness_);
+    }
 }
 
 void SimulatedHand::advance(double dt_s) noexcept {

@@ -80,6 +80,8 @@ public:
     // An unusable target changes nothing.
     void set_target(const HandTarget &target) noexcept;
     void set_firmness(HandFirmness firmness) noexcept;
+    // Let go: no spring, no damper and next to no mass, until it holds again.
+    void set_released(bool released) noexcept;
 
     // Moves the path on.
     void advance(double dt_s) noexcept;
@@ -96,6 +98,8 @@ public:
 
 private:
     HandImpedance impedance_ = kNormalHand;
+    HandFirmness firmness_ = HandFirmness::normal;
+    bool released_ = false;
     HandPath path_;
     Vec3 target_position_m_{0.0};
     Quat target_rotation_{1.0, 0.0, 0.0, 0.0};

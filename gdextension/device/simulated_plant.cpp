@@ -208,6 +208,10 @@ void SimulatedPlant::step_rotors(const StringForces &forces) noexcept {
             take_up = std::clamp(kTakeUpStiffness_n_m * slack + take_up_damping_n_s_m_ * closing,
                                  0.0, kTakeUpForce_n);
         }
+        if (has_bit(jammed_, i)) {
+            rotor_speeds_m_s_[i] = 0.0;
+            continue;
+        }
         const double drive = motor_tensions_n_[i] + take_up; // winds in
         // Friction is implicit: viscous as a factor, Coulomb as the impulse that at most stops the rotor.
         // So it is stable, holds in stiction, and is exactly nothing when its coefficient is.

@@ -41,6 +41,10 @@ struct PlantSettings {
     double hinge_open_rad = -80.0 * 0.017453292519943295; // hinge stops, grasp_angle
     double hinge_closed_rad = 80.0 * 0.017453292519943295;
     HandFirmness firmness = HandFirmness::normal;
+    // The link to the host. Currents act this late, plus a random delay of this mean; a share of reports is lost.
+    double output_latency_s = 0.0;
+    double output_jitter_s = 0.0;
+    double report_loss = 0.0;
 };
 
 // What really is, beside what the encoders say.
@@ -84,6 +88,10 @@ public:
     void set_hand_firmness(HandFirmness firmness) noexcept { hand_.set_firmness(firmness); }
     // Held until the next call. A current that is not >= 0 gives 0 A; above max_current_a, that.
     void set_currents(const StringArray &currents_a) noexcept;
+    // The grip alone: the hand puts nothing on it, until it holds it again.
+    void set_hand_released(bool released) noexcept { hand_.set_released(released); }
+    // Bit i: the drum of string i is caught: it neither pays out nor winds in.
+    void set_jammed_strings(std::uint8_t mask) noexcept { jammed_ = mask; }
     // Bit i: string i is broken: it pulls no more, and its motor winds the loose end in.
     void set_broken_strings(std::uint8_t mask) noexcept;
 
@@ -120,6 +128,7 @@ private:
     SimulatedHand hand_;
     HandTarget target_; // brought within reach
     std::uint8_t broken_ = 0;
+    std::uint8_t jammed_ = 0;
 
     // Precomputed.
     StringArray newtons_per_ampere_{};

@@ -1,4 +1,5 @@
-// The border to a device: encoder counts in, motor currents out. One thread owns a transport.
+// The border to a device: encoder counts in, motor currents out. One thread owns a transport; only write() of
+// one that says write_may_block() may run in a second thread at the same time.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,10 @@ struct DeviceReading {
     std::uint64_t device_time_us = 0; // the device's own clock; 0 when it has none
     std::uint16_t sequence = 0;
     std::uint8_t buttons = 0;
+    // False: the counts have no reference yet (a real device before it was zeroed, or plugged in anew).
+    bool zeroed = true;
+    // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
+    Status device_status = Status::ok;
 };
 
 // What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and
@@ -23,6 +28,8 @@ struct DriveCommand {
     StringArray tensions_n{};
     StringArray currents_a{};
     bool motors_on = false; // false: currents are zero and the device may cut power
+    bool clear_faults =
+        false; // acts only with motors_on false: the device may forget latched faults
 };
 
 class Transport {
@@ -40,6 +47,9 @@ public:
     // The newest reading. read_timeout: nothing new (reading untouched); read_failed: device lost.
     virtual Status read(DeviceReading &reading) noexcept = 0;
     virtual Status write(const DriveCommand &command) noexcept = 0;
+
+    // write() waits for the device, for seconds if that hangs: keep it out of the loop's thread.
+    [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
 
     // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
     virtual void advance(double dt_s) noexcept { (void)dt_s; }

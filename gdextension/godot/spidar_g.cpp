@@ -172,6 +172,10 @@ void SpidarG::open_device() {
     problem_ = read_resources();
     // Even a refused device is retried when a resource changes.
     set_physics_process_internal(true);
+    if (!replay_path_.empty()) {
+        open_replay();
+        return;
+    }
     if (!problem_.empty()) {
         refuse_to_open(Status::invalid_settings, problem_);
         return;
@@ -224,6 +228,7 @@ void SpidarG::close_device() {
         loop_->stop(); // motors off, thread joined, then the handle
         loop_.reset();
         simulated_ = nullptr;
+        replay_ = nullptr;
     }
     claim_.release();
     snapshot_.state = DeviceState::closed;
@@ -292,6 +297,7 @@ void SpidarG::pull_snapshot() {
     if (loop_->latest(snapshot_)) {
         emit_edges(before);
     }
+    watch_recordings();
 }
 
 void SpidarG::emit_edges(const spidar::ServoSnapshot &before) {

@@ -10,7 +10,8 @@ using godot::Variant;
 // Godot's enums are the core's, number for number.
 static_assert(static_cast<int>(spidar::DeviceState::fault) == SpidarG::STATE_FAULT);
 static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRASP_OVER_CLOSED);
-static_assert(static_cast<int>(spidar::ContactTarget::grasp_stop) == SpidarG::CONTACT_GRASP_STOP);
+static_assert(static_cast<int>(spidar::ContactTarget::turn_stop) == SpidarG::CONTACT_TURN_STOP);
+static_assert(static_cast<int>(spidar::kAllDof) == SpidarG::DOF_ALL);
 static_assert(static_cast<int>(spidar::HandFirmness::firm) == SpidarG::HAND_FIRM);
 static_assert(static_cast<int>(spidar::SimulatedFault::broken_string) ==
               SpidarG::FAULT_BROKEN_STRING);
@@ -20,6 +21,8 @@ void SpidarG::_bind_methods() {
     bind_setup();
     bind_state();
     bind_requests();
+    bind_effects();
+    bind_recording();
     bind_simulated();
 }
 
@@ -107,6 +110,20 @@ void SpidarG::bind_requests() {
     ClassDB::bind_method(D_METHOD("get_touching_contacts"), &SpidarG::get_touching_contacts);
 }
 
+void SpidarG::bind_recording() {
+    ClassDB::bind_method(D_METHOD("start_recording", "path"), &SpidarG::start_recording);
+    ClassDB::bind_method(D_METHOD("stop_recording"), &SpidarG::stop_recording);
+    ClassDB::bind_method(D_METHOD("is_recording"), &SpidarG::is_recording);
+    ClassDB::bind_method(D_METHOD("get_recording_statistics"), &SpidarG::get_recording_statistics);
+    ClassDB::bind_method(D_METHOD("start_replay", "path"), &SpidarG::start_replay);
+    ClassDB::bind_method(D_METHOD("stop_replay"), &SpidarG::stop_replay);
+    ClassDB::bind_method(D_METHOD("is_replaying"), &SpidarG::is_replaying);
+    ClassDB::bind_method(D_METHOD("get_replay_statistics"), &SpidarG::get_replay_statistics);
+    ADD_SIGNAL(MethodInfo("recording_failed", PropertyInfo(Variant::STRING, "message")));
+    ADD_SIGNAL(MethodInfo("replay_finished", PropertyInfo(Variant::BOOL, "identical"),
+                          PropertyInfo(Variant::STRING, "message")));
+}
+
 void SpidarG::bind_simulated() {
     ClassDB::bind_method(D_METHOD("simulated_hand_target", "target", "grasp_angle"),
                          &SpidarG::simulated_hand_target);
@@ -139,6 +156,17 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(CONTACT_POLE2_PLUS);
     BIND_ENUM_CONSTANT(CONTACT_POLE2_MINUS);
     BIND_ENUM_CONSTANT(CONTACT_GRASP_STOP);
+    BIND_ENUM_CONSTANT(CONTACT_TURN_STOP);
+    BIND_ENUM_CONSTANT(DOF_X);
+    BIND_ENUM_CONSTANT(DOF_Y);
+    BIND_ENUM_CONSTANT(DOF_Z);
+    BIND_ENUM_CONSTANT(DOF_LINEAR);
+    BIND_ENUM_CONSTANT(DOF_TURN_X);
+    BIND_ENUM_CONSTANT(DOF_TURN_Y);
+    BIND_ENUM_CONSTANT(DOF_TURN_Z);
+    BIND_ENUM_CONSTANT(DOF_ANGULAR);
+    BIND_ENUM_CONSTANT(DOF_GRASP);
+    BIND_ENUM_CONSTANT(DOF_ALL);
     BIND_ENUM_CONSTANT(HAND_LIGHT);
     BIND_ENUM_CONSTANT(HAND_NORMAL);
     BIND_ENUM_CONSTANT(HAND_FIRM);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "bench/daqp_clock.h"
 #include "bench/methods/dense_gauss_newton.h"
 #include "bench/methods/paper_polynomials.h"
+#include "bench/repeated_times.h"
 #include "core/closed_form.h"
 #include "core/crossed_step.h"
 #include "core/forward_kinematics.h"
@@ -18,7 +21,7 @@ namespace spidar::bench {
 
 namespace {
 
-constexpr int kTicks = 20000;
+constexpr std::size_t kTicks = 20000;
 constexpr double kPeriod_s = 1e-3;
 constexpr std::uint64_t kSeed = 1;
 // A pose this far off has failed, where lengths are good; with noise, this many standard deviations.
@@ -53,14 +56,16 @@ double distance(const GripPose &a, const GripPose &b) {
 
 // One method on one set: times, worst error, failures.
 struct Entry {
-    SampleTimes times{kTicks};
-    double worst_m = 0.0;
-    long failures = 0;
+    explicit Entry(std::size_t ticks) : times(ticks) {}
 
     template <typename Method>
-    void run(const Method &method, const GripPose &truth, double failure_m) {
+    void run(const Method &method, std::size_t tick, bool judge, const GripPose &truth,
+             double failure_m) {
         GripPose pose;
-        times.time([&] { pose = method(); });
+        times.time(tick, [&] { pose = method(); });
+        if (!judge) {
+            return;
+        }
         const double error_m = distance(pose, truth);
         if (!(error_m <= failure_m)) { // NaN too
             ++failures;
@@ -69,6 +74,10 @@ struct Entry {
             worst_m = std::max(worst_m, error_m);
         }
     }
+
+    RepeatedTimes times;
+    double worst_m = 0.0;
+    long failures = 0;
 };
 
 // Plain steps of ours from the pose of the last tick: no foreseeing, no gates.
@@ -84,41 +93,70 @@ CrossedPose plain_steps(const CrossedLayout &layout, const StringArray &lengths_
 
 class Bench {
 public:
-    explicit Bench(const LengthSet &set) : set_(set) {
+    explicit Bench(const LengthSet &set)
+        : set_(set), ticks_(limited(kTicks)), entries_(kEntries, Entry(ticks_)), daqp_(ticks_) {
         usable_ = usable(warm_.configure(frame_, grip_)) &&
                   usable(cold_.configure(frame_, grip_)) && make_layout(frame_, grip_, layout_);
-        const GripPose start = pose_t1(grip_, 0.0);
-        warm_.set_last_pose(start);
-        plain_.fill(lanes_of(start));
-        shipped_ = {frame_, grip_, start, 1e-3, 2};
-        undamped_ = {frame_, grip_, start, 1e-9, 2};
-    }
-
-    bool run() {
         std::mt19937_64 engine(kSeed);
         std::normal_distribution<double> normal;
-        const double failure_m =
-            std::max(kFailure_m, set_.noise_m > 0.0 ? kFailureSigmas * set_.noise_m : 0.0);
-        for (int tick = 1; tick <= kTicks && usable_; ++tick) {
-            const GripPose truth = pose_t1(grip_, kPeriod_s * tick);
-            StringArray lengths = string_lengths(frame_, grip_, truth);
+        for (std::size_t tick = 0; tick < ticks_; ++tick) {
+            truths_.push_back(pose_t1(grip_, kPeriod_s * static_cast<double>(tick + 1)));
+            StringArray lengths = string_lengths(frame_, grip_, truths_.back());
             for (double &length : lengths) {
                 length = set_.noise_m < 0.0
                              ? kPaperMetresPerCount * std::round(length / kPaperMetresPerCount)
                              : length + set_.noise_m * normal(engine);
             }
-            run_methods(lengths, truth, failure_m);
+            lengths_m_.push_back(lengths);
         }
-        return usable_;
+    }
+
+    bool run() {
+        const double failure_m =
+            std::max(kFailure_m, set_.noise_m > 0.0 ? kFailureSigmas * set_.noise_m : 0.0);
+        if (!usable_) {
+            return false;
+        }
+        in_turns(ticks_, kEntries + daqp_.methods(),
+                 [&](int run, std::size_t method, std::size_t tick) {
+                     if (method >= kEntries) {
+                         daqp_.time(method - kEntries, tick);
+                         return;
+                     }
+                     if (tick == 0) {
+                         start(method);
+                     }
+                     run_method(method, run, tick, failure_m);
+                 });
+        return true;
     }
 
     void report(std::vector<BenchRow> &rows) {
+        const std::size_t first = rows.size();
         for (std::size_t i = 0; i < kEntries; ++i) {
-            BenchRow row = make_row(kNames[i].method, set_.name, kNames[i].mode, entries_[i].times);
+            BenchRow row;
+            row.method = kNames[i].method;
+            row.set = set_.name;
+            row.mode = kNames[i].mode;
+            entries_[i].times.fill(row);
             row.worst_error = entries_[i].worst_m;
             row.failures = entries_[i].failures;
-            print_row(row);
             rows.push_back(row);
+        }
+        if (daqp_.ready()) {
+            BenchRow warm = daqp_.warm_row();
+            BenchRow cold = daqp_.cold_row();
+            warm.method += std::string(", beside ") + set_.name;
+            cold.method += std::string(", beside ") + set_.name;
+            for (std::size_t i = first; i < rows.size(); ++i) {
+                rows[i].ratio_to_daqp =
+                    rows[i].median_ns / (rows[i].mode == "cold" ? cold : warm).median_ns;
+            }
+            rows.push_back(warm);
+            rows.push_back(cold);
+        }
+        for (std::size_t i = first; i < rows.size(); ++i) {
+            print_row(rows[i]);
         }
     }
 
@@ -132,7 +170,7 @@ private:
         const char *method;
         const char *mode;
     };
-    static constexpr std::size_t kEntries = 12;
+    static constexpr std::size_t kEntries = 11;
     static constexpr Name kNames[kEntries] = {{"ours", "warm"},
                                               {"ours", "cold"},
                                               {"ours, plain", "1 step"},
@@ -143,50 +181,78 @@ private:
                                               {"paper, polynomial division", "cold"},
                                               {"paper, cubic", "cold"},
                                               {"closed form, upright pair", "cold"},
-                                              {"closed form, best of four", "cold"},
-                                              {"an empty call", "clock"}};
+                                              {"closed form, best of four", "cold"}};
 
-    void run_methods(const StringArray &lengths, const GripPose &truth, double failure_m) {
+    // From the pose before the first tick, in each run.
+    void start(std::size_t method) {
+        const GripPose pose = pose_t1(grip_, 0.0);
+        if (method == 0) {
+            warm_.reset();
+            warm_.set_last_pose(pose);
+        } else if (method >= 2 && method < 2 + plain_.size()) {
+            plain_[method - 2] = lanes_of(pose);
+        } else if (method == 5) {
+            shipped_ = {frame_, grip_, pose, 1e-3, 2};
+        } else if (method == 6) {
+            undamped_ = {frame_, grip_, pose, 1e-9, 2};
+        }
+    }
+
+    void run_method(std::size_t method, int run, std::size_t tick, double failure_m) {
         const Vec3 box(kPaperHalfExtent_m);
         const double d = grip_.pole_half_length_m;
-        const auto entry = [&](std::size_t i, const auto &method) {
-            entries_[i].run(method, truth, failure_m);
+        const StringArray &lengths = lengths_m_[tick];
+        const auto entry = [&](const auto &call) {
+            entries_[method].run(call, tick, run == 0, truths_[tick], failure_m);
         };
-        entry(0, [&] { return warm_.update(lengths).pose; });
-        entry(1, [&] { return cold_.solve_cold(lengths).pose; });
-        for (std::size_t steps = 1; steps <= plain_.size(); ++steps) {
-            entry(1 + steps, [&] {
-                CrossedPose &pose = plain_[steps - 1];
-                pose = plain_steps(layout_, lengths, pose, static_cast<int>(steps));
+        switch (method) {
+        case 0:
+            return entry([&] { return warm_.update(lengths).pose; });
+        case 1:
+            return entry([&] { return cold_.solve_cold(lengths).pose; });
+        case 2:
+        case 3:
+        case 4:
+            return entry([&] {
+                CrossedPose &pose = plain_[method - 2];
+                pose = plain_steps(layout_, lengths, pose, static_cast<int>(method) - 1);
                 return pose_of(pose);
             });
-        }
-        entry(5, [&] {
-            shipped_.update(lengths);
-            return shipped_.pose;
-        });
-        entry(6, [&] {
-            undamped_.update(lengths);
-            return undamped_.pose;
-        });
-        entry(7, [&] { return paper_division(box, d, lengths); });
-        entry(8, [&] { return paper_cubic(box, d, lengths); });
-        entry(9, [&] { return closed_form_pose(box, d, lengths, 0); });
-        entry(10, [&] {
-            const ClosedForm form = solve_closed_form(box, d, lengths);
-            RootPairPose best = root_pair_pose(form, 0);
-            for (int pair = 1; pair < kRootPairCount; ++pair) {
-                const RootPairPose other = root_pair_pose(form, pair);
-                if (other.misfit_m < best.misfit_m) {
-                    best = other;
+        case 5:
+            return entry([&] {
+                shipped_.update(lengths);
+                return shipped_.pose;
+            });
+        case 6:
+            return entry([&] {
+                undamped_.update(lengths);
+                return undamped_.pose;
+            });
+        case 7:
+            return entry([&] { return paper_division(box, d, lengths); });
+        case 8:
+            return entry([&] { return paper_cubic(box, d, lengths); });
+        case 9:
+            return entry([&] { return closed_form_pose(box, d, lengths, 0); });
+        default:
+            return entry([&] {
+                const ClosedForm form = solve_closed_form(box, d, lengths);
+                RootPairPose best = root_pair_pose(form, 0);
+                for (int pair = 1; pair < kRootPairCount; ++pair) {
+                    const RootPairPose other = root_pair_pose(form, pair);
+                    if (other.misfit_m < best.misfit_m) {
+                        best = other;
+                    }
                 }
-            }
-            return pose_of(best.pose);
-        });
-        entry(11, [&] { return truth; });
+                return pose_of(best.pose);
+            });
+        }
     }
 
     LengthSet set_;
+    std::size_t ticks_;
+    std::vector<GripPose> truths_;
+    std::vector<StringArray> lengths_m_;
     FrameGeometry frame_ = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip_;
     CrossedLayout layout_;
@@ -195,7 +261,8 @@ private:
     std::array<CrossedPose, 3> plain_{};
     DenseGaussNewton shipped_;
     DenseGaussNewton undamped_;
-    std::array<Entry, kEntries> entries_;
+    std::vector<Entry> entries_;
+    DaqpClock daqp_;
     bool usable_ = false;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "bench/repeated_times.h"
 #include "device/recording/recorder.h"
 #include "device/servo_step.h"
 #include "device/triple_buffer.h"
@@ -26,7 +27,6 @@ constexpr int kTicksPerRest = 500;
 constexpr std::chrono::milliseconds kRest{30};
 // What the loop may pay for a recording, against the same loop without.
 constexpr double kMostRatio = 1.15;
-constexpr double kMedian = 0.5;
 
 // What the servo thread does between read and write, and for the game.
 struct Loop {
@@ -65,6 +65,15 @@ DeviceReading reading_at(const ServoSettings &settings, int tick) {
     return reading;
 }
 
+BenchRow row_of(const char *mode, const RepeatedTimes &times) {
+    BenchRow row;
+    row.method = "cycle";
+    row.set = "recording";
+    row.mode = mode;
+    times.fill(row);
+    return row;
+}
+
 } // namespace
 
 int bench_recording(std::vector<BenchRow> &rows) {
@@ -98,8 +107,8 @@ int bench_recording(std::vector<BenchRow> &rows) {
         plane.offset_m = -0.02;
         plane.id = i;
     }
-    SampleTimes off(kTicks);
-    SampleTimes on(kTicks);
+    RepeatedTimes off(kTicks);
+    RepeatedTimes on(kTicks);
     for (int tick = 0; tick < kWarmUpTicks + kTicks; ++tick) {
         if (tick % kTicksPerRest == 0) {
             std::this_thread::sleep_for(kRest);
@@ -115,26 +124,29 @@ int bench_recording(std::vector<BenchRow> &rows) {
         const DeviceReading reading = reading_at(settings, tick);
         const auto without = [&] { plain->cycle(reading, command); };
         const auto with = [&] { recorded->recorded_cycle(reading, command, frame, recorder); };
+        const auto timed = static_cast<std::size_t>(tick - kWarmUpTicks);
         if (tick < kWarmUpTicks) {
             without();
             with();
         } else if (tick % 2 == 0) { // neither always finds the other's caches
-            off.time(without);
-            on.time(with);
+            off.time(timed, without);
+            on.time(timed, with);
         } else {
-            on.time(with);
-            off.time(without);
+            on.time(timed, with);
+            off.time(timed, without);
         }
     }
     recorder.close();
     const RecorderStatistics statistics = recorder.statistics();
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
-    rows.push_back(make_row("cycle", "recording", "off", off));
-    print_row(rows.back());
-    rows.push_back(make_row("cycle", "recording", "on", on));
-    print_row(rows.back());
-    const double ratio = on.quantile_ns(kMedian) / off.quantile_ns(kMedian);
+    const BenchRow off_row = row_of("off", off);
+    const BenchRow on_row = row_of("on", on);
+    for (const BenchRow &row : {off_row, on_row}) {
+        rows.push_back(row);
+        print_row(row);
+    }
+    const double ratio = on_row.median_ns / off_row.median_ns;
     std::printf("recording: %.3f times the cycle without (limit %.2f), %.1f bytes a cycle, %llu "
                 "cycles lost\n",
                 ratio, kMostRatio,

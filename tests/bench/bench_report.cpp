@@ -61,26 +61,13 @@ std::string processor_name() {
 
 } // namespace
 
-BenchRow make_row(const std::string &method, const std::string &set, const std::string &mode,
-                  SampleTimes &times) {
-    BenchRow row;
-    row.method = method;
-    row.set = set;
-    row.mode = mode;
-    row.median_ns = times.quantile_ns(0.5);
-    row.p99_ns = times.quantile_ns(0.99);
-    row.p999_ns = times.quantile_ns(0.999);
-    row.max_ns = times.quantile_ns(1.0);
-    return row;
-}
-
 void print_header(const char *title) {
-    std::printf("\n%s\n%-36s %-12s %-8s %8s %8s %8s %8s %7s %10s %9s\n", title, "method", "set",
+    std::printf("\n%s\n%-38s %-12s %-8s %8s %8s %8s %8s %7s %10s %9s\n", title, "method", "set",
                 "mode", "median", "p99", "p99.9", "max ns", "x daqp", "worst err", "failures");
 }
 
 void print_row(const BenchRow &row) {
-    std::printf("%-36s %-12s %-8s %8s %8s %8s %8s %7s %10s %9ld\n", row.method.c_str(),
+    std::printf("%-38s %-12s %-8s %8s %8s %8s %8s %7s %10s %9ld\n", row.method.c_str(),
                 row.set.c_str(), row.mode.c_str(), text_of("%.0f", row.median_ns).c_str(),
                 text_of("%.0f", row.p99_ns).c_str(), text_of("%.0f", row.p999_ns).c_str(),
                 text_of("%.0f", row.max_ns).c_str(), text_of("%.3f", row.ratio_to_daqp).c_str(),

@@ -9,7 +9,8 @@
 
 #include "bench/allocation_count.h"
 #include "bench/bench_recording.h"
-#include "bench/sample_times.h"
+#include "bench/daqp_clock.h"
+#include "bench/repeated_times.h"
 #include "core/forward_kinematics.h"
 #include "core/tension_solver.h"
 #include "core/wrench_matrix.h"
@@ -21,10 +22,10 @@ namespace spidar::bench {
 
 namespace {
 
-constexpr int kTicks = 20000;
+constexpr std::size_t kTicks = 20000;
 constexpr double kPeriod_s = 1e-3;
 // Long enough for arming and every ramp.
-constexpr int kWarmUpTicks = 3000;
+constexpr std::size_t kWarmUpTicks = 3000;
 // A step that allocates even once has broken its promise.
 constexpr std::size_t kAllocationsAllowed = 0;
 
@@ -65,9 +66,14 @@ ServoSettings ideal_settings() {
     return settings;
 }
 
-void add_row(std::vector<BenchRow> &rows, const char *name, const char *mode, SampleTimes &times) {
-    rows.push_back(make_row(name, "step", mode, times));
-    print_row(rows.back());
+void add_row(std::vector<BenchRow> &rows, const char *name, const char *mode,
+             const RepeatedTimes &times) {
+    BenchRow row;
+    row.method = name;
+    row.set = "step";
+    row.mode = mode;
+    times.fill(row);
+    rows.push_back(row);
 }
 
 struct StepCase {
@@ -77,82 +83,114 @@ struct StepCase {
     int contacts;
 };
 
-bool run_step_case(const ServoSettings &settings, const StepCase &step_case,
-                   std::vector<BenchRow> &rows) {
-    auto step = std::make_unique<ServoStep>();
-    if (!usable(step->configure(settings))) {
-        return false;
-    }
-    HapticCommand command;
-    command.forces_enabled = step_case.forces;
-    command.contact_count = step_case.contacts;
-    for (int i = 0; i < step_case.contacts; ++i) {
-        ContactPlane &plane = command.contacts[static_cast<std::size_t>(i)];
-        const double angle = 0.7 * i;
-        plane.normal = Vec3(std::sin(angle), std::cos(angle), 0.0);
-        plane.offset_m = -0.02;
-        plane.id = i;
-    }
-    SampleTimes times(kTicks);
-    DeviceReading reading;
-    std::size_t allocated = 0;
-    for (int tick = 0; tick < kWarmUpTicks + kTicks; ++tick) {
-        reading.counts = counts_of(
-            settings, moving_pose(settings.grip, step_case.moving ? kPeriod_s * tick : 0.3));
-        if (tick % 16 == 0 && step_case.forces) {
-            ++command.wrench_sequence;
-            command.wrench = {Vec3(std::sin(0.01 * tick), 1.0, 0.0), Vec3(0.0, 0.02, 0.0), 0.01};
-            command.wrench_duration_s = 0.1;
-            ++command.contacts_sequence;
+// All ticks of one case, from a fresh step; DAQP takes its turn after each block of them.
+class StepRun {
+public:
+    StepRun(const ServoSettings &settings, const StepCase &step_case)
+        : settings_(settings), step_case_(step_case) {
+        command_.forces_enabled = step_case.forces;
+        command_.contact_count = step_case.contacts;
+        for (int i = 0; i < step_case.contacts; ++i) {
+            ContactPlane &plane = command_.contacts[static_cast<std::size_t>(i)];
+            const double angle = 0.7 * i;
+            plane.normal = Vec3(std::sin(angle), std::cos(angle), 0.0);
+            plane.offset_m = -0.02;
+            plane.id = i;
         }
-        const auto call = [&] { step->step(Status::ok, reading, command, kPeriod_s, true); };
-        if (tick < kWarmUpTicks) {
-            call();
-            continue;
+    }
+
+    bool run(std::size_t ticks, RepeatedTimes &times, DaqpClock &daqp) {
+        auto step = std::make_unique<ServoStep>();
+        if (!usable(step->configure(settings_))) {
+            return false;
         }
-        const std::size_t before = allocations().count;
-        times.time(call);
-        allocated += allocations().count - before;
+        std::size_t allocated = 0;
+        for (std::size_t tick = 0; tick < kWarmUpTicks + ticks; ++tick) {
+            prepare(tick);
+            const auto call = [&] { step->step(Status::ok, reading_, command_, kPeriod_s, true); };
+            if (tick < kWarmUpTicks) {
+                call();
+                continue;
+            }
+            const std::size_t timed = tick - kWarmUpTicks;
+            const std::size_t before = allocations().count;
+            times.time(timed, call);
+            allocated += allocations().count - before;
+            if ((timed + 1) % kBlock == 0) {
+                daqp.time_block(timed + 1 - kBlock, timed + 1);
+            }
+        }
+        if (allocated > kAllocationsAllowed) {
+            std::printf("  FAILED: %zu allocations inside the steps\n", allocated);
+            return false;
+        }
+        const DeviceState wanted = step_case_.forces ? DeviceState::active : DeviceState::connected;
+        if (step->snapshot().state != wanted) {
+            std::printf("  FAILED: state %s\n", describe(step->snapshot().state));
+            return false;
+        }
+        return true;
+    }
+
+private:
+    void prepare(std::size_t tick) {
+        const double t = kPeriod_s * static_cast<double>(tick);
+        reading_.counts =
+            counts_of(settings_, moving_pose(settings_.grip, step_case_.moving ? t : 0.3));
+        if (tick % 16 == 0 && step_case_.forces) {
+            ++command_.wrench_sequence;
+            command_.wrench = {Vec3(std::sin(10.0 * t), 1.0, 0.0), Vec3(0.0, 0.02, 0.0), 0.01};
+            command_.wrench_duration_s = 0.1;
+            ++command_.contacts_sequence;
+        }
+    }
+
+    const ServoSettings &settings_;
+    StepCase step_case_;
+    DeviceReading reading_;
+    HapticCommand command_;
+};
+
+bool run_step_case(const ServoSettings &settings, const StepCase &step_case, std::size_t ticks,
+                   DaqpClock &daqp, std::vector<BenchRow> &rows) {
+    RepeatedTimes times(ticks);
+    bool good = true;
+    for (int run = 0; run < kRuns; ++run) {
+        good = StepRun(settings, step_case).run(ticks, times, daqp) && good;
     }
     add_row(rows, step_case.name, step_case.moving ? "moving" : "at rest", times);
-    if (allocated > kAllocationsAllowed) {
-        std::printf("  FAILED: %zu allocations inside the steps\n", allocated);
-        return false;
-    }
-    const DeviceState wanted = step_case.forces ? DeviceState::active : DeviceState::connected;
-    if (step->snapshot().state != wanted) {
-        std::printf("  FAILED: state %s\n", describe(step->snapshot().state));
-        return false;
-    }
-    return true;
+    return good;
 }
 
-void run_computations(const ServoSettings &settings, std::vector<BenchRow> &rows) {
-    ForwardKinematics kinematics;
-    TensionSolver solver;
-    kinematics.configure(settings.frame, settings.grip);
-    solver.configure(settings.tension);
-    SampleTimes warm(kTicks);
-    SampleTimes cold(kTicks);
-    SampleTimes matrix_times(kTicks);
-    SampleTimes tension(kTicks);
-    for (int tick = 0; tick < kTicks; ++tick) {
-        const double t = kPeriod_s * tick;
-        const StringArray lengths = lengths_from_counts(
-            settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
-        KinematicsResult result;
-        warm.time([&] { result = kinematics.update(lengths); });
-        ForwardKinematics fresh = kinematics;
-        cold.time([&] { fresh.solve_cold(lengths); });
-        WrenchMatrix matrix;
-        matrix_times.time(
-            [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
-        const DofArray wrench = {
-            2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
-        tension.time([&] { solver.update(matrix, wrench); });
+void run_computations(const ServoSettings &settings, std::size_t ticks,
+                      std::vector<BenchRow> &rows) {
+    RepeatedTimes warm(ticks);
+    RepeatedTimes cold(ticks);
+    RepeatedTimes matrix_times(ticks);
+    RepeatedTimes tension(ticks);
+    for (int run = 0; run < kRuns; ++run) {
+        ForwardKinematics kinematics;
+        TensionSolver solver;
+        kinematics.configure(settings.frame, settings.grip);
+        solver.configure(settings.tension);
+        for (std::size_t tick = 0; tick < ticks; ++tick) {
+            const double t = kPeriod_s * static_cast<double>(tick);
+            const StringArray lengths = lengths_from_counts(
+                settings.strings, counts_of(settings, moving_pose(settings.grip, t)));
+            KinematicsResult result;
+            warm.time(tick, [&] { result = kinematics.update(lengths); });
+            ForwardKinematics fresh = kinematics;
+            cold.time(tick, [&] { fresh.solve_cold(lengths); });
+            WrenchMatrix matrix;
+            matrix_times.time(
+                tick, [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
+            const DofArray wrench = {
+                2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
+            tension.time(tick, [&] { solver.update(matrix, wrench); });
+        }
     }
     add_row(rows, "forward kinematics", "warm", warm);
-    add_row(rows, "forward kinematics, closed form", "cold", cold);
+    add_row(rows, "forward kinematics", "cold", cold);
     add_row(rows, "wrench matrix", "-", matrix_times);
     add_row(rows, "tension solver", "warm", tension);
 }
@@ -179,21 +217,30 @@ bool report_memory(const ServoSettings &settings) {
 
 int bench_step(std::vector<BenchRow> &rows) {
     const ServoSettings settings = ideal_settings();
-    print_header("one servo step, and its parts");
+    const std::size_t ticks = limited(kTicks);
+    const std::size_t first = rows.size();
+    DaqpClock daqp(ticks);
     bool good = true;
     for (const StepCase &step_case :
          {StepCase{"step, forces off", false, false, 0},
           StepCase{"step, forces off", true, false, 0}, StepCase{"step, wrench", false, true, 0},
           StepCase{"step, wrench", true, true, 0},
+          StepCase{"step, wrench and 4 contacts", true, true, 4},
           StepCase{"step, wrench and 8 contacts", true, true, kMaxContacts}}) {
-        good = run_step_case(settings, step_case, rows) && good;
+        good = run_step_case(settings, step_case, ticks, daqp, rows) && good;
     }
-    run_computations(settings, rows);
-    SampleTimes empty(kTicks);
-    for (int i = 0; i < kTicks; ++i) {
-        empty.time([] {});
+    run_computations(settings, ticks, rows);
+    if (daqp.ready()) {
+        const BenchRow warm = daqp.warm_row();
+        for (std::size_t i = first; i < rows.size(); ++i) {
+            rows[i].ratio_to_daqp = rows[i].median_ns / warm.median_ns;
+        }
+        rows.push_back(warm);
     }
-    add_row(rows, "(an empty call: the clock itself)", "-", empty);
+    print_header("one servo step, and its parts; ratios to one warm tension solve by DAQP");
+    for (std::size_t i = first; i < rows.size(); ++i) {
+        print_row(rows[i]);
+    }
     good = report_memory(settings) && good;
     good = bench_recording(rows) == 0 && good;
     return good ? 0 : 1;

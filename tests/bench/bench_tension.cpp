@@ -1,12 +1,11 @@
 #include "bench/bench_tension.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <memory>
 
+#include "bench/library_peers.h"
+#include "bench/repeated_times.h"
 #include "bench/tension_peers.h"
 #include "bench/tension_sets.h"
 #include "support/exact_optimum.h"
@@ -15,48 +14,12 @@ namespace spidar::bench {
 
 namespace {
 
-constexpr int kRuns = 4; // the least of them counts: it was not interrupted
-// The methods take turns at this many problems: the machine's moods meet all alike, and each runs with warm caches.
-constexpr std::size_t kBlock = 200;
 // A tension further from the optimum than this is a failure, whatever the method says of itself.
 constexpr double kWrong_n = 1e-3;
 
-#if defined(__x86_64__)
-std::uint64_t ticks() {
-    __builtin_ia32_lfence();
-    const std::uint64_t now = __builtin_ia32_rdtsc();
-    __builtin_ia32_lfence();
-    return now;
-}
-#else
-std::uint64_t ticks() {
-    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-}
-#endif
-
-double ns_per_tick() {
-    const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t from = ticks();
-    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(50)) {
-    }
-    const std::uint64_t to = ticks();
-    const std::chrono::duration<double, std::nano> passed =
-        std::chrono::steady_clock::now() - start;
-    return passed.count() / static_cast<double>(to - from);
-}
-
-// What the two reads of the counter cost themselves.
-std::uint64_t empty_call() {
-    std::uint64_t least = ~std::uint64_t{0};
-    for (int i = 0; i < 1000; ++i) {
-        const std::uint64_t from = ticks();
-        least = std::min(least, ticks() - from);
-    }
-    return least;
-}
-
 struct Record {
-    std::vector<std::uint64_t> ticks;
+    explicit Record(std::size_t problems) : times(problems) {}
+    RepeatedTimes times;
     double worst_n = 0.0;
     long failures = 0;
 };
@@ -75,66 +38,31 @@ void include_error(Record &record, const TensionProblem &problem, bool solved,
     record.failures += solved && in_bounds && error <= kWrong_n ? 0 : 1;
 }
 
-void time_one(const TensionProblem &problem, const StringArray &exact_n, bool warm, bool judge,
-              std::size_t place, TensionMethod &method, Record &record) {
-    static const std::uint64_t nothing = empty_call();
-    StringArray tensions{};
-    const std::uint64_t from = ticks();
-    const bool solved = method.solve(problem, warm, tensions);
-    const std::uint64_t spent = ticks() - from;
-    record.ticks[place] = std::min(record.ticks[place], spent > nothing ? spent - nothing : 0);
-    if (judge) {
-        include_error(record, problem, solved, tensions, exact_n);
-    }
-}
-
-double quantile(std::vector<double> &sorted, double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
-}
-
-bool is_daqp(const std::string &name) {
-    return name.rfind("DAQP", 0) == 0;
-}
-
 bool is_ours(const std::string &name) {
     return name.rfind("ours", 0) == 0;
 }
 
 long run_set(const TensionSet &set, const std::vector<StringArray> &exact, bool warm,
-             std::vector<std::unique_ptr<TensionMethod>> &methods, double tick_ns,
-             std::vector<BenchRow> &rows) {
-    std::vector<Record> records(methods.size());
-    for (auto &record : records) {
-        record.ticks.assign(set.problems.size(), ~std::uint64_t{0});
-    }
-    for (int run = 0; run < kRuns; ++run) {
-        for (std::size_t from = 0; from < set.problems.size(); from += kBlock) {
-            const std::size_t to = std::min(from + kBlock, set.problems.size());
-            for (std::size_t m = 0; m < methods.size(); ++m) {
-                for (std::size_t p = from; p < to; ++p) {
-                    time_one(set.problems[p], exact[p], warm && p > 0, run == 0, p, *methods[m],
-                             records[m]);
-                }
-            }
+             std::vector<std::unique_ptr<TensionMethod>> &methods, std::vector<BenchRow> &rows) {
+    std::vector<Record> records(methods.size(), Record(set.problems.size()));
+    in_turns(set.problems.size(), methods.size(), [&](int run, std::size_t m, std::size_t p) {
+        StringArray tensions{};
+        bool solved = false;
+        records[m].times.time(
+            p, [&] { solved = methods[m]->solve(set.problems[p], warm && p > 0, tensions); });
+        if (run == 0) {
+            include_error(records[m], set.problems[p], solved, tensions, exact[p]);
         }
-    }
+    });
     const std::size_t first_row = rows.size();
     double daqp_ns = HUGE_VAL;
     long our_failures = 0;
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        std::vector<double> times;
-        for (const std::uint64_t t : records[m].ticks) {
-            times.push_back(static_cast<double>(t) * tick_ns);
-        }
-        std::sort(times.begin(), times.end());
         BenchRow row;
         row.method = methods[m]->name();
         row.set = set.name;
         row.mode = warm ? "warm" : "cold";
-        row.median_ns = quantile(times, 0.5);
-        row.p99_ns = quantile(times, 0.99);
-        row.p999_ns = quantile(times, 0.999);
-        row.max_ns = times.back();
+        records[m].times.fill(row);
         row.worst_error = records[m].worst_n;
         row.failures = records[m].failures;
         if (is_daqp(row.method)) {
@@ -144,7 +72,7 @@ long run_set(const TensionSet &set, const std::vector<StringArray> &exact, bool 
         rows.push_back(row);
     }
     for (std::size_t r = first_row; r < rows.size(); ++r) {
-        rows[r].ratio_to_daqp = rows[r].median_ns / daqp_ns;
+        rows[r].ratio_to_daqp = std::isfinite(daqp_ns) ? rows[r].median_ns / daqp_ns : kNoFigure;
         print_row(rows[r]);
     }
     return our_failures;
@@ -154,10 +82,6 @@ long run_set(const TensionSet &set, const std::vector<StringArray> &exact, bool 
 
 int bench_tension(std::vector<BenchRow> &rows) {
     std::vector<std::unique_ptr<TensionMethod>> methods = tension_methods();
-    if (methods.empty()) {
-        return 1;
-    }
-    const double tick_ns = ns_per_tick();
     print_header("tension solvers; ratios to the fastest DAQP of the same set and mode");
     long failures = 0;
     for (const TensionSet &set : tension_sets()) {
@@ -169,9 +93,9 @@ int bench_tension(std::vector<BenchRow> &rows) {
             exact.push_back(truth.exact_n);
         }
         if (set.smooth) {
-            failures += run_set(set, exact, true, methods, tick_ns, rows);
+            failures += run_set(set, exact, true, methods, rows);
         }
-        failures += run_set(set, exact, false, methods, tick_ns, rows);
+        failures += run_set(set, exact, false, methods, rows);
     }
     return failures == 0 ? 0 : 1;
 }

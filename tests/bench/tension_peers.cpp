@@ -2,67 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
+#include <utility>
 
-#include <dlfcn.h>
-
+#include "bench/library_peers.h"
+#include "bench/quadratic.h"
 #include "core/simd_level.h"
-
-#if defined(__x86_64__)
-#define SPIDAR_BENCH_AVX2 __attribute__((target("avx2,fma"), optimize("O3", "fp-contract=fast")))
-#else
-#define SPIDAR_BENCH_AVX2
-#endif
 
 namespace spidar::bench {
 
 namespace {
 
-constexpr std::size_t kStrings = 8;
-constexpr std::size_t kDofs = 7;
-typedef double Wide __attribute__((vector_size(32)));
-
-// H and f of 1/2 x'Hx + f'x, for the peers that want them. Built with AVX2 for all, so that no peer pays for ours.
-struct Quadratic {
-    alignas(32) double h[kStrings][kStrings];
-    alignas(32) double f[kStrings];
-};
-
-SPIDAR_BENCH_AVX2 void build_quadratic(const TensionProblem &p, Quadratic &q) {
-    alignas(32) double rows[kDofs][kStrings];
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        for (std::size_t k = 0; k < kDofs; ++k) {
-            rows[k][i] = p.weights[k] * p.matrix.columns[i][k];
-        }
-    }
-    Wide f0{};
-    Wide f1{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        const double b = -p.weights[k] * p.wrench[k];
-        const auto *row = reinterpret_cast<const Wide *>(rows[k]);
-        f0 += row[0] * b;
-        f1 += row[1] * b;
-    }
-    auto *f = reinterpret_cast<Wide *>(q.f);
-    f[0] = f0;
-    f[1] = f1;
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        Wide h0{};
-        Wide h1{};
-        for (std::size_t k = 0; k < kDofs; ++k) {
-            const auto *row = reinterpret_cast<const Wide *>(rows[k]);
-            h0 += row[0] * rows[k][i];
-            h1 += row[1] * rows[k][i];
-        }
-        auto *h = reinterpret_cast<Wide *>(q.h[i]);
-        h[0] = h0;
-        h[1] = h1;
-    }
-    for (std::size_t i = 0; i < kStrings; ++i) {
-        q.h[i][i] += p.proximal_weight;
-        q.f[i] -= p.proximal_weight * p.proximal_target_n[i];
-    }
-}
+constexpr std::size_t kStrings = kStringCount;
+constexpr std::size_t kDofs = kDofCount;
 
 class Ours : public TensionMethod {
 public:
@@ -83,47 +35,6 @@ private:
     SimdLevel level_;
     bool safe_only_;
     ActiveSet last_{};
-};
-
-class Daqp : public TensionMethod {
-public:
-    Daqp(const std::string &name, void *library, bool quick)
-        : TensionMethod(name), quick_(quick),
-          create_(reinterpret_cast<Create>(dlsym(library, "peer_create"))),
-          solve_(reinterpret_cast<Solve>(dlsym(library, "peer_solve"))),
-          free_(reinterpret_cast<Free>(dlsym(library, "peer_free"))) {}
-    ~Daqp() override {
-        if (handle_ != nullptr) {
-            free_(handle_);
-        }
-    }
-    Daqp(const Daqp &) = delete;
-    Daqp &operator=(const Daqp &) = delete;
-
-    bool solve(const TensionProblem &problem, bool warm, StringArray &tensions_n) override {
-        build_quadratic(problem, quadratic_);
-        upper_ = problem.upper_n;
-        lower_ = problem.lower_n;
-        if (handle_ == nullptr) {
-            handle_ = create_(&quadratic_.h[0][0], quadratic_.f, upper_.data(), lower_.data());
-        }
-        return handle_ != nullptr &&
-               solve_(handle_, warm ? 1 : 0, quick_ ? 1 : 0, tensions_n.data()) > 0;
-    }
-
-private:
-    using Create = void *(*)(double *, double *, double *, double *);
-    using Solve = int (*)(void *, int, int, double *);
-    using Free = void (*)(void *);
-
-    bool quick_;
-    Create create_;
-    Solve solve_;
-    Free free_;
-    void *handle_ = nullptr;
-    Quadratic quadratic_{};
-    StringArray upper_{};
-    StringArray lower_{};
 };
 
 // x of H x = -f by Cholesky (LDL').
@@ -347,20 +258,8 @@ private:
 } // namespace
 
 std::vector<std::unique_ptr<TensionMethod>> tension_methods() {
+    std::vector<std::unique_ptr<TensionMethod>> daqp = daqp_methods();
     std::vector<std::unique_ptr<TensionMethod>> methods;
-    std::vector<std::pair<std::string, void *>> libraries;
-    for (const char *build : {"plain", "avx2"}) {
-        const std::string path = std::string("build/daqp/libdaqp_") + build + ".so";
-        void *library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (library == nullptr) {
-            std::fprintf(stderr,
-                         "spidar_bench: %s is missing: run python3 tests/bench/fetch_daqp.py, then "
-                         "this from the root of the repository.\n",
-                         path.c_str());
-            return {};
-        }
-        libraries.emplace_back(build, library);
-    }
     if (supports(SimdLevel::avx512)) {
         methods.push_back(std::make_unique<Ours>("ours, AVX-512", SimdLevel::avx512, false));
     }
@@ -368,16 +267,12 @@ std::vector<std::unique_ptr<TensionMethod>> tension_methods() {
         methods.push_back(std::make_unique<Ours>("ours, AVX2", SimdLevel::avx2, false));
     }
     methods.push_back(std::make_unique<Ours>("ours, 16-byte vectors", SimdLevel::plain, false));
-    for (const auto &[build, library] : libraries) {
-        if (build == "avx2" && !supports(SimdLevel::avx2)) {
-            continue;
-        }
-        methods.push_back(std::make_unique<Daqp>("DAQP 0.11.0, " + build, library, false));
-        methods.push_back(
-            std::make_unique<Daqp>("DAQP 0.11.0, " + build + ", quick look", library, true));
-    }
+    std::move(daqp.begin(), daqp.end(), std::back_inserter(methods));
     methods.push_back(std::make_unique<Ours>("ours, safe search alone", SimdLevel::plain, true));
     methods.push_back(std::make_unique<BoundedQr>());
+    for (auto &other : other_library_methods()) {
+        methods.push_back(std::move(other));
+    }
     methods.push_back(std::make_unique<Clamp>());
     methods.push_back(std::make_unique<ProjectedGaussSeidel>());
     return methods;

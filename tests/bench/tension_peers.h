@@ -24,8 +24,7 @@ private:
     std::string name_;
 };
 
-// Ours in every build this processor runs, the safe search alone, DAQP, and the simple ones. Empty, with a sentence on
-// stderr, when DAQP is not there.
+// Ours in every build this processor runs, the safe search alone, the libraries that are there, and the simple ones.
 [[nodiscard]] std::vector<std::unique_ptr<TensionMethod>> tension_methods();
 
 } // namespace spidar::bench

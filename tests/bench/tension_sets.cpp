@@ -171,6 +171,15 @@ TensionProblem with_tiny_weight(TensionProblem problem) {
     return problem;
 }
 
+constexpr std::uint64_t kSetSeed = 20240611;
+
+TensionSet trajectory_set(std::size_t rows) {
+    TensionSet set = set_of(
+        "S2", rows, [](std::size_t i) { return on_trajectory(1e-3 * static_cast<double>(i)); });
+    set.smooth = true;
+    return set;
+}
+
 // As TensionSolver makes it: ridge, pretension and change from the last tick.
 TensionSet at_shipped_settings(const TensionSet &trajectory) {
     const TensionSettings s;
@@ -195,12 +204,19 @@ TensionSet at_shipped_settings(const TensionSet &trajectory) {
 
 } // namespace
 
+TensionSet shipped_trajectory_set(std::size_t problems) {
+    return at_shipped_settings(trajectory_set(problems));
+}
+
+TensionSet feasible_set(std::size_t problems) {
+    test::Random random(kSetSeed); // S1 is the first to draw
+    return set_of("S1", problems, [&](std::size_t) { return random_feasible(random); });
+}
+
 std::vector<TensionSet> tension_sets() {
-    test::Random random(20240611);
+    test::Random random(kSetSeed);
     std::vector<TensionSet> sets;
-    TensionSet trajectory = set_of(
-        "S2", kRows, [](std::size_t i) { return on_trajectory(1e-3 * static_cast<double>(i)); });
-    trajectory.smooth = true;
+    TensionSet trajectory = trajectory_set(kRows);
     sets.push_back(at_shipped_settings(trajectory));
     sets.push_back(std::move(trajectory));
     sets.push_back(set_of("S1", kRows, [&](std::size_t) { return random_feasible(random); }));

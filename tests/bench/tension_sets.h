@@ -17,5 +17,8 @@ struct TensionSet {
 
 // Seeded: the same problems in each run.
 [[nodiscard]] std::vector<TensionSet> tension_sets();
+// The first problems of "S2 shipped" and of "S1".
+[[nodiscard]] TensionSet shipped_trajectory_set(std::size_t problems);
+[[nodiscard]] TensionSet feasible_set(std::size_t problems);
 
 } // namespace spidar::bench

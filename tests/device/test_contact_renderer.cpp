@@ -164,7 +164,8 @@ TEST_CASE("contact: in a wedge the force leads to the nearest allowed point") {
                               Vec3(0.003, 0.0, -0.004), Vec3(-0.0001, 0.0, -0.003)}) {
             Vec3 nearest(0.0);
             double least_m = 1.0;
-            const Vec3 candidates[] = {Vec3(0.0, p.y, 0.0), p - glm::dot(left.normal, p) * left.normal,
+            const Vec3 candidates[] = {Vec3(0.0, p.y, 0.0),
+                                       p - glm::dot(left.normal, p) * left.normal,
                                        p - glm::dot(right.normal, p) * right.normal};
             for (const Vec3 &q : candidates) {
                 const bool allowed =
@@ -208,7 +209,8 @@ TEST_CASE("contact: a closed path in contact gains no energy from several planes
         const Wrench w = still.tick(pose_at(0.5 * (t0 + t1)));
         const double step_j =
             glm::dot(w.force_n, b.pose.position_m - a.pose.position_m) +
-            glm::dot(w.moment_nm, rotation_log(b.frame.rotation * glm::transpose(a.frame.rotation))) +
+            glm::dot(w.moment_nm,
+                     rotation_log(b.frame.rotation * glm::transpose(a.frame.rotation))) +
             w.grasp_torque_nm * (b.frame.grasp_angle_rad - a.frame.grasp_angle_rad);
         work_j += step_j;
         passed_j += std::abs(step_j);

@@ -60,7 +60,8 @@ TEST_CASE("coupling: a spring in each of seven DOF, only where the mask says") {
             } else {
                 rig.coupling.grasp_angle_rad = away;
             }
-            rig.coupling.dof_mask = masked ? static_cast<std::uint8_t>(kAllDof & ~(1U << dof)) : kAllDof;
+            rig.coupling.dof_mask =
+                masked ? static_cast<std::uint8_t>(kAllDof & ~(1U << dof)) : kAllDof;
             const Wrench w = rig.play(100);
             const double given[] = {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
                                     w.moment_nm.y, w.moment_nm.z, w.grasp_torque_nm};

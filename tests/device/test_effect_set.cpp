@@ -88,7 +88,7 @@ TEST_CASE("effects: constant force, spring to a point, and their sum") {
 TEST_CASE("effects: a vibration swings at its frequency and never beyond the bound") {
     Rig rig;
     Effect buzz = effect_of(EffectKind::vibration, 0.0);
-    buzz.gain[0] = 50.0; // far too much
+    buzz.gain[0] = 50.0;      // far too much
     buzz.frequency_hz = 47.0; // never exactly zero in a cycle
     const GainClamp clamp = rig.give({buzz});
     CHECK(clamp.gain == GainClamp::Gain::force);
@@ -147,6 +147,7 @@ TEST_CASE("effects: begin, change and end over one game period; the same id carr
     rig.give({force});
     smooth(1.6);
     force.gain[0] = -1.6;
+    force.renewal = 1;
     rig.give({force});
     smooth(-1.6);
     rig.give({});
@@ -170,6 +171,12 @@ TEST_CASE("effects: last as long as asked, then fade; the end is counted once") 
     }
     CHECK(ended == 1);
     CHECK(rig.set.empty());
+    // Sent again with others it stays over; renewed it begins again.
+    rig.give({force});
+    CHECK(rig.play(kFaded).force_n.x == 0.0);
+    force.renewal = 1;
+    rig.give({force});
+    CHECK(rig.play(kFaded).force_n.x == doctest::Approx(1.0));
 }
 
 TEST_CASE("effects: every valid set gives a finite wrench; what would drive the hand is refused") {
@@ -184,6 +191,7 @@ TEST_CASE("effects: every valid set gives a finite wrench; what would drive the 
             effect.kind = static_cast<EffectKind>(random() % kEffectKindCount);
             effect.dof_mask = static_cast<std::uint8_t>(random() % 128);
             effect.id = static_cast<std::int32_t>(random() % 3);
+            effect.renewal = static_cast<std::uint32_t>(random() % 2);
             for (std::size_t i = 0; i < effect.gain.size(); ++i) {
                 effect.gain[i] = odd();
                 effect.spacing[i] = std::abs(odd());

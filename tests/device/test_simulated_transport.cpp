@@ -273,7 +273,7 @@ TEST_CASE("fault: eight at a time; places come free; malformed ones are refused"
     CHECK_FALSE(m.device.inject({SimulatedFault::count_jump, 0, nan, 0.0}));
     CHECK_FALSE(m.device.inject({SimulatedFault::count_jump, 0, -1.0, 0.0}));
     CHECK_FALSE(m.device.inject({SimulatedFault::count_jump, 0, 0.0, nan}));
-    CHECK_FALSE(m.device.inject({static_cast<SimulatedFault>(7), 0, 0.0, 0.0}));
+    CHECK_FALSE(m.device.inject({static_cast<SimulatedFault>(18), 0, 0.0, 0.0}));
     const CountArray sound = m.device.home_counts();
     m.device.set_hand_target(HandTarget{});
     for (int i = 0; i < 2000; ++i) {

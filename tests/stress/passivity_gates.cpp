@@ -82,7 +82,9 @@ constexpr double kLost = 1e9; // a rig that faulted fails every gate
 double tap_work(const Case &one) {
     HapticRig rig(rig_for(one));
     const std::vector<ContactPlane> walls = walls_at_rest(0, kPlane_n_m, kPlane_n_s_m);
-    rig.game = [&](const ServoSnapshot &, HapticCommand &command) { give_contacts(command, walls); };
+    rig.game = [&](const ServoSnapshot &, HapticCommand &command) {
+        give_contacts(command, walls);
+    };
     constexpr int kTaps = 5;
     constexpr int kParts = 100; // of one tap of half a second
     double worst_j = -1e300;
@@ -214,8 +216,7 @@ double moving_wall_error(const Case &one, bool turning) {
         const double depth_m = wall.offset_m - glm::dot(wall.normal, truth.pose.position_m);
         const double closing_m_s =
             glm::dot(wall.normal, wall.velocity_m_s - truth.twist.linear_m_s);
-        const double push_n =
-            std::max(0.0, kPlane_n_m * depth_m + kPlane_n_s_m * closing_m_s);
+        const double push_n = std::max(0.0, kPlane_n_m * depth_m + kPlane_n_s_m * closing_m_s);
         const Vec3 ideal_n = push_n * wall.normal;
         const Vec3 error = now.requested.force_n - ideal_n;
         error_n2 += glm::dot(error, error);
@@ -271,7 +272,8 @@ int main(int argc, char **argv) {
         }
     }
     std::vector<Case> cases;
-    for (const HandFirmness hand : {HandFirmness::light, HandFirmness::normal, HandFirmness::firm}) {
+    for (const HandFirmness hand :
+         {HandFirmness::light, HandFirmness::normal, HandFirmness::firm}) {
         for (const double friction_n : {0.0, 0.1}) {
             for (const double latency_s : {0.00025, 0.001, 0.002}) {
                 for (const double game_hz : {30.0, 60.0, 120.0, 144.0}) {

@@ -41,12 +41,12 @@ RigSettings rig_for(const Variant &variant, HandFirmness hand, double latency_s)
 
 bool holds_still(const Variant &variant, HandFirmness hand, double latency_s, int dof,
                  double stiffness_n_m) {
-    const double damping_n_s_m =
-        variant.damping_n_s_m + variant.damping_time_s * stiffness_n_m;
-    const double part = dof == kAllWalls ? 0.5 : 1.0; // seven at once stay within the strings' force
-    const PressResult result = press(rig_for(variant, hand, latency_s),
-                                     walls_at_rest(dof, stiffness_n_m, damping_n_s_m),
-                                     press_target(dof, part));
+    const double damping_n_s_m = variant.damping_n_s_m + variant.damping_time_s * stiffness_n_m;
+    const double part =
+        dof == kAllWalls ? 0.5 : 1.0; // seven at once stay within the strings' force
+    const PressResult result =
+        press(rig_for(variant, hand, latency_s), walls_at_rest(dof, stiffness_n_m, damping_n_s_m),
+              press_target(dof, part));
     return result.active && result.dither_m < kStill_m && result.dither_rad < kStill_rad;
 }
 
@@ -84,14 +84,11 @@ struct Target {
     const char *unit;
     double wanted;
 };
-constexpr Target kTargets[] = {{0, "plane, x", "N/m", 900.0},
-                               {1, "plane, y", "N/m", 900.0},
-                               {2, "plane, z", "N/m", 900.0},
-                               {3, "turn stop, x", "N m/rad", 3.0},
-                               {4, "turn stop, y", "N m/rad", 3.0},
-                               {5, "turn stop, z", "N m/rad", 3.0},
-                               {6, "grasp stop", "N m/rad", 0.7},
-                               {kAllWalls, "all seven", "N/m", 400.0}};
+constexpr Target kTargets[] = {
+    {0, "plane, x", "N/m", 900.0},       {1, "plane, y", "N/m", 900.0},
+    {2, "plane, z", "N/m", 900.0},       {3, "turn stop, x", "N m/rad", 3.0},
+    {4, "turn stop, y", "N m/rad", 3.0}, {5, "turn stop, z", "N m/rad", 3.0},
+    {6, "grasp stop", "N m/rad", 0.7},   {kAllWalls, "all seven", "N/m", 400.0}};
 
 // Bounds of theory for a plain wall in translation: damping of the rotors that a move of the grip turns.
 void print_bounds(double latency_s) {
@@ -99,10 +96,12 @@ void print_bounds(double latency_s) {
     constexpr double kRotorsOfOneDof = 8.0 / 3.0; // sum over the strings of the squared direction
     const double own = plant.viscous_friction_n_s_m * kRotorsOfOneDof;
     const double delay_s = 0.5e-3 + latency_s;
-    std::printf("theory, plain wall: own damping %.2f N s/m over half a period and latency: %.0f N/m; with the "
+    std::printf("theory, plain wall: own damping %.2f N s/m over half a period and latency: %.0f "
+                "N/m; with the "
                 "current's lag %.0f N/m (Colgate)\n",
                 own, own / delay_s, own / (delay_s + plant.current_lag_s));
-    std::printf("passive for any hand (Abbott and Okamura): 2 friction / resolution: 0 N/m without friction, %.0f "
+    std::printf("passive for any hand (Abbott and Okamura): 2 friction / resolution: 0 N/m without "
+                "friction, %.0f "
                 "N/m with 0.1 N on each string, 25 um counts, if no delay\n",
                 2.0 * 0.1 * kRotorsOfOneDof / plant.metres_per_count);
 }
@@ -131,20 +130,20 @@ int main(int argc, char **argv) {
             for (const HandFirmness hand : kHands) {
                 const bool still = holds_still(shipped, hand, kLatency_s, target.dof, k);
                 failures += still ? 0 : 1;
-                std::printf("%-14s %6g %-8s hand %d: %s\n", target.name, target.wanted,
-                            target.unit, static_cast<int>(hand), still ? "still" : "NOT STILL");
+                std::printf("%-14s %6g %-8s hand %d: %s\n", target.name, target.wanted, target.unit,
+                            static_cast<int>(hand), still ? "still" : "NOT STILL");
             }
         }
         std::printf("%d not still\n", failures);
         return failures == 0 ? 0 : 1;
     }
 
-    std::printf("largest stiffness held still by the worst of three hands; latency 1 ms, 1 kHz, no friction\n");
+    std::printf("largest stiffness held still by the worst of three hands; latency 1 ms, 1 kHz, no "
+                "friction\n");
     std::printf("%-14s %12s %10s  worst hand\n", "wall", "limit", "wanted");
     for (const Target &target : kTargets) {
         HandFirmness worst = HandFirmness::light;
-        const double most =
-            in_units(target.dof, limit(shipped, kLatency_s, target.dof, &worst));
+        const double most = in_units(target.dof, limit(shipped, kLatency_s, target.dof, &worst));
         failures += most >= target.wanted ? 0 : 1;
         std::printf("%-14s %12.3g %10g  %d  %s\n", target.name, most, target.wanted,
                     static_cast<int>(worst), target.unit);
@@ -162,7 +161,8 @@ int main(int argc, char **argv) {
                              {"+ resonance observer (notch)", observer, 2.0, 0.0},
                              {"+ delay compensation 3 ms: shipped", RenderSettings(), 2.0, 0.0},
                              {"+ damping law 2 ms * stiffness", RenderSettings(), 0.0, 2e-3}};
-    std::printf("\nwhat each part gives, worst hand   x N/m  z N/m  turn z N m/rad  grasp N m/rad  all N/m\n");
+    std::printf("\nwhat each part gives, worst hand   x N/m  z N/m  turn z N m/rad  grasp N m/rad  "
+                "all N/m\n");
     for (const Variant &variant : steps) {
         std::printf("%-36s", variant.name);
         for (const int dof : {0, 2, 5, 6, kAllWalls}) {
@@ -181,8 +181,7 @@ int main(int argc, char **argv) {
         std::printf("\n");
     }
     // Z-width: stiffness limit against damping, plain and shipped.
-    std::FILE *csv =
-        folder.empty() ? nullptr : std::fopen((folder + "/z_width.csv").c_str(), "w");
+    std::FILE *csv = folder.empty() ? nullptr : std::fopen((folder + "/z_width.csv").c_str(), "w");
     if (csv != nullptr) {
         std::fprintf(csv, "renderer,damping_n_s_m,limit_n_m\n");
     }

@@ -17,7 +17,7 @@ namespace spidar::test {
 
 struct RigSettings {
     PlantSettings plant;
-    ServoSettings servo; // strings are filled in
+    ServoSettings servo;      // strings are filled in
     double latency_s = 0.001; // from the encoders' sample to the motors' command
     double game_hz = 60.0;
     // A frame's answer comes this part of its period after what it looked at; jitter is added, uniform.
@@ -45,10 +45,10 @@ public:
 
     explicit HapticRig(const RigSettings &settings)
         : settings_(settings), plant_(settings.plant), random_(settings.seed) {
-        settings_.servo.strings = calibrate_at_home(
-            string_lengths(settings_.servo.frame, settings_.servo.grip,
-                           rest_pose(settings_.servo.grip)),
-            plant_.counts(), settings_.plant.metres_per_count);
+        settings_.servo.strings =
+            calibrate_at_home(string_lengths(settings_.servo.frame, settings_.servo.grip,
+                                             rest_pose(settings_.servo.grip)),
+                              plant_.counts(), settings_.plant.metres_per_count);
         settings_.servo.safety.arming_time_s = kArming_s;
         settings_.servo.render.latency_s = settings.latency_s;
         started_ = step_.configure(settings_.servo);
@@ -94,8 +94,7 @@ private:
         play();
         DeviceReading reading;
         reading.counts = plant_.counts();
-        const DriveCommand drive =
-            step_.step(Status::ok, reading, command_, 1.0 / rate(), true);
+        const DriveCommand drive = step_.step(Status::ok, reading, command_, 1.0 / rate(), true);
         if (watch) {
             watch(step_.snapshot(), plant_.truth());
         }
@@ -108,8 +107,7 @@ private:
                 plant_.set_currents(on_the_way_.front().currents_a);
                 on_the_way_.pop_front();
             }
-            const long until =
-                on_the_way_.empty() ? end : std::min(end, on_the_way_.front().due);
+            const long until = on_the_way_.empty() ? end : std::min(end, on_the_way_.front().due);
             plant_.advance(static_cast<double>(until - at) / kPlantRate_hz);
             at = until;
         }

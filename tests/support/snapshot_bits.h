@@ -38,8 +38,8 @@ private:
 };
 
 inline std::uint64_t bits_of(const ServoSnapshot &now) {
-    static_assert(count_members<ServoSnapshot>() == 20, "ServoSnapshot changed: mix it in here");
-    static_assert(count_members<ServoCounters>() == 13, "ServoCounters changed: mix it in here");
+    static_assert(count_members<ServoSnapshot>() == 25, "ServoSnapshot changed: mix it in here");
+    static_assert(count_members<ServoCounters>() == 17, "ServoCounters changed: mix it in here");
     BitMixer mixer;
     mixer.mix(now.time_s);
     mixer.mix(now.state);
@@ -66,11 +66,14 @@ inline std::uint64_t bits_of(const ServoSnapshot &now) {
     mixer.mix(now.tensions_n);
     mixer.mix(now.requested);
     mixer.mix(now.achieved);
-    mixer.mix(now.bias);
     mixer.mix(now.at_min_mask);
     mixer.mix(now.at_max_mask);
     mixer.mix(now.tension_status);
     mixer.mix(now.force_scale);
+    mixer.mix(now.safety_scale);
+    mixer.mix(now.thermal_share);
+    mixer.mix(now.parity_error_m);
+    mixer.mix(now.zero_known);
     mixer.mix(now.contact_count);
     for (const ContactReport &contact : now.contacts) {
         mixer.mix(contact.id);
@@ -78,9 +81,17 @@ inline std::uint64_t bits_of(const ServoSnapshot &now) {
         mixer.mix(contact.grasp_impulse_nms);
         mixer.mix(contact.touching);
     }
+    mixer.mix(now.injected_j);
+    mixer.mix(now.clamp.gain);
+    mixer.mix(now.clamp.request);
+    mixer.mix(now.clamp.from_latency);
+    mixer.mix(now.clamp.index);
+    mixer.mix(now.clamp.asked);
+    mixer.mix(now.clamp.given);
     const ServoCounters &count = now.counters;
     mixer.mix(count.ticks);
     mixer.mix(count.kinematics_skipped);
+    mixer.mix(count.tension_skipped);
     mixer.mix(count.cold_starts);
     mixer.mix(count.bad_samples);
     mixer.mix(count.read_timeouts);
@@ -90,6 +101,9 @@ inline std::uint64_t bits_of(const ServoSnapshot &now) {
     mixer.mix(count.saturated_ticks);
     mixer.mix(count.slewed_ticks);
     mixer.mix(count.write_failures);
+    mixer.mix(count.reports_missed);
+    mixer.mix(count.old_reports);
+    mixer.mix(count.faded_ticks);
     mixer.mix(count.bad_time_steps);
     mixer.mix(count.gate_clamps);
     mixer.mix(now.buttons);

@@ -63,8 +63,7 @@ inline HandTarget press_target(int dof, double part) {
         } else if (i < 6) {
             Vec3 axis(0.0);
             axis[i - 3] = 1.0;
-            target.rotation =
-                glm::mat3_cast(glm::angleAxis(-0.15 * part, axis)) * target.rotation;
+            target.rotation = glm::mat3_cast(glm::angleAxis(-0.15 * part, axis)) * target.rotation;
         } else {
             target.grasp_angle_rad = -0.3 * part;
         }
@@ -91,8 +90,8 @@ struct Dither {
         return std::max({position_m[0].size(), position_m[1].size(), position_m[2].size()});
     }
     [[nodiscard]] double worst_rad() const {
-        return std::max({turn_rad[0].size(), turn_rad[1].size(), turn_rad[2].size(),
-                         grasp_rad.size()});
+        return std::max(
+            {turn_rad[0].size(), turn_rad[1].size(), turn_rad[2].size(), grasp_rad.size()});
     }
 };
 

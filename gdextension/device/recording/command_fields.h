@@ -10,8 +10,8 @@ namespace spidar {
 // A field added to one of these structs: add it to the list below, then correct the number.
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
-static_assert(count_members<Effect>() == 10, "Effect changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 15, "HapticCommand changed: list its fields here");
+static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 17, "HapticCommand changed: list its fields here");
 
 template <typename Matrix, typename Visit>
 void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
@@ -34,6 +34,8 @@ void for_each_field(Command &command, Visit &&visit) requires
     visit("arm_count", 0, command.arm_count);
     visit("disarm_count", 0, command.disarm_count);
     visit("clear_fault_count", 0, command.clear_fault_count);
+    visit("zero_count", 0, command.zero_count);
+    visit("heartbeat", 0, command.heartbeat);
     visit("wrench_sequence", 0, command.wrench_sequence);
     visit_vector("wrench.force_n", 0, command.wrench.force_n, visit);
     visit_vector("wrench.moment_nm", 0, command.wrench.moment_nm, visit);
@@ -82,6 +84,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         visit("effect.frequency_hz", i, effect.frequency_hz);
         visit_dof("effect.spacing", i, effect.spacing, visit);
         visit("effect.duration_s", i, effect.duration_s);
+        visit("effect.renewal", i, effect.renewal);
         ++i;
     }
 }

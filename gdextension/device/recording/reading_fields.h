@@ -6,7 +6,7 @@
 
 namespace spidar {
 
-static_assert(count_members<DeviceReading>() == 4, "DeviceReading changed: list its fields here");
+static_assert(count_members<DeviceReading>() == 6, "DeviceReading changed: list its fields here");
 
 template <typename Reading, typename Visit>
 void for_each_field(Reading &reading, Visit &&visit) requires
@@ -14,6 +14,8 @@ void for_each_field(Reading &reading, Visit &&visit) requires
     visit("device_time_us", 0, reading.device_time_us);
     visit("sequence", 0, reading.sequence);
     visit("buttons", 0, reading.buttons);
+    visit("zeroed", 0, reading.zeroed);
+    visit("device_status", 0, reading.device_status);
 }
 
 } // namespace spidar

@@ -136,6 +136,7 @@ void Recorder::end(CycleInput input, const DriveCommand &drive, const ServoSnaps
     if (!in_time_ && (cycles_.size() >= kInlineBatch ||
                       commands_.size() * kRestartPart >= commands_.capacity())) {
         drain();
+        file_.flush();
     }
 }
 

@@ -106,7 +106,8 @@ bool read_field(std::string_view name, std::string_view value, RecordingInfo &in
         return value_of(value, info.state_bytes) && info.state_bytes <= kMostStateBytes;
     } else if (name == "simd") {
         int level = 0;
-        const bool good = value_of(value, level) && level >= 0 && level <= 1;
+        constexpr int kMostLevels = 16; // whether this processor has it is asked by why_no_replay()
+        const bool good = value_of(value, level) && level >= 0 && level < kMostLevels;
         info.simd = static_cast<SimdLevel>(level);
         return good;
     } else if (name.substr(0, kSettings.size()) == kSettings) {

@@ -15,7 +15,7 @@ static_assert(count_members<StringCalibration>() == 3, "StringCalibration change
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
 static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
-static_assert(count_members<SafetySettings>() == 13, "SafetySettings changed: list them here");
+static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
 static_assert(count_members<ServoSettings>() == 10, "ServoSettings changed: list its fields here");
 
@@ -68,9 +68,19 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.read_timeout_fade_s", 0, safety.read_timeout_fade_s);
     visit("safety.read_timeout_fault_s", 0, safety.read_timeout_fault_s);
     visit("safety.max_grip_speed_m_s", 0, safety.max_grip_speed_m_s);
+    visit("safety.fade_grip_speed_m_s", 0, safety.fade_grip_speed_m_s);
+    visit("safety.fade_turn_rate_rad_s", 0, safety.fade_turn_rate_rad_s);
+    visit("safety.max_turn_rate_rad_s", 0, safety.max_turn_rate_rad_s);
     visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
     visit("safety.contacts_full_s", 0, safety.contacts_full_s);
     visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
+    visit("safety.game_timeout_s", 0, safety.game_timeout_s);
+    visit("safety.continuous_tension_n", 0, safety.continuous_tension_n);
+    visit("safety.thermal_time_s", 0, safety.thermal_time_s);
+    visit("safety.string_error_fade_m", 0, safety.string_error_fade_m);
+    visit("safety.string_error_fault_m", 0, safety.string_error_fault_m);
+    visit("safety.workspace_margin_m", 0, safety.workspace_margin_m);
+    visit("safety.hand_presence_s", 0, safety.hand_presence_s);
     auto &render = settings.render;
     visit("render.string_resonance_hz", 0, render.string_resonance_hz);
     visit("render.velocity_cutoff_hz", 0, render.velocity_cutoff_hz);

@@ -1,5 +1,5 @@
-/* DAQP behind a plain C interface, built by tests/bench/fetch_daqp.py together with DAQP's own sources and opened by
- * spidar_bench at run time. 8 variables, box bounds only. */
+/* DAQP behind the interface of every peer (tests/bench/library_peers.h): built by fetch_peers.py together with its own
+ * sources, opened by spidar_bench at run time. 8 variables, box bounds only. */
 #include <stdlib.h>
 
 #include "api.h"

@@ -1,0 +1,103 @@
+// What happened to a device, as a game may show it: one line of a table says what each event means and what to
+// do about it. Events are rare; a fixed, wait-free queue carries them from the servo thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace spidar {
+
+// Numbers are part of recordings and of the Godot interface: append, never reorder.
+enum class DeviceEventKind : std::uint8_t {
+    device_connected = 0,
+    device_lost,
+    open_failed,
+    armed,
+    disarmed,
+    reports_late,
+    reports_stopped,
+    reports_missed,
+    report_out_of_order,
+    device_restarted,
+    write_blocked,
+    sample_refused,
+    count_jump,
+    pose_lost,
+    string_suspected,
+    string_fault,
+    string_named,
+    fast_grip,
+    over_speed,
+    workspace_edge,
+    motors_warm,
+    overheated,
+    shaking,
+    unstable,
+    request_refused,
+    request_limited,
+    game_stalled,
+    panic_stopped,
+    cycles_late,
+    loop_stalled,
+    clock_jumped,
+    no_real_time_priority,
+    zero_needed,
+    zero_taken,
+    zero_confirmed,
+    zero_refused,
+    no_hand,
+    impossible_tension,
+    device_stopped,
+};
+inline constexpr int kDeviceEventKinds = 39;
+
+enum class EventLevel : std::uint8_t { info = 0, warning = 1, fault = 2 };
+
+struct DeviceEvent {
+    double time_s = 0.0; // of the servo clock (ServoSnapshot::time_s)
+    double value = 0.0;  // what the description calls value, in its unit; 0 where it has none
+    DeviceEventKind kind = DeviceEventKind::device_connected;
+    std::int8_t string = -1; // 0-7, or -1
+    std::uint16_t repeated =
+        0; // how often it happened since it was last told, this time not counted
+};
+
+struct EventDescription {
+    const char *name;     // as in the enumeration
+    const char *category; // link, string, motion, heat, request, game, timing, calibration, state
+    EventLevel level;
+    const char *unit;    // of DeviceEvent::value; "" for none
+    const char *message; // one sentence
+    const char *remedy;  // one sentence; "" when there is nothing to do
+};
+
+// Never fails: an unknown kind has a description that says so.
+[[nodiscard]] const EventDescription &describe(DeviceEventKind kind) noexcept;
+
+// The events of one servo cycle. The same kind is told again only after kQuiet_s; what was left out is counted,
+// so that a fault that repeats each cycle cannot flood anybody.
+class EventLog {
+public:
+    static constexpr double kQuiet_s = 1.0;
+    static constexpr int kMostAtOnce = 8;
+
+    void begin_cycle(double time_s) noexcept;
+    void tell(DeviceEventKind kind, int string = -1, double value = 0.0) noexcept;
+    [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
+        return {events_.data(), count_};
+    }
+
+private:
+    struct Memory {
+        double told_s = 0.0;
+        std::uint16_t left_out = 0;
+        bool told = false;
+    };
+    std::array<DeviceEvent, kMostAtOnce> events_{};
+    std::size_t count_ = 0;
+    std::array<Memory, kDeviceEventKinds> memory_{};
+    double now_s_ = 0.0;
+};
+
+} // namespace spidar

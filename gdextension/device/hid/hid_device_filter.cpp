@@ -1,0 +1,56 @@
+#include "device/hid/hid_device_filter.h"
+
+#include <algorithm>
+
+#include "device/hid/hid_protocol.h"
+
+namespace spidar {
+
+namespace {
+
+// Microchip's generic HID demonstration: many unrelated boards carry these numbers.
+constexpr std::uint16_t kSharedVendor = 0x04D8;
+constexpr std::uint16_t kSharedProduct = 0x003F;
+
+} // namespace
+
+bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device) {
+    const auto is = [](auto wanted, auto value) { return wanted == 0 || wanted == value; };
+    const bool shared = device.vendor_id == kSharedVendor && device.product_id == kSharedProduct;
+    return !shared && is(filter.vendor_id, device.vendor_id) &&
+           is(filter.product_id, device.product_id) &&
+           (device.usage_page == 0 || device.usage_page == kHidUsagePage) &&
+           (filter.serial.empty() || filter.serial == device.serial) &&
+           device.product.compare(0, filter.product.size(), filter.product) == 0;
+}
+
+Status find_devices(HidBus &bus, const HidDeviceFilter &filter, std::vector<HidDeviceInfo> &found) {
+    found.clear();
+    std::vector<HidDeviceInfo> all;
+    const Status status = bus.enumerate(all);
+    if (!usable(status)) {
+        return status;
+    }
+    for (const HidDeviceInfo &device : all) {
+        const bool known = std::any_of(found.begin(), found.end(), [&](const HidDeviceInfo &one) {
+            return one.path == device.path;
+        });
+        if (!known && matches(filter, device)) {
+            found.push_back(device);
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const HidDeviceInfo &a, const HidDeviceInfo &b) {
+        return a.serial != b.serial ? a.serial < b.serial : a.path < b.path;
+    });
+    return found.empty() ? Status::no_device : Status::ok;
+}
+
+std::string validate(const HidDeviceFilter &filter) {
+    if (filter.product.empty() && filter.serial.empty()) {
+        return "device_product = \"\": give the beginning of the device's product string, or its "
+               "serial number; vendor and product numbers alone are shared by many boards.";
+    }
+    return {};
+}
+
+} // namespace spidar

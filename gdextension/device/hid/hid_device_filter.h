@@ -1,0 +1,29 @@
+// Which of the plugged-in HID devices are meant.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "device/hid/hid_bus.h"
+
+namespace spidar {
+
+// 0 or empty: any. All devices must have the vendor-defined usage page, where the system tells it.
+struct HidDeviceFilter {
+    std::uint16_t vendor_id = 0;
+    std::uint16_t product_id = 0;
+    std::string serial;
+    std::string product = "SPIDAR-G"; // the product string begins with this
+};
+
+[[nodiscard]] bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device);
+
+// Those that match, in the order of their serial numbers, each path once. no_device when there is none.
+[[nodiscard]] Status find_devices(HidBus &bus, const HidDeviceFilter &filter,
+                                  std::vector<HidDeviceInfo> &found);
+
+// Empty when usable; else one sentence naming the field, the value and the remedy.
+[[nodiscard]] std::string validate(const HidDeviceFilter &filter);
+
+} // namespace spidar

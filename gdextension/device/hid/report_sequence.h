@@ -1,0 +1,26 @@
+// Sequence numbers of reports: 16 bits, counting 0 to 0xFFFE and round again; 0xFFFF is never used (it says "none").
+#pragma once
+
+#include <cstdint>
+
+namespace spidar {
+
+inline constexpr std::uint16_t kNoSequence = 0xFFFF;
+
+[[nodiscard]] constexpr std::uint16_t next_sequence(std::uint16_t sequence) noexcept {
+    return static_cast<std::uint16_t>(sequence >= kNoSequence - 1 ? 0 : sequence + 1);
+}
+
+// Is `candidate` newer than `than`? Their signed 16-bit difference is positive.
+[[nodiscard]] constexpr bool is_newer(std::uint16_t candidate, std::uint16_t than) noexcept {
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(candidate - than)) > 0;
+}
+
+// Steps of next_sequence() from `from` to `to`, when `to` is newer; the number left out is not counted.
+[[nodiscard]] constexpr std::uint32_t sequence_steps(std::uint16_t from,
+                                                     std::uint16_t to) noexcept {
+    const std::uint32_t difference = static_cast<std::uint16_t>(to - from);
+    return to < from ? difference - 1 : difference;
+}
+
+} // namespace spidar

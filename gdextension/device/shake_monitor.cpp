@@ -1,0 +1,74 @@
+#include "device/shake_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+
+namespace {
+
+// A swing: 0.5 mm to and fro at 40 Hz, twice what a good rendering may dither.
+constexpr double kSwing_m_s = 0.06;
+// Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
+constexpr double kRotationArm_m = 0.04;
+constexpr double kGraspArm_m = 0.02;
+// Half a period of 20 Hz.
+constexpr double kLongestHalfPeriod_s = 0.025;
+// Three whole periods in a row: no tap swings so often.
+constexpr int kSwings = 6;
+// Time constant of what counts as the hand's own motion: 8 ms, a corner of 20 Hz.
+constexpr double kHandMotion_s = 0.008;
+// The forces come back to full within this, once the grip is calm.
+constexpr double kRecovery_s = 1.0;
+constexpr double kLeastScale = 0.25;
+
+} // namespace
+
+void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexcept {
+    const DofArray speeds{twist.linear_m_s.x,
+                          twist.linear_m_s.y,
+                          twist.linear_m_s.z,
+                          kRotationArm_m * twist.angular_rad_s.x,
+                          kRotationArm_m * twist.angular_rad_s.y,
+                          kRotationArm_m * twist.angular_rad_s.z,
+                          kGraspArm_m * twist.grasp_rate_rad_s};
+    const double gain = dt_s / (dt_s + kHandMotion_s);
+    bool shaking = false;
+    for (std::size_t k = 0; k < channels_.size(); ++k) {
+        Channel &channel = channels_[k];
+        channel.slow += gain * (speeds[k] - channel.slow);
+        channel.since_s += dt_s;
+        const double swing = speeds[k] - channel.slow;
+        if (!(std::abs(swing) >= kSwing_m_s)) {
+            continue;
+        }
+        const std::int8_t side = swing > 0.0 ? 1 : -1;
+        channel.largest = std::max(channel.largest, std::abs(swing));
+        if (side == channel.side) {
+            continue;
+        }
+        const bool in_a_row = channel.since_s <= kLongestHalfPeriod_s;
+        channel.count = in_a_row ? static_cast<std::uint8_t>(channel.count + 1) : std::uint8_t{0};
+        channel.largest = in_a_row ? channel.largest : std::abs(swing);
+        channel.side = side;
+        channel.since_s = 0.0;
+        if (channel.count >= kSwings) {
+            shaking = true;
+            swing_m_s_ = channel.largest;
+            channel.count = 0;
+        }
+    }
+    if (shaking && rendering) {
+        unstable_ = unstable_ || scale_ <= kLeastScale;
+        scale_ = std::max(kLeastScale, 0.5 * scale_);
+        calm_s_ = 0.0;
+        return;
+    }
+    calm_s_ += dt_s;
+    if (calm_s_ >= kCalm_s && scale_ < 1.0) {
+        scale_ = std::min(1.0, scale_ + dt_s / kRecovery_s);
+        unstable_ = false;
+    }
+}
+
+} // namespace spidar

@@ -1,0 +1,40 @@
+// Do the forces shake the grip? A rendering that is too stiff for its latency swings to and fro at 20 to 200 Hz;
+// a hand does not, and a tap swings once or twice. Counted are the swings of the grip's velocity, in each DOF,
+// that follow each other within half a period of 20 Hz.
+#pragma once
+
+#include "device/servo_snapshot.h"
+
+namespace spidar {
+
+class ShakeMonitor {
+public:
+    void configure() noexcept { *this = ShakeMonitor(); }
+    // One cycle. `rendering`: forces act; without them nothing counts.
+    void update(const Twist &twist, bool rendering, double dt_s) noexcept;
+
+    // 1; halved each time the grip is found shaking, back to 1 when it was calm for kCalm_s.
+    [[nodiscard]] double scale() const noexcept { return scale_; }
+    // Still shaking after two halvings: forces have to go. Until configure() or calm.
+    [[nodiscard]] bool unstable() const noexcept { return unstable_; }
+    // Largest swing of the shaking that was found last (unit: m/s at the pole ends).
+    [[nodiscard]] double swing_m_s() const noexcept { return swing_m_s_; }
+
+    static constexpr double kCalm_s = 2.0;
+
+private:
+    struct Channel {
+        double slow = 0.0;    // what the hand does, below 20 Hz
+        double since_s = 0.0; // since the last swing
+        double largest = 0.0; // of this row of swings
+        std::int8_t side = 0; // of the last swing
+        std::uint8_t count = 0;
+    };
+    std::array<Channel, kDofCount> channels_{};
+    double scale_ = 1.0;
+    double calm_s_ = 0.0;
+    double swing_m_s_ = 0.0;
+    bool unstable_ = false;
+};
+
+} // namespace spidar

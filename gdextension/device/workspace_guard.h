@@ -1,0 +1,28 @@
+// The edge of the workspace: a soft wall before the reach of the grip ends, and less force where the strings can
+// hardly tell or turn it.
+#pragma once
+
+#include "device/servo_settings.h"
+#include "device/servo_snapshot.h"
+
+namespace spidar {
+
+class WorkspaceGuard {
+public:
+    // The reach: the box around the motors, less half a pole.
+    void configure(const ServoSettings &settings) noexcept;
+
+    // Pushes P0 back inside; zero inside.
+    [[nodiscard]] Wrench wall(const GripState &grip) const noexcept;
+    // Scale of all requests: 1, and down to 0 where the pose loses a direction.
+    [[nodiscard]] static double scale(const GripState &grip) noexcept;
+    // How far P0 is beyond the start of the wall (unit: m); 0 inside.
+    [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
+
+private:
+    Vec3 low_m_{0.0};
+    Vec3 high_m_{0.0};
+    bool on_ = false;
+};
+
+} // namespace spidar

@@ -1,0 +1,128 @@
+## Recording and replay from GDScript: what was played comes again, bit for bit, and errors name their remedy.
+extends "res://test_case.gd"
+
+const PATH: String = "user://test_recording.rec"
+const FRAMES: int = 90
+
+var ends: Array = []
+
+
+func test_a_recorded_run_replays_to_the_bit() -> void:
+	var device := ideal_device()
+	device.forces_enabled = true
+	add(device)
+	await physics_frames(70)
+	check(not device.is_recording(), "no recording before it is started")
+	check(device.start_recording(PATH), "the recording starts")
+	check(device.is_recording(), "it runs")
+	var poses: Array[Transform3D] = []
+	for frame: int in FRAMES:
+		device.simulated_hand_target(
+			Transform3D(Basis(), Vector3(0.0, -0.04 if frame % 30 < 15 else 0.02, 0.0)), 0.3)
+		device.set_contacts(PackedFloat64Array(
+			[0, 1, 0, -0.01 - 0.0001 * frame, 0, 0, 0, 350, 2, 0.3, SpidarG.CONTACT_CENTRE, 1]))
+		await physics_frames(1)
+		poses.append(device.get_grip_transform())
+	var statistics: Dictionary = device.get_recording_statistics()
+	device.stop_recording()
+	check(not device.is_recording(), "no recording after it was stopped")
+	check_equal(statistics["lost_cycles"], 0, "nothing is lost in stepped time")
+	check(statistics["cycles"] >= FRAMES * 16, "a cycle a millisecond: %d" % statistics["cycles"])
+	var last_tensions: PackedFloat64Array = device.get_string_tensions()
+
+	device.replay_finished.connect(
+		func(identical: bool, message: String) -> void: ends.append([identical, message]))
+	check(device.start_replay(PATH), "the replay starts")
+	check(device.is_replaying(), "it runs")
+	check(not device.simulated_hand_target(Transform3D(), 0.0), "no hand while a recording plays")
+	var seen: Array[Transform3D] = []
+	for frame: int in FRAMES + 5:
+		await physics_frames(1)
+		seen.append(device.get_grip_transform())
+	check_equal(ends.size(), 1, "the end is told once")
+	if ends.size() == 1:
+		check(ends[0][0], "identical: %s" % ends[0][1])
+	var report: Dictionary = device.get_replay_statistics()
+	check(report["finished"], "finished")
+	check_equal(report["differing_cycles"], 0, "cycles of other bits")
+	check_equal(report["cycles"], statistics["cycles"], "cycles replayed")
+	check_equal(device.get_string_tensions(), last_tensions, "the tensions of the last cycle")
+	# The ticks may fall otherwise on the cycles (16 or 17), so the poses are looked up, not counted.
+	check(seen.has(poses[FRAMES - 1]), "the last recorded pose is reached")
+	device.stop_replay()
+	check(not device.is_replaying(), "stopped")
+	await physics_frames(3)
+	check(is_open(device), "the device is open again")
+	check(device.simulated_hand_target(Transform3D(), 0.0), "and its hand too")
+	device.free()
+
+
+func test_a_threaded_recording_plays_in_real_time() -> void:
+	var device := SpidarG.new()
+	device.forces_enabled = true
+	add(device)
+	await until(func() -> bool: return is_open(device))
+	check(device.start_recording(PATH), "the recording starts")
+	check(await until(func() -> bool: return device.get_recording_statistics()["cycles"] > 300),
+		"cycles are recorded by the thread")
+	device.enabled = false # closes the device, and with it the recording
+	check(not device.is_recording(), "closed")
+	device.enabled = true
+	device.replay_finished.connect(
+		func(identical: bool, message: String) -> void: ends.append([identical, message]))
+	check(device.start_replay(PATH), "the replay starts")
+	check(await until(func() -> bool: return not ends.is_empty()), "and ends")
+	if not ends.is_empty():
+		check(ends[0][0], "identical: %s" % ends[0][1])
+	device.free()
+
+
+func test_bad_paths_and_states_are_refused() -> void:
+	var rejected: Array[String] = []
+	var device := ideal_device()
+	device.request_rejected.connect(func(message: String) -> void: rejected.append(message))
+	check(not device.start_recording(PATH), "no device is open yet")
+	check(not device.start_replay(PATH), "not in the tree yet")
+	add(device)
+	await physics_frames(2)
+	check(not device.start_recording("user://no/such/folder/a.rec"), "no such folder")
+	check(not device.start_replay("user://no_such.rec"), "no such file")
+	var file := FileAccess.open("user://noise.rec", FileAccess.WRITE)
+	file.store_string("this is no recording")
+	file.close()
+	check(not device.start_replay("user://noise.rec"), "another file")
+	check_equal(rejected.size(), 5, "each refusal is told")
+	for i: int in rejected.size():
+		var words: String = ["no device", "running scene", "folder", "no such file", "no recording"][i]
+		check(rejected[i].contains(words), "\"%s\" in: %s" % [words, rejected[i]])
+	check(is_open(device), "the device stays open")
+	device.stop_recording() # neither runs: nothing happens
+	device.stop_replay()
+	check(is_open(device), "still open")
+	device.free()
+
+
+func test_a_cut_recording_plays_up_to_the_cut() -> void:
+	var device := ideal_device()
+	add(device)
+	await physics_frames(2)
+	check(device.start_recording(PATH), "the recording starts")
+	for frame: int in 60:
+		device.simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.0)
+		await physics_frames(1)
+	device.stop_recording()
+	var whole: PackedByteArray = FileAccess.get_file_as_bytes(PATH)
+	var file := FileAccess.open("user://cut.rec", FileAccess.WRITE)
+	file.store_buffer(whole.slice(0, whole.size() - 2000))
+	file.close()
+	device.replay_finished.connect(
+		func(identical: bool, message: String) -> void: ends.append([identical, message]))
+	check(device.start_replay("user://cut.rec"), "the replay starts")
+	await physics_frames(70)
+	check_equal(ends.size(), 1, "the end is told")
+	if ends.size() == 1:
+		check(not ends[0][0], "a cut recording is not identical")
+		check(ends[0][1].contains("cut off"), "it says so: %s" % ends[0][1])
+		check(device.get_replay_statistics()["cycles"] > 100, "what came before is played")
+		check_equal(device.get_replay_statistics()["differing_cycles"], 0, "to the bit")
+	device.free()

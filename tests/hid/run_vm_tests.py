@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Runs spidar_hid_vm in a virtual machine: QEMU, a Debian kernel, its uhid and USB gadget drivers.
+
+run_vm_tests.py PROGRAM KERNEL_FOLDER [--log FILE] [--only DOCTEST_FILTER]
+
+KERNEL_FOLDER holds vmlinuz and the modules (dev's fetch_kernel fills it). The machine's clock counts instructions
+(QEMU's icount), so that times inside are the same on a busy computer as on an idle one. No root, no KVM.
+Prints the guest's output, then "N passed, N failed".
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+LIMIT_S = 400
+# In the order of their dependences; those that the kernel has built in are not there as files.
+MODULES = (
+    "usb-common", "usbcore", "hid", "hid-generic", "usbhid", "uhid", "udc-core", "configfs",
+    "libcomposite", "usb_f_hid", "dummy_hcd",
+)
+# Loaded by name when it runs, so ldd does not list it.
+LOADED_LIBRARIES = ("libudev.so.1",)
+
+
+def libraries_of(path):
+    """Paths of the shared libraries that a program or library needs, the loader included."""
+    output = subprocess.run(["ldd", path], check=True, capture_output=True, text=True).stdout
+    return re.findall(r"(?:=> )?(/\S+) \(0x", output)
+
+
+def find_library(name):
+    output = subprocess.run(
+        ["/sbin/ldconfig", "-p"], check=True, capture_output=True, text=True
+    ).stdout
+    found = re.search(rf"{re.escape(name)} .*=> (\S+)", output)
+    if not found:
+        raise SystemExit(f"run_vm_tests: {name} is missing on this machine")
+    return found.group(1)
+
+
+def fill_root(root, program, kernel, only):
+    """The files of the initial RAM disk."""
+    for folder in ("bin", "proc", "sys", "dev", "modules"):
+        os.makedirs(os.path.join(root, folder))
+    busybox = shutil.which("busybox")
+    shutil.copy(busybox, os.path.join(root, "bin/busybox"))
+    shutil.copy(program, os.path.join(root, "bin/spidar_hid_vm"))
+    here = os.path.dirname(os.path.abspath(__file__))
+    shutil.copy(os.path.join(here, "vm_init.sh"), os.path.join(root, "init"))
+    os.chmod(os.path.join(root, "init"), 0o755)
+    wanted = [find_library(name) for name in LOADED_LIBRARIES]
+    libraries = set(wanted)
+    for path in [program, *wanted]:
+        libraries.update(libraries_of(path))
+    for path in libraries:
+        target = root + path
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        shutil.copy(path, target)
+    names = [f"{name}.ko" for name in MODULES]
+    names = [name for name in names if os.path.isfile(os.path.join(kernel, name))]
+    for name in names:
+        shutil.copy(os.path.join(kernel, name), os.path.join(root, "modules", name))
+    with open(os.path.join(root, "modules/order"), "w", encoding="utf-8") as file:
+        file.write("\n".join(names) + "\n")
+    with open(os.path.join(root, "arguments"), "w", encoding="utf-8") as file:
+        file.write(f"--test-case={only}" if only else "--no-colors")
+
+
+def pack(root, archive):
+    names = subprocess.run(["find", "."], cwd=root, check=True, capture_output=True).stdout
+    packed = subprocess.run(
+        ["cpio", "--quiet", "-o", "-H", "newc"], cwd=root, input=names, check=True,
+        capture_output=True,
+    ).stdout
+    with open(archive, "wb") as file:
+        file.write(packed)
+
+
+def run_machine(kernel, archive, log):
+    command = [
+        "qemu-system-x86_64", "-accel", "tcg", "-cpu", "qemu64", "-smp", "1",
+        "-icount", "shift=1,sleep=off", "-m", "256", "-nodefaults", "-no-user-config",
+        "-display", "none", "-serial", "stdio", "-no-reboot",
+        "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", archive,
+        "-append", "console=ttyS0 quiet panic=-1 mitigations=off",
+    ]
+    lines = []
+    with open(log, "w", encoding="utf-8") as file:
+        machine = subprocess.Popen(
+            ["timeout", str(LIMIT_S), *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True, errors="replace",
+        )
+        for line in machine.stdout:
+            line = line.rstrip("\r\n")
+            print(line, flush=True)
+            print(line, file=file)
+            lines.append(line)
+        machine.wait()
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("kernel")
+    parser.add_argument("--log", default=os.devnull)
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        root = os.path.join(folder, "root")
+        fill_root(root, options.program, options.kernel, options.only)
+        archive = os.path.join(folder, "initrd")
+        pack(root, archive)
+        lines = run_machine(options.kernel, archive, options.log)
+    text = "\n".join(lines)
+    counts = re.search(r"test cases: +\d+ \| +(\d+) passed \| +(\d+) failed", text)
+    passed, failed = (int(counts.group(1)), int(counts.group(2))) if counts else (0, 1)
+    if not re.search(r"^RESULT rc=0\s*$", text, re.MULTILINE) and failed == 0:
+        print("run_vm_tests: the guest did not end well")
+        failed = 1
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
