@@ -1,14 +1,25 @@
 extends Node
-## Start scene: reads the arguments after `--`, checks that the add-on is there, and opens the task.
+## Start scene: reads the arguments after `--`, checks that the add-on is there, and opens the menu or a task.
 ##
 ## Exit codes of a scripted play: 0 all placed and felt right, 1 not, 2 the arguments or the add-on are wrong.
 
 const TASKS: Dictionary[String, String] = {
 	"pick_and_place": "res://tasks/pick_and_place/pick_and_place.tscn",
+	"robot_linking": "res://tasks/robot_linking/robot_linking.tscn",
+	"match_linking": "res://tasks/match_linking/match_linking.tscn",
 }
-const DEFAULT_TASK := "pick_and_place"
+const OTHER_SCENES: Dictionary[String, String] = {
+	"hub": "res://hub/hub.tscn",
+	"free_play": "res://tasks/free_play/free_play.tscn",
+}
 ## By path: before the first import no class name is known, and this script must be able to say what is missing.
 const Arguments := preload("res://common/play_arguments.gd")
+
+
+var _arguments: Arguments
+var _settings: RefCounted
+var _scene: Node
+var _report: Node
 
 
 func _ready() -> void:
@@ -26,11 +37,40 @@ func _ready() -> void:
 			arguments.scripted()
 		)
 		return
-	var task_name := arguments.task if arguments.scripted() else DEFAULT_TASK
-	var scene: PackedScene = load(TASKS[task_name])
-	var task := scene.instantiate()
-	task.set("arguments", arguments)
-	add_child(task)
+	_arguments = arguments
+	_settings = (load("res://common/demo_settings.gd") as Script).call(&"load_or_default")
+	if arguments.scripted():
+		_open(arguments.task)
+	else:
+		_settings.set(&"level", arguments.level if arguments.open_task != "" else _settings.get(&"level"))
+		_open(arguments.open_task if arguments.open_task != "" else "hub")
+
+
+## Replaces what is open by a task, free play or the menu.
+func _open(scene_name: String) -> void:
+	if _scene != null:
+		_scene.queue_free()
+	var scene: PackedScene = load(TASKS.get(scene_name, OTHER_SCENES.get(scene_name, "")))
+	_scene = scene.instantiate()
+	_scene.set(&"arguments", _arguments)
+	_scene.set(&"settings", _settings)
+	if scene_name == "hub":
+		_scene.connect(&"chosen", _on_chosen)
+		_scene.connect(&"left", get_tree().quit)
+	else:
+		_scene.connect(&"left", _open.bind("hub"))
+	add_child(_scene)
+	if _arguments.report != "" and _report == null:
+		_report = (load("res://common/screen_report.gd") as Script).call(&"new")
+		_report.set(&"path", _arguments.report)
+		add_child(_report)
+	if _report != null:
+		_report.set(&"task", _scene)
+
+
+func _on_chosen(entry: StringName, level: int) -> void:
+	_arguments.level = level
+	_open(String(entry))
 
 
 func _refuse(message: String, leave: bool) -> void:

@@ -4,21 +4,52 @@ extends Node
 ## and go off at once on the panic key or when the window loses the focus.
 
 signal restart_wanted
+signal leave_wanted
 
 var interactive := false
 
 var _spidar: SpidarG
 var _hud: Hud
+var _mouse: MouseHand
+var _settings: DemoSettings
+## Where the grip stood when the clutch was pressed.
+var _clutched_at := Vector3.INF
+var _steps_left := 0
 
 
-func setup(spidar: SpidarG, hud: Hud) -> void:
+func setup(spidar: SpidarG, hud: Hud, mouse: MouseHand, settings: DemoSettings) -> void:
 	_spidar = spidar
 	_hud = hud
+	_mouse = mouse
+	_settings = settings
+	process_mode = Node.PROCESS_MODE_ALWAYS # P and O work while everything else stands.
+
+
+func _exit_tree() -> void:
+	get_tree().paused = false
+
+
+func _physics_process(_delta: float) -> void:
+	if _steps_left > 0:
+		_steps_left -= 1
+		get_tree().paused = _steps_left == 0
+	if _clutched_at.is_finite() and _settings.device_name != "":
+		# A real hand goes on; the device's frame gives way, so that the grip stays in the scene.
+		_spidar.global_position += _clutched_at - _spidar.get_grip_transform().origin
+
+
+func _clutch(pressed: bool) -> void:
+	_mouse.clutched = pressed
+	_clutched_at = _spidar.get_grip_transform().origin if pressed else Vector3.INF
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
 	var key := event as InputEventKey
-	if not interactive or not key.pressed or key.echo:
+	if not interactive or key.echo:
+		return
+	if key.physical_keycode == KEY_C:
+		_clutch(key.pressed)
+	if not key.pressed:
 		return
 	match key.physical_keycode:
 		KEY_SPACE:
@@ -31,9 +62,16 @@ func _unhandled_key_input(event: InputEvent) -> void:
 			_hud.toggle_help()
 		KEY_TAB:
 			_hud.next_mode()
+		KEY_P:
+			get_tree().paused = not get_tree().paused
+			_hud.show_notice("Paused. P goes on, O does one step." if get_tree().paused else "")
+		KEY_O:
+			if get_tree().paused:
+				_steps_left = 2 # This frame may be over already.
+				get_tree().paused = false
 		KEY_ESCAPE:
 			_spidar.disarm()
-			get_tree().quit()
+			leave_wanted.emit()
 
 
 func _notification(what: int) -> void:
@@ -44,6 +82,9 @@ func _notification(what: int) -> void:
 func _toggle_forces() -> void:
 	if _spidar.forces_enabled:
 		_cut_forces("Forces are off. F turns them on.")
+		return
+	if not _settings.forces_allowed:
+		_hud.show_notice("The settings keep the forces off.")
 		return
 	_hud.show_notice("")
 	_spidar.clear_fault()

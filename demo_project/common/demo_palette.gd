@@ -23,3 +23,19 @@ const BLUE := Color("4f83d1")
 const PLUM := Color("9a6bb8")
 const SAGE := Color("93b86a")
 const BONE := Color("e6dcc6")
+
+
+## A plain, see-through surface: outlines and ghosts.
+static func flat(colour: Color) -> StandardMaterial3D:
+	var material := StandardMaterial3D.new()
+	material.albedo_color = colour
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
+	material.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	return material
+
+
+static func matte(colour: Color) -> StandardMaterial3D:
+	var material := StandardMaterial3D.new()
+	material.albedo_color = colour
+	material.roughness = 0.8
+	return material

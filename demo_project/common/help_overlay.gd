@@ -15,7 +15,9 @@ const KEYS: Dictionary[String, String] = {
 	"R": "starts again, same layout",
 	"Tab": "display: off, short, full",
 	"H": "this help",
-	"Esc": "quits",
+	"C, held": "clutch: the hand moves, the grip stays",
+	"P, O": "pause, single step",
+	"Esc": "back to the menu; there: quits",
 }
 
 

@@ -67,8 +67,10 @@ func show_result(text: String) -> void:
 	_result = text
 
 
-func show_task(title: String, time_s: float, placed: int, total: int, seed_number: int) -> void:
-	_title.text = "%s   seed %d" % [title, seed_number]
+func show_task(
+	title: String, time_s: float, placed: int, total: int, level: int, seed_number: int
+) -> void:
+	_title.text = "%s   level %d   seed %d" % [title, level, seed_number]
 	_time.text = "%d:%04.1f" % [floori(time_s / 60.0), fmod(time_s, 60.0)]
 	_placed.text = "%d of %d placed" % [placed, total]
 
@@ -110,6 +112,8 @@ func _hint_text() -> String:
 		return _result
 	if _spidar.get_state() == SpidarG.STATE_FAULT:
 		return "Fault: %s   F  clears it and arms again" % _spidar.get_fault_text()
+	if get_tree().paused and _notice != "":
+		return _notice
 	if not _spidar.forces_enabled:
 		return _notice if _notice != "" else HINT_FORCES_OFF
 	return HINT_ON

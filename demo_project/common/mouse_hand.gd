@@ -24,6 +24,11 @@ var pitch_rad := 0.0
 var roll_rad := 0.0
 var grasp_angle_rad := OPEN_ANGLE_RAD
 
+## The mouse chooses, it does not move the grip: see AutoAnimator.
+var clicks_only := false
+## Held: the cursor moves and the grip stays.
+var clutched := false
+
 var _closing := false
 var _turning := false
 
@@ -43,7 +48,21 @@ func recentre(position_: Vector3) -> void:
 	grasp_angle_rad = OPEN_ANGLE_RAD
 
 
+## Goes on from a pose that the grip was brought to.
+func follow(pose: Transform3D, grasp_angle: float, closed: bool) -> void:
+	var in_device := spidar.global_transform.orthonormalized().affine_inverse() * pose
+	position_m = in_device.origin / spidar.workspace_scale
+	var turn := in_device.basis.get_euler()
+	pitch_rad = turn.x
+	yaw_rad = turn.y
+	roll_rad = turn.z
+	grasp_angle_rad = grasp_angle
+	_closing = closed
+
+
 func _unhandled_input(event: InputEvent) -> void:
+	if clicks_only or clutched:
+		return
 	if event is InputEventMouseMotion:
 		_on_motion(event as InputEventMouseMotion)
 	elif event is InputEventMouseButton:
@@ -89,9 +108,10 @@ func _on_button(button: InputEventMouseButton) -> void:
 			Input.mouse_mode = (
 				Input.MOUSE_MODE_CAPTURED if _turning else Input.MOUSE_MODE_VISIBLE
 			)
-		MOUSE_BUTTON_WHEEL_UP:
+		# A notch comes as a press and a release.
+		MOUSE_BUTTON_WHEEL_UP when button.pressed:
 			_move_in_depth(WHEEL_STEP_M)
-		MOUSE_BUTTON_WHEEL_DOWN:
+		MOUSE_BUTTON_WHEEL_DOWN when button.pressed:
 			_move_in_depth(-WHEEL_STEP_M)
 
 

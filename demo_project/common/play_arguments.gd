@@ -5,19 +5,30 @@ extends RefCounted
 const EXIT_DONE := 0
 const EXIT_NOT_DONE := 1
 const EXIT_BAD_ARGUMENTS := 2
+const LEVELS := 3
+const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
 const USAGE := (
-	"usage: ... -- --play TASK --seed N --out DIR [--pictures] [--cut-output] [--freeze-pose]\n"
-	+ "       ... -- [--seed N]            (interactive)"
+	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
+	+ "              [--pictures] [--cut-output] [--freeze-pose]\n"
+	+ "       ... -- [--task TASK] [--level L] [--seed N] [--report FILE]    (interactive)"
 )
 
 ## Task to play by script; empty: interactive.
 var task := ""
+## Task that an interactive session opens at once; empty: the menu.
+var open_task := ""
+## 1 to LEVELS, rising in difficulty.
+var level := 1
+## Whose hand plays: one of HANDS.
+var hand := HANDS[0]
 ## Layout of the trial.
 var seed_number := 1
 ## Absolute folder for the results.
 var out_dir := ""
 ## Save pictures of the run into out_dir.
 var pictures := false
+## Absolute path of a file that says where things are on the screen; for a scripted user. Empty: none.
+var report := ""
 ## Cut the motor currents inside the simulated device: nothing can be felt.
 var cut_output := false
 ## Freeze the simulated encoders: the grip's pose never changes.
@@ -42,7 +53,7 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 				cut_output = true
 			"--freeze-pose":
 				freeze_pose = true
-			"--play", "--seed", "--out":
+			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report":
 				index += 1
 				if index >= words.size():
 					problem = "%s needs a value after it" % word
@@ -57,14 +68,29 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 
 func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 	match word:
-		"--play":
+		"--play", "--task":
 			if not tasks.has(value):
-				problem = "--play %s: no such task; there is: %s" % [value, ", ".join(tasks)]
-			task = value
+				problem = "%s %s: no such task; there is: %s" % [word, value, ", ".join(tasks)]
+			if word == "--play":
+				task = value
+			else:
+				open_task = value
+		"--level":
+			if not value.is_valid_int() or value.to_int() < 1 or value.to_int() > LEVELS:
+				problem = "--level %s: must be a whole number from 1 to %d" % [value, LEVELS]
+			level = value.to_int()
+		"--hand":
+			if not HANDS.has(value):
+				problem = "--hand %s: no such hand; there is: %s" % [value, ", ".join(HANDS)]
+			hand = value
 		"--seed":
 			if not value.is_valid_int() or value.to_int() < 0:
 				problem = "--seed %s: must be a whole number of 0 or more" % value
 			seed_number = value.to_int()
+		"--report":
+			if not value.is_absolute_path():
+				problem = "--report %s: must be an absolute path of a file" % value
+			report = value
 		"--out":
 			if not value.is_absolute_path():
 				problem = "--out %s: must be an absolute path of a folder" % value
@@ -74,8 +100,8 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 func _find_conflict() -> String:
 	if scripted() and out_dir == "":
 		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
-	if not scripted() and (pictures or cut_output or freeze_pose or out_dir != ""):
-		return "--out, --pictures, --cut-output and --freeze-pose need --play TASK"
+	if not scripted() and (pictures or cut_output or freeze_pose or out_dir != "" or hand != HANDS[0]):
+		return "--hand, --out, --pictures, --cut-output and --freeze-pose need --play TASK"
 	if pictures and DisplayServer.get_name() == "headless":
 		return "--pictures needs a display: run without --headless (under Xvfb where there is none)"
 	return ""

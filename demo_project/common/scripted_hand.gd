@@ -11,6 +11,14 @@ const SIGHT_GAIN_1_S := 4.0
 const SIGHT_LIMIT_M := 0.020
 const SIGHT_SPEED_M_S := 0.02
 
+## Physiological tremor: about 8 to 12 Hz, well under a millimetre at the hand.
+const TREMOR_HZ: PackedFloat64Array = [8.3, 9.7, 11.9]
+const TREMOR_M := 0.00012
+## A clumsy hand aims this far beside at each reach, until it sees it, and trembles more.
+const CLUMSY_MISS_M := 0.004
+const CLUMSY_TREMOR := 2.0
+const CLUMSY_HASTE := 0.85
+
 ## Emitted after each step of the hand, before the device steps.
 signal stepped
 
@@ -22,6 +30,11 @@ var wanted := Transform3D.IDENTITY
 var grasp_angle_rad := 0.0
 
 var _correction_m := Vector3.ZERO
+var _tremor_m := 0.0
+var _miss_m := 0.0
+var _haste := 1.0
+var _time_s := 0.0
+var _random := RandomNumberGenerator.new()
 
 
 func start(spidar_: SpidarG) -> void:
@@ -29,9 +42,22 @@ func start(spidar_: SpidarG) -> void:
 	wanted = spidar.get_grip_transform()
 
 
+## One of PlayArguments.HANDS; the same seed trembles alike.
+func be(kind: String, seed_number: int) -> void:
+	_random.seed = seed_number
+	_tremor_m = 0.0 if kind == "steady" else TREMOR_M
+	if kind == "clumsy":
+		_tremor_m *= CLUMSY_TREMOR
+		_miss_m = CLUMSY_MISS_M
+		_haste = CLUMSY_HASTE
+
+
 ## Reaches for a pose; the grasp angle stays.
 func move_to(goal: Transform3D, duration_s: float) -> void:
 	var from := wanted
+	if from.origin.distance_to(goal.origin) > _miss_m:
+		_correction_m += _anywhere(_miss_m)
+		duration_s *= _haste
 	var elapsed_s := 0.0
 	while elapsed_s < duration_s and not stopped:
 		elapsed_s = minf(elapsed_s + _tick_s(), duration_s)
@@ -82,10 +108,25 @@ func _step(slow: bool) -> void:
 		var error := wanted.origin - spidar.get_grip_transform().origin
 		_correction_m += error * SIGHT_GAIN_1_S * _tick_s()
 		_correction_m = _correction_m.limit_length(SIGHT_LIMIT_M)
-	var aim := Transform3D(wanted.basis, wanted.origin + _correction_m)
+	_time_s += _tick_s()
+	var aim := Transform3D(wanted.basis, wanted.origin + _correction_m + _tremor())
 	spidar.simulated_hand_target(aim, grasp_angle_rad)
 	await get_tree().physics_frame
 	stepped.emit()
+
+
+func _tremor() -> Vector3:
+	var shake := Vector3.ZERO
+	for axis in 3:
+		shake[axis] = _tremor_m * sin(TAU * TREMOR_HZ[axis] * _time_s + axis)
+	return shake
+
+
+func _anywhere(within_m: float) -> Vector3:
+	var way := Vector3(
+		_random.randf_range(-1.0, 1.0), _random.randf_range(-1.0, 1.0), _random.randf_range(-1.0, 1.0)
+	)
+	return within_m * way.limit_length(1.0)
 
 
 func _tick_s() -> float:

@@ -12,7 +12,7 @@ const COLUMNS: PackedStringArray = [
 	"peak_force_n", "mean_force_n", "peak_torque_nm", "peak_grasp_moment_nm",
 	"wrench_residual_rms", "tension_saturated_pct", "servo_hz_mean", "servo_period_p99_us",
 	"missed_deadlines", "addon_version", "godot_version", "objects", "objects_placed",
-	"weight_checks_ok", "width_checks_ok",
+	"weight_checks_ok", "width_checks_ok", "level", "detent_checks_ok", "max_penetration_mm",
 ]
 ## Moments count in the residual as forces at the end of a pole.
 const RESIDUAL_LEVER_M := 0.04

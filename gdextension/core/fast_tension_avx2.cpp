@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/fast_tension_limits.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <immintrin.h>
@@ -25,8 +27,7 @@ namespace spidar {
 
 bool solve_fast_avx2(const TensionProblem &problem, const ActiveSet *warm,
                      TensionSolution &solution) noexcept {
-    FastTension<FourAvx2> kernel(problem);
-    return kernel.run(warm, solution);
+    return FastTension<FourAvx2>(problem).run(warm, solution);
 }
 
 } // namespace spidar

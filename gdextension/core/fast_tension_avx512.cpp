@@ -33,8 +33,7 @@ namespace spidar {
 
 bool solve_fast_avx512(const TensionProblem &problem, const ActiveSet *warm,
                        TensionSolution &solution) noexcept {
-    WideTension<EightAvx512, kFastDofs> kernel(problem);
-    return kernel.run(warm, solution);
+    return WideTension<EightAvx512, kFastDofs>(problem).run(warm, solution);
 }
 
 } // namespace spidar

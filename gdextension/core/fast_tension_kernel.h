@@ -195,10 +195,7 @@ private:
         const Row g{gradient_.a & mask.a, gradient_.b & mask.b};
         const Row product = table_.times(g);
         const Row d{product.a & mask.a, product.b & mask.b};
-        gain_ =
-            Four::mul_add(g.a, d.a, g.b * d.b); // g'd is what the objective changes by: H d = -g
         const Row x = Row::load(x_);
-        where_ = x;
         Row{x.a + d.a, x.b + d.b}.store(x_);
         largest_step_ = Four::max(d.a.absolute(), d.b.absolute()).largest();
     }
@@ -335,23 +332,14 @@ private:
         return ((picked + 0x7F7F7F7F7F7F7F7FULL) >> 7U) & 0x0101010101010101ULL;
     }
 
-    // False when the objective overflows.
+    // False where squares overflow.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
         solution.active = std::bit_cast<ActiveSet>(spread(low_) | (spread(high_) << 1U));
-        const Four back = back_ & Row::lanes(14); // DOF 3 is in both
-        const Row x = where_;
-        const Row t = Row::load(p_.proximal_target_n.data());
-        const Four da = x.a - t.a;
-        const Four db = x.b - t.b;
-        const Four squares = Four::mul_add(front_, front_, back * back);
-        const Four away = Four::mul_add(da, da, db * db);
-        solution.objective =
-            (Four::mul_add(away, Four::all(p_.proximal_weight), squares) + gain_).sum();
         solution.largest_error_n = Four::max(front_.absolute(), back_.absolute()).largest();
         solution.iterations = iterations;
         solution.status = Status::ok;
-        return solution.objective < kOpen;
+        return solution.largest_error_n < kLargestForce_n;
     }
 
     const TensionProblem &p_;
@@ -362,10 +350,8 @@ private:
     alignas(32) double most_[kFastStrings];
     SweepTable<Four> table_;
     Row gradient_{};
-    Row where_{};  // x_ before the last step
     Four front_{}; // W (A x - q) where gradient_ was taken
     Four back_{};
-    Four gain_{}; // g'd of the last step
     double largest_step_ = 0.0;
     double stiffness_ = 0.0; // trace of H
     unsigned movable_ = 0;   // lower < upper

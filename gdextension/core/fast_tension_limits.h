@@ -29,5 +29,6 @@ inline constexpr int kBlockPasses = 4;
 inline constexpr int kPasses = 24;
 inline constexpr int kTables = 4; // inversions; a warm start seldom needs a second
 inline constexpr double kOpen = 1e300;
+inline constexpr double kLargestForce_n = 1e150; // its square is still finite
 
 } // namespace spidar

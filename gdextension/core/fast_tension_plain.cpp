@@ -14,8 +14,7 @@ namespace spidar {
 
 bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
                       TensionSolution &solution) noexcept {
-    FastTension<FourPlain> kernel(problem);
-    return kernel.run(warm, solution);
+    return FastTension<FourPlain>(problem).run(warm, solution);
 }
 
 bool solve_fast(const TensionProblem &problem, const ActiveSet *warm,

@@ -332,10 +332,9 @@ TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
     solution.tensions_n = search.tensions();
     solution.active = search.active();
     solution.iterations = search.iterations();
-    solution.objective = system.objective(solution.tensions_n);
     solution.largest_error_n = system.gradient(solution.tensions_n, false).largest_force_n;
     solution.status = solved ? Status::ok : Status::not_converged;
-    if (!std::isfinite(solution.objective)) {
+    if (!std::isfinite(system.objective(solution.tensions_n))) {
         return refused(problem, Status::not_converged); // finite input that overflows on the way
     }
     return solution;

@@ -33,7 +33,6 @@ using ActiveSet = std::array<StringBound, kStringCount>;
 struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
-    double objective = 0.0;
     double largest_error_n = 0.0; // max |W (A tau - q)|
     int iterations = 0;           // factorisations
     Status status = Status::ok;

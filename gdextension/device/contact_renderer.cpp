@@ -72,7 +72,7 @@ void ContactRenderer::configure(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
-GainClamp ContactRenderer::accept(const HapticCommand &command) noexcept {
+GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) noexcept {
     using Gain = GainClamp::Gain;
     GainClamp clamp;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -125,7 +125,7 @@ GainClamp ContactRenderer::accept(const HapticCommand &command) noexcept {
         track.plane = plane;
         tracks_[i] = track;
     }
-    age_s_ = 0.0;
+    clock_.receive(command.contacts_state_time_s, now_s);
     if (count_ == 0) {
         strength_ = 1.0; // the game goes on and touches nothing: nothing to recover from
     }
@@ -133,11 +133,12 @@ GainClamp ContactRenderer::accept(const HapticCommand &command) noexcept {
 }
 
 bool ContactRenderer::age(double dt_s) noexcept {
-    age_s_ += dt_s;
+    clock_.advance(dt_s);
     if (count_ == 0) {
         return false; // an empty set never grows old
     }
-    const double left = std::clamp(1.0 - (age_s_ - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
+    const double left =
+        std::clamp(1.0 - (clock_.age_s() - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
     strength_ = std::min(left, strength_ + dt_s / kRecovery_s);
     if (left > 0.0) {
         return false;
@@ -148,8 +149,8 @@ bool ContactRenderer::age(double dt_s) noexcept {
 
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     const ContactPlane &plane = track.plane;
-    const double moved_s = std::min(age_s_, kContactExtrapolation_s);
-    const bool moving = age_s_ <= kContactExtrapolation_s;
+    const double moved_s = clock_.carried_s();
+    const bool moving = clock_.carries();
     const double shift_m = glm::dot(plane.normal, plane.velocity_m_s) * moved_s;
 
     Surface to;
@@ -160,7 +161,7 @@ void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     to.damping_n_s_m = plane.damping_n_s_m;
     to.friction = plane.friction;
 
-    const double s = track.fading_in ? std::min(1.0, age_s_ / kContactCrossFade_s) : 1.0;
+    const double s = track.fading_in ? std::min(1.0, clock_.age_s() / kContactCrossFade_s) : 1.0;
     Surface now = to;
     if (s < 1.0) {
         // Both ends of the fade move on alike: a plane that moves as announced is not dragged back.

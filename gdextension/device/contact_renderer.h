@@ -6,6 +6,7 @@
 #include <array>
 
 #include "device/gain_clamp.h"
+#include "device/game_clock.h"
 #include "device/god_object.h"
 #include "device/motion_filter.h"
 #include "device/servo_settings.h"
@@ -15,8 +16,6 @@ namespace spidar {
 
 // One game period: steps of a plane between two updates are spread over it.
 inline constexpr double kContactCrossFade_s = 0.016;
-// A plane moves on by its velocity no longer than this without an update.
-inline constexpr double kContactExtrapolation_s = 0.030;
 // How stiff the god-object holds the grip's orientation and grasp angle while a contact away from the centre turns
 // it. A contact at a pole's end (lever r) gives way by 1 / stiffness + r^2 / this.
 inline constexpr double kGodObjectTurnStiffness_nm_rad = 1.0;
@@ -27,8 +26,8 @@ public:
     void configure(const ServoSettings &settings) noexcept;
 
     // A valid set (validate_contacts) replaces the last one; the same id and target carries on. Says what was
-    // brought down to a cap.
-    GainClamp accept(const HapticCommand &command) noexcept;
+    // brought down to a cap. now_s: the clock of HapticCommand::contacts_state_time_s.
+    GainClamp accept(const HapticCommand &command, double now_s) noexcept;
     // Once a cycle, before accept(). True in the cycle in which a set is dropped for its age.
     bool age(double dt_s) noexcept;
 
@@ -79,7 +78,7 @@ private:
     std::array<Track, kMaxContacts> tracks_{};
     std::size_t count_ = 0;
     std::uint8_t active_mask_ = 0;
-    double age_s_ = 0.0;
+    GameClock clock_;
     double strength_ = 1.0; // falls with age, comes back gradually
 };
 

@@ -44,12 +44,6 @@ Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     return length > limit ? v * (limit / length) : v;
 }
 
-// How old a proxy is when it comes; a time of another clock counts as now.
-double state_age(const Coupling &coupling, double now_s) noexcept {
-    const bool stamped = coupling.state_time_s >= 0.0 && coupling.state_time_s <= now_s;
-    return stamped ? std::min(now_s - coupling.state_time_s, kCouplingExtrapolation_s) : 0.0;
-}
-
 bool has(std::uint8_t mask, int dof) noexcept {
     return ((mask >> dof) & 1U) != 0;
 }
@@ -64,11 +58,11 @@ void CouplingRequest::configure(const ServoSettings &settings) noexcept {
 }
 
 double CouplingRequest::faded_in() const noexcept {
-    return std::min(1.0, age_s_ / kCrossFade_s);
+    return std::min(1.0, clock_.age_s() / kCrossFade_s);
 }
 
 CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
-    const double moved_s = std::min(state_age_s_ + age_s_, kCouplingExtrapolation_s);
+    const double moved_s = clock_.carried_s();
     const double left = 1.0 - faded_in();
     const Twist &twist = coupling_.twist;
     Proxy proxy;
@@ -135,8 +129,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         }
         // From where the old proxy is to where the new one is by now.
         coupling_ = next;
-        age_s_ = 0.0;
-        state_age_s_ = state_age(next, now_s);
+        clock_.receive(next.state_time_s, now_s);
         jump_ = Displacement();
         const Proxy young = proxy_now();
         jump_ = {old.position_m - young.position_m,
@@ -147,10 +140,10 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         from_damping_ = next.damping;
         jump_ = Displacement();
         strength_ = 0.0;
+        clock_ = GameClock();
+        clock_.receive(next.state_time_s, now_s);
     }
     coupling_ = next;
-    age_s_ = 0.0;
-    state_age_s_ = state_age(next, now_s);
     live_ = next.dof_mask != 0 || carries_on; // an empty one still fades the last one out
     return clamp;
 }
@@ -159,12 +152,13 @@ bool CouplingRequest::age(double dt_s) noexcept {
     if (!live_) {
         return false;
     }
-    age_s_ += dt_s;
+    clock_.advance(dt_s);
     if (coupling_.dof_mask == 0) {
-        live_ = age_s_ < kCrossFade_s;
+        live_ = clock_.age_s() < kCrossFade_s;
         return false; // withdrawn, not forgotten
     }
-    const double left = std::clamp(1.0 - (age_s_ - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
+    const double left =
+        std::clamp(1.0 - (clock_.age_s() - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
     strength_ = std::min(left, strength_ + dt_s / kOnset_s);
     if (left > 0.0) {
         return false;
@@ -179,8 +173,7 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     }
     const Proxy proxy = proxy_now();
     const GripState &grip = motion.grip;
-    const Twist pull =
-        state_age_s_ + age_s_ <= kCouplingExtrapolation_s ? coupling_.twist : Twist();
+    const Twist pull = clock_.carries() ? coupling_.twist : Twist();
     const Vec3 apart_m = proxy.position_m - grip.pose.position_m - motion.ahead.linear_m;
     const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) -
                            motion.ahead.angular_rad;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/gain_clamp.h"
+#include "device/game_clock.h"
 #include "device/haptic_command.h"
 #include "device/motion_filter.h"
 #include "device/servo_settings.h"
@@ -36,8 +37,7 @@ private:
     DofGains from_damping_{};
     Displacement jump_{}; // where the last proxy was, relative to this one
     bool live_ = false;
-    double age_s_ = 0.0;
-    double state_age_s_ = 0.0; // how old the proxy was when it came
+    GameClock clock_;
     double strength_ = 0.0;
 };
 

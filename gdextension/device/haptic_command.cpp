@@ -94,6 +94,9 @@ Status validate_contact(const ContactPlane &contact) noexcept {
 }
 
 Status validate_contacts(const HapticCommand &command) noexcept {
+    if (!std::isfinite(command.contacts_state_time_s)) {
+        return Status::not_finite;
+    }
     if (command.contact_count < 0 || command.contact_count > kMaxContacts) {
         return Status::invalid_request;
     }

@@ -40,7 +40,7 @@ using DofGains = std::array<double, kDofCount>;
 struct ContactPlane {
     Vec3 normal{0.0, 1.0, 0.0}; // unit
     double offset_m = 0.0;      // or rad
-    Vec3 velocity_m_s{0.0};     // the plane's own: it moves on between updates (at most 30 ms)
+    Vec3 velocity_m_s{0.0};     // the plane's own: it moves on between updates
     double stiffness_n_m = 350.0;
     double damping_n_s_m = 2.0;
     double friction = 0.0; // Coulomb coefficient
@@ -49,8 +49,7 @@ struct ContactPlane {
 };
 
 // A spring and damper in all seven DOF between the grip and a proxy of the game's: something held or dragged.
-// The proxy moves on by its twist from the time that it was computed for, at most kCouplingExtrapolation_s.
-inline constexpr double kCouplingExtrapolation_s = 0.030;
+// The proxy moves on by its twist from the time that it was computed for (game_clock.h says how long).
 struct Coupling {
     Vec3 position_m{0.0}; // of the proxy, where the grip's centre should be
     Mat3 rotation{1.0};
@@ -108,6 +107,9 @@ struct HapticCommand {
     std::uint32_t zero_count = 0; // zero_at_home(): the grip is held at home
     // Sign of life: the game changes it each frame. 0: nobody promised one, so nobody is missed.
     std::uint32_t heartbeat = 0;
+    // The loop's own watchdogs and panic_stop() set these, not the game: motors off for this reason, latched.
+    std::uint32_t stop_count = 0;
+    Status stop_reason = Status::ok;
 
     // Raw wrench, full for wrench_duration_s after wrench_sequence changes, then faded.
     std::uint64_t wrench_sequence = 0;
@@ -117,6 +119,8 @@ struct HapticCommand {
     std::uint64_t contacts_sequence = 0;
     int contact_count = 0;
     std::array<ContactPlane, kMaxContacts> contacts{};
+    // As Coupling::state_time_s.
+    double contacts_state_time_s = -1.0;
 
     std::uint64_t coupling_sequence = 0;
     Coupling coupling;

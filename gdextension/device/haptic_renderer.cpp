@@ -54,7 +54,7 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     }
     if (is_new(contacts_sequence_, command.contacts_sequence,
                [&] { return validate_contacts(command); })) {
-        note(contacts_.accept(command), counters);
+        note(contacts_.accept(command, now_s), counters);
     }
     if (is_new(coupling_sequence_, command.coupling_sequence,
                [&] { return validate_coupling(command.coupling); })) {
@@ -78,8 +78,9 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
     } else {
         motion_.reset();
     }
-    const Wrench between_frames = wrench_.value() + coupling_.render(motion);
-    Wrench sum = controller_.correct(between_frames, moved, motion.velocity, dt_s);
+    // A raw wrench is given as it was asked: whoever asks for one answers for its energy.
+    const Wrench held = coupling_.render(motion);
+    Wrench sum = wrench_.value() + controller_.correct(held, moved, motion.velocity, dt_s);
     if (!contacts_.empty()) {
         sum = sum + contacts_.render(motion, dt_s);
     }

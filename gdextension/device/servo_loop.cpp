@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <system_error>
 #include <vector>
 
+#include "device/event_queue.h"
 #include "device/real_time_thread.h"
 #include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
+#include "device/writer_thread.h"
 
 namespace spidar {
 
@@ -19,6 +22,14 @@ constexpr std::uint64_t kMostCyclesAtOnce = 1'000'000;
 constexpr double kShortestStepPart = 0.25; // of the period
 constexpr double kLongestStep_s = 0.05;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+// A cycle this late is counted; so many in a hundred are told.
+constexpr std::int64_t kLate_ns = 1'000'000;
+constexpr int kLateOfHundred = 3;
+// A write that waits so long is told; one that waits longer is a device lost, whose firmware has let go by itself.
+constexpr std::int64_t kBlocked_ns = 20'000'000;
+constexpr std::int64_t kBlockedForGood_ns = 50'000'000;
+// How long a thread that waits to open a device may keep a stop() waiting.
+constexpr std::int64_t kNap_ns = 20'000'000;
 
 } // namespace
 
@@ -35,6 +46,22 @@ struct ServoLoop::Impl {
     std::atomic<bool> stop_asked{false};
     bool is_running = false; // the controlling thread's own
     bool is_threaded = false;
+
+    // Started when the loop has a thread and the transport's write may block.
+    std::optional<WriterThread> writer;
+    bool use_writer = false;
+    EventQueue events;
+    EventLog own_events; // of the loop, beside the step's
+    std::atomic<std::uint32_t> panics{0};
+    std::uint32_t panics_seen = 0;
+    std::uint32_t stops = 0;
+    Status stop_reason = Status::ok;
+    bool write_is_blocked = false;
+    std::atomic<std::int64_t> cycle_began_ns{0}; // 0: no thread
+    std::atomic<std::uint64_t> late_cycles{0};
+    int hundred = 0; // cycles of the hundred that is being counted, and how many of them were late
+    int late_of_hundred = 0;
+    Status open_status = Status::ok;
 
     // The one that records now is the last. One that was closed stays until the loop has surely let go of it.
     struct OwnedRecorder {
@@ -70,14 +97,18 @@ struct ServoLoop::Impl {
             }
             may_arm_itself = replay->may_arm_itself();
             command_is_new = true;
+        } else if (watch_host()) {
+            command_is_new = true;
         }
+        command.stop_count = replay != nullptr ? command.stop_count : stops;
+        command.stop_reason = replay != nullptr ? command.stop_reason : stop_reason;
         const Status read = transport->read(reading);
         if (recording != nullptr) {
             recording->begin(step);
         }
         const DriveCommand drive = step.step(read, reading, command, dt_s, may_arm_itself);
         const bool lost = step.snapshot().state == DeviceState::closed;
-        const Status written = transport->write(drive);
+        const Status written = write(drive);
         if (!lost) {
             step.report_write(written); // a lost device is not lost a second time
         }
@@ -88,10 +119,93 @@ struct ServoLoop::Impl {
         if (replay != nullptr) {
             replay->compare(step.snapshot(), drive);
         }
+        for (const DeviceEvent &event : step.events()) {
+            events.push(event);
+        }
+        for (const DeviceEvent &event : own_events.events()) {
+            events.push(event);
+        }
+        own_events.begin_cycle(step.snapshot().time_s);
         snapshots.write(step.snapshot());
         transport->advance(dt_s);
         cycles_done.store(cycles_done.load(std::memory_order_relaxed) + 1,
                           std::memory_order_release);
+    }
+
+    // Reasons of the host's own to switch the motors off. True: there is a new one.
+    bool watch_host() noexcept {
+        const std::uint32_t before = stops;
+        const std::uint32_t asked = panics.load(std::memory_order_acquire);
+        if (asked != panics_seen) {
+            panics_seen = asked;
+            ++stops;
+            stop_reason = Status::panic_stopped;
+        }
+        if (use_writer) {
+            if (writer->take_stalled()) {
+                ++stops;
+                stop_reason = Status::loop_stalled;
+            }
+            const std::int64_t blocked_ns = writer->blocked_ns(monotonic_ns());
+            if (blocked_ns > kBlocked_ns) {
+                own_events.tell(DeviceEventKind::write_blocked, -1,
+                                static_cast<double>(blocked_ns) * 1e-9);
+            }
+            const bool for_good = blocked_ns > kBlockedForGood_ns;
+            if (for_good && !write_is_blocked) {
+                ++stops;
+                stop_reason = Status::write_failed;
+            }
+            write_is_blocked = for_good;
+        }
+        return stops != before;
+    }
+
+    Status write(const DriveCommand &drive) noexcept {
+        if (!use_writer) {
+            return transport->write(drive);
+        }
+        writer->post(drive);
+        if (!drive.motors_on) {
+            writer->allow(); // what a panic forbade is off in what is posted, too
+        }
+        return writer->take_result();
+    }
+
+    void count_late(std::int64_t late_ns) noexcept {
+        lateness.add(late_ns);
+        const bool late = late_ns > kLate_ns;
+        late_cycles.fetch_add(late ? 1 : 0, std::memory_order_relaxed);
+        late_of_hundred += late ? 1 : 0;
+        if (++hundred >= 100) {
+            if (late_of_hundred > kLateOfHundred) {
+                own_events.tell(DeviceEventKind::cycles_late, -1,
+                                static_cast<double>(late_ns) * 1e-9);
+            }
+            hundred = 0;
+            late_of_hundred = 0;
+        }
+    }
+
+    // The device did not open: tells it, and tries again until it does or the loop is stopped.
+    bool open_patiently() noexcept {
+        ServoSnapshot closed;
+        closed.fault = open_status;
+        snapshots.write(closed);
+        events.push({0.0, 0.0, DeviceEventKind::open_failed, -1, 0});
+        const auto wait_ns =
+            static_cast<std::int64_t>(std::llround(settings_in_use.reopen_interval_s * 1e9));
+        while (!usable(open_status)) {
+            const std::int64_t next_ns = monotonic_ns() + wait_ns;
+            for (std::int64_t now_ns = monotonic_ns(); now_ns < next_ns; now_ns = monotonic_ns()) {
+                if (stop_asked.load(std::memory_order_acquire)) {
+                    return false;
+                }
+                sleep_until_ns(std::min(next_ns, now_ns + kNap_ns));
+            }
+            open_status = transport->open();
+        }
+        return true;
     }
 
     Status prepare(const ServoSettings &settings) noexcept {
@@ -115,12 +229,26 @@ struct ServoLoop::Impl {
         measured_rate_hz.store(0.0, std::memory_order_relaxed);
         real_time_priority.store(false, std::memory_order_relaxed);
         stop_asked.store(false, std::memory_order_relaxed);
-        return transport->open();
+        late_cycles.store(0, std::memory_order_relaxed);
+        own_events = EventLog();
+        panics_seen = panics.load(std::memory_order_acquire);
+        stops = 0;
+        write_is_blocked = false;
+        hundred = 0;
+        late_of_hundred = 0;
+        open_status = transport->open();
+        return open_status;
     }
 
     void run() noexcept {
         const FlushDenormals flush;
         real_time_priority.store(request_real_time(), std::memory_order_relaxed);
+        if (!usable(open_status) && !open_patiently()) {
+            return;
+        }
+        if (!real_time_priority.load(std::memory_order_relaxed)) {
+            own_events.tell(DeviceEventKind::no_real_time_priority);
+        }
         const auto period_ns = static_cast<std::int64_t>(std::llround(period_s * 1e9));
         const bool simulated = transport->simulated();
         std::int64_t deadline_ns = monotonic_ns() + period_ns;
@@ -128,13 +256,20 @@ struct ServoLoop::Impl {
         std::int64_t window_start_ns = last_ns;
         std::int64_t window_cycles = 0;
         while (!stop_asked.load(std::memory_order_acquire)) {
-            sleep_until_ns(deadline_ns);
+            const bool clocked =
+                settings_in_use.device_clocked && transport->wait_report(deadline_ns + period_ns);
+            if (!clocked) {
+                sleep_until_ns(deadline_ns);
+            }
             const std::int64_t woken_ns = monotonic_ns();
-            lateness.add(woken_ns - deadline_ns);
+            cycle_began_ns.store(woken_ns, std::memory_order_release);
+            count_late(woken_ns - deadline_ns);
+            deadline_ns = clocked ? woken_ns : deadline_ns;
             const double measured_s = static_cast<double>(woken_ns - last_ns) * 1e-9;
             last_ns = woken_ns;
-            cycle(simulated ? period_s
-                            : std::clamp(measured_s, kShortestStepPart * period_s, kLongestStep_s));
+            // A step longer than the longest is a computer that slept: the step is told the truth.
+            const double step_s = std::max(measured_s, kShortestStepPart * period_s);
+            cycle(simulated ? period_s : step_s);
             const std::int64_t done_ns = monotonic_ns();
             step_time.add(done_ns - woken_ns);
 
@@ -155,13 +290,16 @@ struct ServoLoop::Impl {
                 window_cycles = 0;
             }
         }
-        transport->write(DriveCommand()); // motors off, in the thread that owns the device
+        if (!use_writer) {
+            transport->write(DriveCommand()); // motors off, in the thread that owns the device
+        }
     }
 };
 
 ServoLoop::ServoLoop(std::unique_ptr<Transport> transport) : impl_(std::make_unique<Impl>()) {
     impl_->transport = std::move(transport);
     impl_->replay = impl_->transport->as_replay();
+    impl_->writer.emplace(*impl_->transport);
 }
 
 ServoLoop::~ServoLoop() {
@@ -175,6 +313,7 @@ Status ServoLoop::start_stepped(const ServoSettings &settings) {
         return status;
     }
     impl_->measured_rate_hz.store(settings.rate_hz, std::memory_order_relaxed);
+    impl_->use_writer = false;
     impl_->is_running = true;
     impl_->is_threaded = false;
     return status;
@@ -183,18 +322,26 @@ Status ServoLoop::start_stepped(const ServoSettings &settings) {
 Status ServoLoop::start_threaded(const ServoSettings &settings) {
     stop();
     const Status status = impl_->prepare(settings);
-    if (!usable(status)) {
+    // Settings that are wrong stay wrong; a device may still be plugged in.
+    const bool waits = settings.reopen_interval_s > 0.0 && status <= Status::not_open;
+    if (!usable(status) && !waits) {
         return status;
+    }
+    impl_->use_writer = impl_->transport->write_may_block();
+    if (impl_->use_writer && !usable(impl_->writer->start())) {
+        impl_->transport->close();
+        return Status::open_failed;
     }
     try {
         impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
     } catch (const std::system_error &) { // the system has no thread left
+        impl_->writer->stop();
         impl_->transport->close();
         return Status::open_failed;
     }
     impl_->is_running = true;
     impl_->is_threaded = true;
-    return status;
+    return Status::ok;
 }
 
 void ServoLoop::stop() noexcept {
@@ -204,6 +351,8 @@ void ServoLoop::stop() noexcept {
     if (impl_->is_threaded) {
         impl_->stop_asked.store(true, std::memory_order_release);
         impl_->thread.join();
+        impl_->writer->stop(); // motors off
+        impl_->cycle_began_ns.store(0, std::memory_order_release);
     } else {
         impl_->transport->write(DriveCommand());
     }
@@ -264,6 +413,20 @@ void ServoLoop::publish(const HapticCommand &command) noexcept {
     impl_->commands.write(command);
 }
 
+void ServoLoop::panic_stop() noexcept {
+    impl_->panics.fetch_add(1, std::memory_order_acq_rel);
+    impl_->writer->forbid();
+}
+
+double ServoLoop::since_last_cycle_s() const noexcept {
+    const std::int64_t began_ns = impl_->cycle_began_ns.load(std::memory_order_acquire);
+    return began_ns != 0 ? static_cast<double>(monotonic_ns() - began_ns) * 1e-9 : 0.0;
+}
+
+bool ServoLoop::next_event(DeviceEvent &event) noexcept {
+    return impl_->events.pop(event);
+}
+
 bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept {
     return impl_->snapshots.read(snapshot);
 }
@@ -280,6 +443,7 @@ LoopStatistics ServoLoop::statistics() const noexcept {
     statistics.step_p50_us = impl.step_time.quantile_us(kMedian);
     statistics.step_p99_us = impl.step_time.quantile_us(kTail);
     statistics.missed_deadlines = impl.missed_deadlines.load(std::memory_order_relaxed);
+    statistics.late_cycles = impl.late_cycles.load(std::memory_order_relaxed);
     statistics.real_time_priority = impl.real_time_priority.load(std::memory_order_relaxed);
     return statistics;
 }

@@ -24,6 +24,7 @@ struct LoopStatistics {
     double step_p50_us = 0.0; // read + compute + write
     double step_p99_us = 0.0;
     std::uint64_t missed_deadlines = 0;
+    std::uint64_t late_cycles = 0;   // more than 1 ms after the deadline
     bool real_time_priority = false; // SCHED_FIFO granted
 };
 
@@ -34,11 +35,20 @@ public:
     ServoLoop(const ServoLoop &) = delete;
     ServoLoop &operator=(const ServoLoop &) = delete;
 
-    // Opens the transport. On failure nothing runs.
+    // Opens the transport. On failure nothing runs, unless reopen_interval_s lets the thread try again: then the
+    // state is closed until the device opens.
     Status start_threaded(const ServoSettings &settings);
     Status start_stepped(const ServoSettings &settings);
-    // Motors to zero, thread joined, then the handle closed. Safe at any time, twice too.
+    // Motors to zero, thread joined, then the handle closed. Safe at any time, twice too. Waits for a write that is
+    // under way.
     void stop() noexcept;
+    // From any thread, at any time, one atomic: the motors go off in the next cycle, and at once where a writer thread
+    // serves the device. Latched: clear_fault() and arm() lead back.
+    void panic_stop() noexcept;
+    // Since the thread began its last cycle (unit: s); 0 when none runs. What a game watches the loop by.
+    [[nodiscard]] double since_last_cycle_s() const noexcept;
+    // What happened, in order. False: nothing more. From the controlling thread.
+    bool next_event(DeviceEvent &event) noexcept;
     [[nodiscard]] bool running() const noexcept;
     [[nodiscard]] bool threaded() const noexcept;
 

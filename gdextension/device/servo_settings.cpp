@@ -75,6 +75,7 @@ std::string validate(const ServoSettings &settings) {
     const Range ranges[] = {
         {"rate_hz", settings.rate_hz, "Hz", 100.0, 4000.0},
         {"velocity_cutoff_hz", settings.velocity_cutoff_hz, "Hz", 1.0, 1000.0},
+        {"reopen_interval_s", settings.reopen_interval_s, "s", 0.0, 60.0},
     };
     for (const Range &range : ranges) {
         std::string own = complaint(range);

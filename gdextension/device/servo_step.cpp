@@ -72,6 +72,8 @@ ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
     edges.clear_fault = command.clear_fault_count != clear_fault_count_;
     edges.zero = command.zero_count != zero_count_;
     edges.heartbeat = command.heartbeat != heartbeat_ || command.heartbeat == 0;
+    edges.stop = command.stop_count != stop_count_;
+    stop_count_ = command.stop_count;
     zero_count_ = command.zero_count;
     heartbeat_ = command.heartbeat;
     arm_count_ = command.arm_count;
@@ -279,9 +281,8 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
     if (edges.clear_fault && machine_.fault() != Status::ok) {
         clear_fault(usable(read_status));
     }
-    if (stop_asked_ != Status::ok) {
-        raise(stop_asked_, -1);
-        stop_asked_ = Status::ok;
+    if (edges.stop) {
+        raise(command.stop_reason, -1);
     }
     if (jumped) {
         jump_clock(asked_dt_s);

@@ -36,9 +36,6 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
-    // Switches the motors off in the next step, latched. For the caller's own watchdogs.
-    void stop_motors(Status why) noexcept { stop_asked_ = why; }
-
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }
@@ -50,6 +47,7 @@ private:
         bool clear_fault = false;
         bool zero = false;
         bool heartbeat = false;
+        bool stop = false;
     };
     Edges take_edges(const HapticCommand &command) noexcept;
     void clear_fault(bool answers) noexcept;
@@ -100,7 +98,6 @@ private:
     bool rendering_ = false; // a wrench was asked for in the last cycle
     bool simulated_ = false;
     bool device_zeroed_ = true; // as the device said last
-    Status stop_asked_ = Status::ok;
     DeviceState told_state_ = DeviceState::closed;
     double since_beat_s_ = 0.0; // of the game
     std::uint64_t device_time_us_ = 0;
@@ -112,6 +109,7 @@ private:
     std::uint32_t clear_fault_count_ = 0;
     std::uint32_t zero_count_ = 0;
     std::uint32_t heartbeat_ = 0;
+    std::uint32_t stop_count_ = 0;
     ServoSnapshot snapshot_{};
 };
 

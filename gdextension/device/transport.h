@@ -51,6 +51,13 @@ public:
     // write() waits for the device, for seconds if that hangs: keep it out of the loop's thread.
     [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
 
+    // Waits for the next report, until this instant of monotonic_ns() at the latest, and leaves it to read(). False at
+    // once: this device cannot clock the loop. True: a report waits, or the time is up.
+    [[nodiscard]] virtual bool wait_report(std::int64_t until_ns) noexcept {
+        (void)until_ns;
+        return false;
+    }
+
     // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
     virtual void advance(double dt_s) noexcept { (void)dt_s; }
     // A simulated device may arm itself when forces are enabled; a real one arms only on arm().

@@ -64,7 +64,18 @@ public:
         FAULT_READ_TIMEOUT,
         FAULT_UNPLUGGED,
         FAULT_STUCK_ENCODER,
-        FAULT_BROKEN_STRING
+        FAULT_BROKEN_STRING,
+        FAULT_HAND_RELEASED,
+        FAULT_JAMMED_DRUM,
+        FAULT_SLIPPED_STRING,
+        FAULT_COUNTS_RESET,
+        FAULT_REVERSED_ENCODER,
+        FAULT_SWAPPED_ENCODERS,
+        FAULT_REPORTS_LOST,
+        FAULT_REPORTS_REPEATED,
+        FAULT_REPORTS_SWAPPED,
+        FAULT_LATE_OUTPUT,
+        FAULT_BLOCKED_OUTPUT
     };
     enum { CONTACT_STRIDE = 12 };
 
@@ -147,6 +158,7 @@ public:
     [[nodiscard]] godot::Dictionary get_contact_impulses() const;
     [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
     [[nodiscard]] godot::Dictionary get_statistics() const;
+    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
     // Recording and replay (spidar_g_recording.cpp).
     bool start_recording(const godot::String &path);
@@ -162,7 +174,7 @@ public:
     bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
-    void inject_simulated_fault(SimulatedFault fault, int string, double start_s,
+    bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
 

@@ -13,8 +13,8 @@ static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRAS
 static_assert(static_cast<int>(spidar::ContactTarget::turn_stop) == SpidarG::CONTACT_TURN_STOP);
 static_assert(static_cast<int>(spidar::kAllDof) == SpidarG::DOF_ALL);
 static_assert(static_cast<int>(spidar::HandFirmness::firm) == SpidarG::HAND_FIRM);
-static_assert(static_cast<int>(spidar::SimulatedFault::broken_string) ==
-              SpidarG::FAULT_BROKEN_STRING);
+static_assert(static_cast<int>(spidar::SimulatedFault::blocked_output) ==
+              SpidarG::FAULT_BLOCKED_OUTPUT);
 
 void SpidarG::_bind_methods() {
     bind_enums();
@@ -98,6 +98,7 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_achieved_wrench"), &SpidarG::get_achieved_wrench);
     ClassDB::bind_method(D_METHOD("get_wrench_bias"), &SpidarG::get_wrench_bias);
     ClassDB::bind_method(D_METHOD("get_statistics"), &SpidarG::get_statistics);
+    ClassDB::bind_method(D_METHOD("get_lateness_histogram"), &SpidarG::get_lateness_histogram);
 }
 
 void SpidarG::bind_requests() {
@@ -177,5 +178,16 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(FAULT_UNPLUGGED);
     BIND_ENUM_CONSTANT(FAULT_STUCK_ENCODER);
     BIND_ENUM_CONSTANT(FAULT_BROKEN_STRING);
+    BIND_ENUM_CONSTANT(FAULT_HAND_RELEASED);
+    BIND_ENUM_CONSTANT(FAULT_JAMMED_DRUM);
+    BIND_ENUM_CONSTANT(FAULT_SLIPPED_STRING);
+    BIND_ENUM_CONSTANT(FAULT_COUNTS_RESET);
+    BIND_ENUM_CONSTANT(FAULT_REVERSED_ENCODER);
+    BIND_ENUM_CONSTANT(FAULT_SWAPPED_ENCODERS);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_LOST);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_REPEATED);
+    BIND_ENUM_CONSTANT(FAULT_REPORTS_SWAPPED);
+    BIND_ENUM_CONSTANT(FAULT_LATE_OUTPUT);
+    BIND_ENUM_CONSTANT(FAULT_BLOCKED_OUTPUT);
     BIND_CONSTANT(CONTACT_STRIDE);
 }

@@ -118,6 +118,7 @@ bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts) {
     }
     command_.contacts = planes;
     command_.contact_count = static_cast<int>(count);
+    command_.contacts_state_time_s = snapshot_.time_s; // the game saw this one
     ++command_.contacts_sequence;
     if (loop_) {
         loop_->publish(command_);

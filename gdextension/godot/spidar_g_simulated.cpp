@@ -52,20 +52,24 @@ godot::Dictionary SpidarG::get_simulated_truth() const {
     return truth;
 }
 
-void SpidarG::inject_simulated_fault(SimulatedFault fault, int string, double start_s,
+bool SpidarG::inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                      double duration_s) {
     if (simulated_ == nullptr) {
-        reject("inject_simulated_fault: the open device is not a simulated one.");
-        return;
+        return reject("inject_simulated_fault: the open device is not a simulated one.");
     }
-    if (string < 0 || string >= spidar::kStringCount || !std::isfinite(start_s) ||
-        !std::isfinite(duration_s)) {
-        reject("inject_simulated_fault: string = " + std::to_string(string) + ", start_s = " +
-               std::to_string(start_s) + " s, duration_s = " + std::to_string(duration_s) +
-               " s: give a string from 0 to 7 and finite times.");
-        return;
+    const spidar::FaultInjection injection{static_cast<spidar::SimulatedFault>(fault), string,
+                                           start_s, duration_s};
+    if (fault < FAULT_OUTPUT_CUT || fault > FAULT_BLOCKED_OUTPUT || !spidar::is_usable(injection)) {
+        return reject(
+            "inject_simulated_fault: fault = " + std::to_string(static_cast<int>(fault)) +
+            ", string = " + std::to_string(string) + ", start_s = " + std::to_string(start_s) +
+            " s, duration_s = " + std::to_string(duration_s) +
+            " s: give one of SpidarG.SimulatedFault, a string from 0 to 7, a start of 0 s or later "
+            "and a finite duration.");
     }
-    simulated_->inject({static_cast<spidar::SimulatedFault>(fault), string, start_s, duration_s});
+    return simulated_->inject(injection) ||
+           reject("inject_simulated_fault: " + std::to_string(spidar::kMaxFaults) +
+                  " faults wait or act already: clear_simulated_faults() first.");
 }
 
 void SpidarG::clear_simulated_faults() {

@@ -162,6 +162,20 @@ godot::PackedInt32Array SpidarG::get_touching_contacts() const {
     return ids;
 }
 
+godot::PackedInt32Array SpidarG::get_lateness_histogram() const {
+    godot::PackedInt32Array counts;
+    if (!loop_) {
+        return counts;
+    }
+    counts.resize(spidar::LoopHistogram::kBuckets);
+    std::int32_t *out = counts.ptrw();
+    for (const std::uint32_t count : loop_->lateness_counts()) {
+        *out = static_cast<std::int32_t>(count & INT32_MAX);
+        ++out;
+    }
+    return counts;
+}
+
 godot::Dictionary SpidarG::get_statistics() const {
     godot::Dictionary statistics;
     const spidar::LoopStatistics loop = loop_ ? loop_->statistics() : spidar::LoopStatistics{};

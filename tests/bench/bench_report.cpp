@@ -61,6 +61,19 @@ std::string processor_name() {
 
 } // namespace
 
+BenchRow make_row(const std::string &method, const std::string &set, const std::string &mode,
+                  SampleTimes &times) {
+    BenchRow row;
+    row.method = method;
+    row.set = set;
+    row.mode = mode;
+    row.median_ns = times.quantile_ns(0.5);
+    row.p99_ns = times.quantile_ns(0.99);
+    row.p999_ns = times.quantile_ns(0.999);
+    row.max_ns = times.quantile_ns(1.0);
+    return row;
+}
+
 void print_header(const char *title) {
     std::printf("\n%s\n%-38s %-12s %-8s %8s %8s %8s %8s %7s %10s %9s\n", title, "method", "set",
                 "mode", "median", "p99", "p99.9", "max ns", "x daqp", "worst err", "failures");

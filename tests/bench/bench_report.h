@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/sample_times.h"
+
 namespace spidar::bench {
 
 inline constexpr double kNoFigure = -1.0; // printed as "-", written as null
@@ -22,6 +24,9 @@ struct BenchRow {
     double worst_error = kNoFigure;   // N for tensions, m for poses
     long failures = 0;
 };
+
+[[nodiscard]] BenchRow make_row(const std::string &method, const std::string &set,
+                                const std::string &mode, SampleTimes &times);
 
 void print_header(const char *title);
 void print_row(const BenchRow &row);

@@ -74,7 +74,7 @@ struct Rig {
         for (const ContactPlane &plane : planes) {
             command.contacts[static_cast<std::size_t>(command.contact_count++)] = plane;
         }
-        renderer.accept(command);
+        renderer.accept(command, 0.0);
     }
     Wrench tick(const GripState &grip, double scale = 1.0) {
         renderer.age(kTick_s);
@@ -133,7 +133,7 @@ TEST_CASE("contact: one, two, four or eight coplanar contacts feel the same") {
         }
         for (Rig *rig : {&same, &spread}) {
             rig->command.contact_count = count;
-            rig->renderer.accept(rig->command);
+            rig->renderer.accept(rig->command, 0.0);
             CAPTURE(count);
             CHECK(rig->tick(grip_at(p)).force_n.z == doctest::Approx(still_n));
             CHECK(rig->tick(moving).force_n.z == doctest::Approx(moving_n));
@@ -252,7 +252,7 @@ TEST_CASE("contact: the push acts on where the grip will be, surface and all") {
     command.contacts[0] = floor_plane();
     command.contacts[0].damping_n_s_m = 0.0;
     command.contacts[0].velocity_m_s = Vec3(0.0, 0.0, 0.2);
-    renderer.accept(command);
+    renderer.accept(command, 0.0);
     GripMotion motion = motion_of(grip_at(Vec3(0.0, 0.0, -0.004)));
     motion.ahead.linear_m.z = -0.001;
     CHECK(renderer.render(motion, kTick_s).force_n.z ==
@@ -333,6 +333,19 @@ TEST_CASE("contact: planes move on by their velocity for 30 ms, then stand") {
         const double force_n = rig.tick(grip_at(Vec3(0.0, 0.0, -0.001))).force_n.z;
         CHECK(force_n == doctest::Approx(350.0 * (0.001 + 0.2e-3 * std::min(ms, 30))));
     }
+}
+
+TEST_CASE("contact: a plane that says when it was computed is moved on from then") {
+    Rig rig;
+    ContactPlane plane = floor_plane();
+    plane.damping_n_s_m = 0.0;
+    plane.velocity_m_s = Vec3(0.0, 0.0, 0.2);
+    rig.command.contacts[0] = plane;
+    rig.command.contact_count = 1;
+    rig.command.contacts_state_time_s = 7.0;
+    rig.renderer.accept(rig.command, 7.008); // 8 ms old
+    const double force_n = rig.tick(grip_at(Vec3(0.0, 0.0, -0.001))).force_n.z;
+    CHECK(force_n == doctest::Approx(350.0 * (0.001 + 0.2 * 0.009)));
 }
 
 TEST_CASE("contact: full to 100 ms, half at 200 ms, gone at 300 ms, and back gradually") {
@@ -438,7 +451,7 @@ TEST_CASE("contact: caps of stiffness and damping, reported") {
     rig.command.contacts[0] = plane;
     rig.command.contact_count = 1;
     const GainCaps caps = gain_caps(Rig::settings().render, Rig::settings().rate_hz);
-    const GainClamp clamp = rig.renderer.accept(rig.command);
+    const GainClamp clamp = rig.renderer.accept(rig.command, 0.0);
     CHECK(clamp.gain == GainClamp::Gain::stiffness);
     CHECK(clamp.asked == 1e6);
     CHECK(clamp.given == caps.stiffness_n_m);
@@ -450,11 +463,11 @@ TEST_CASE("contact: caps of stiffness and damping, reported") {
     ContactPlane stop = stop_at(0.0);
     stop.stiffness_n_m = 100.0;
     rig.command.contacts[0] = stop;
-    CHECK(rig.renderer.accept(rig.command).gain == GainClamp::Gain::grasp_stiffness);
+    CHECK(rig.renderer.accept(rig.command, 0.0).gain == GainClamp::Gain::grasp_stiffness);
     CHECK(rig.tick(grip_at(Vec3(0.0), 0.1)).grasp_torque_nm ==
           doctest::Approx(-caps.grasp_stiffness_nm_rad * 0.1));
     rig.command.contacts[0] = floor_plane();
-    CHECK(rig.renderer.accept(rig.command).gain == GainClamp::Gain::none);
+    CHECK(rig.renderer.accept(rig.command, 0.0).gain == GainClamp::Gain::none);
 }
 
 TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that never pulls") {
@@ -484,7 +497,7 @@ TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that 
         }
         rig.command.contact_count = static_cast<int>(random() % (kMaxContacts + 1));
         if (random() % 3 == 0) {
-            rig.renderer.accept(rig.command);
+            rig.renderer.accept(rig.command, 0.0);
         }
         GripState grip = grip_at(Vec3(0.01, -0.02, 0.03), 0.1);
         grip.twist.linear_m_s = Vec3(0.5, -0.5, 1.0);

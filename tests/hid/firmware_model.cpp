@@ -73,7 +73,7 @@ void FirmwareModel::receive(ReportBytes bytes) noexcept {
         }
         return;
     }
-    if (!healthy() || !zeroed_) {
+    if (!healthy()) {
         switch_off();
         return;
     }

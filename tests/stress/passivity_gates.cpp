@@ -29,6 +29,8 @@ constexpr double kDragSpeed_m_s = 0.15;
 constexpr double kSameFeel = 0.05;
 // A moving wall's force against the ideal one's, of the ideal one's rms.
 constexpr double kWallError = 0.10;
+// A normal is not carried on between frames: at 72 degrees a second it lags by up to 5 degrees.
+constexpr double kTurningError = 0.20;
 
 struct Case {
     HandFirmness hand = HandFirmness::normal;
@@ -297,7 +299,7 @@ int main(int argc, char **argv) {
     Gate held_rad{"dither, coupling", kStill_rad, "deg", 180.0 / std::numbers::pi, -1e300, {}};
     Gate drag{"drag in free space", kMostDrag_n, "N", 1.0, -1e300, {}};
     Gate swinging{"moving wall's error", kWallError, "%", 100.0, -1e300, {}};
-    Gate turning{"turning wall's error", kWallError, "%", 100.0, -1e300, {}};
+    Gate turning{"turning wall's error", kTurningError, "%", 100.0, -1e300, {}};
     Gate coplanar{"one or four coplanar", kSameFeel, "%", 100.0, -1e300, {}};
     Gate *const gates[] = {&work,   &plane,    &turn, &grasp,    &all_m,   &all_rad,
                            &held_m, &held_rad, &drag, &swinging, &turning, &coplanar};

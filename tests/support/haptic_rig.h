@@ -124,6 +124,7 @@ private:
             const double late = settings_.game_work + settings_.game_jitter * uniform_(random_);
             if (game && !(chance < settings_.dropped_frames)) {
                 pending_ = command_;
+                pending_.contacts_state_time_s = step_.snapshot().time_s;
                 game(step_.snapshot(), pending_);
                 publish_s_ = t + std::min(late, 0.95) * period_s;
                 waiting_ = true;

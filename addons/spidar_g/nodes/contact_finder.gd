@@ -17,6 +17,8 @@ const LOOK_AHEAD_BELOW_M: float = 0.005
 
 ## A body with this metadata (N/m per device metre) feels softer than the rest.
 const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
+## A body with this metadata (coefficient) is rougher or smoother than the rest.
+const FRICTION_META: StringName = &"spidar_friction"
 ## The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
 ## let a light body bounce between the tool's push and its own answer.
 const PUSHED_STIFFNESS_RATIO: float = 1.0
@@ -53,6 +55,22 @@ func find(
 		var plane: ContactPlane = _nearest_plane(space)
 		if plane != null:
 			found.append(_clearest_plane(space, plane, transform, ahead))
+
+
+## The same for every shape of `body`, as if it were at `at`.
+func find_round_body(
+	space: PhysicsDirectSpaceState3D,
+	body: CollisionObject3D,
+	at: Transform3D,
+	exclude: Array[RID],
+	found: Array[ContactPlane]
+) -> void:
+	for shape_owner: int in body.get_shape_owners():
+		if body.is_shape_owner_disabled(shape_owner):
+			continue
+		var placed: Transform3D = at * body.shape_owner_get_transform(shape_owner)
+		for index: int in body.shape_owner_get_shape_count(shape_owner):
+			find(space, body.shape_owner_get_shape(shape_owner, index), placed, exclude, found)
 
 
 ## Each body once, in the order met.
@@ -112,7 +130,7 @@ func _nearest_plane(space: PhysicsDirectSpaceState3D) -> ContactPlane:
 func set_material(plane: ContactPlane, collider: Object) -> void:
 	plane.stiffness_n_m = float_meta(collider, STIFFNESS_META, stiffness_n_m)
 	plane.damping_n_s_m = damping_n_s_m
-	plane.friction = friction
+	plane.friction = float_meta(collider, FRICTION_META, friction)
 	var body: RigidBody3D = collider as RigidBody3D
 	if body != null and not body.freeze:
 		plane.pushed_body = body

@@ -77,6 +77,15 @@ func gained(id: int) -> Vector3:
 	return _gained.get(id, Vector3.ZERO)
 
 
+## Newton's third law at game rate: what a plane gave the hand, its body gets back, up to most_n_s.
+func push_bodies(most_n_s: float) -> void:
+	for plane: ContactPlane in planes:
+		var impulse: Vector3 = -gained(plane.id)
+		if is_instance_valid(plane.pushed_body) and impulse.is_finite() and not impulse.is_zero_approx():
+			var arm: Vector3 = plane.point - plane.pushed_body.global_position
+			plane.pushed_body.apply_impulse(impulse.limit_length(most_n_s), arm)
+
+
 func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:
 	for other: ContactPlane in nearer:
 		if plane.normal.dot(other.normal) > MERGE_COSINE:

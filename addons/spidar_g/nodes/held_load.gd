@@ -23,6 +23,8 @@ var with_inertia: bool = true
 
 var force_n: Vector3 = Vector3.ZERO
 var moment_nm: Vector3 = Vector3.ZERO
+var _added_n: Vector3 = Vector3.ZERO
+var _added_nm: Vector3 = Vector3.ZERO
 var _grip_centre: Vector3 = Vector3.ZERO
 var _velocity: Vector3 = Vector3.ZERO
 var _acceleration: Vector3 = Vector3.ZERO
@@ -37,6 +39,19 @@ func reset(grip_centre: Vector3, velocity: Vector3) -> void:
 	_age_s = 0.0
 	force_n = Vector3.ZERO
 	moment_nm = Vector3.ZERO
+
+
+## A new frame: nothing else pulls yet.
+func clear() -> void:
+	_added_n = Vector3.ZERO
+	_added_nm = Vector3.ZERO
+
+
+## What else pulls in this frame, about the grip's centre; left out when it is not finite.
+func add(added_n: Vector3, added_nm: Vector3) -> void:
+	if added_n.is_finite() and added_nm.is_finite():
+		_added_n += added_n
+		_added_nm += added_nm
 
 
 ## Once a physics frame. grip_centre in the scene; workspace_scale: scene metres per device metre.
@@ -61,4 +76,5 @@ func advance(
 		force_n -= inertia.limit_length(INERTIA_FORCE_SHARE * max_force_n)
 	force_n *= clampf(_age_s / ONSET_TIME_S, 0.0, 1.0)
 	var centre: Vector3 = state.transform.origin + state.center_of_mass
-	moment_nm = ((centre - grip_centre) / workspace_scale).cross(force_n)
+	moment_nm = ((centre - grip_centre) / workspace_scale).cross(force_n) + _added_nm
+	force_n = (force_n + _added_n).limit_length(max_force_n)

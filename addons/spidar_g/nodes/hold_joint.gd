@@ -6,12 +6,15 @@ extends Node3D
 const CENTRING_TIME_S: float = 0.08
 
 var body: RigidBody3D = null
+## True from detain() to the next advance().
+var detained: bool = false
 var _anchor: AnimatableBody3D = null
 var _joint: Generic6DOFJoint3D = null
 ## From the anchor to the body, as it was when caught.
 var _caught: Transform3D = Transform3D.IDENTITY
 ## Along the grip's x axis, how far the body sat from the middle, and how much of it is still there.
 var _off_centre_m: float = 0.0
+var _seat: Transform3D = Transform3D.IDENTITY
 var _age_s: float = 0.0
 var _could_sleep: bool = true
 
@@ -46,6 +49,14 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 ## Moves on by one physics frame: call once, before where() and follow().
 func advance(delta_s: float) -> void:
 	_age_s += delta_s
+	detained = false
+
+
+## Until the next advance() the body stays at `seat`, wherever the grip goes.
+func detain(seat: Transform3D) -> void:
+	detained = seat.is_finite()
+	if detained:
+		_seat = seat
 
 
 ## Where the body belongs when the grip is at `grip` and nothing is in the way.
@@ -57,7 +68,14 @@ func where(grip: Transform3D) -> Transform3D:
 func follow(grip: Transform3D, shift: Vector3) -> void:
 	var target: Transform3D = _centred(grip)
 	target.origin += shift
+	if detained:
+		target = _seat * _caught.affine_inverse()
 	_anchor.global_transform = target
+
+
+## Where the pads are that hold the body: with it, also where the grip itself has gone on through what stopped it.
+func carried_grip() -> Transform3D:
+	return _anchor.global_transform.translated_local(Vector3(_off_centre_moved(), 0.0, 0.0))
 
 
 ## Scene metres between the body and where the anchor last held it: large when something tears at it.
@@ -81,5 +99,8 @@ func detach(max_speed_m_s: float) -> void:
 
 
 func _centred(grip: Transform3D) -> Transform3D:
-	var moved: float = _off_centre_m * smoothstep(0.0, CENTRING_TIME_S, _age_s)
-	return grip.translated_local(Vector3(-moved, 0.0, 0.0))
+	return grip.translated_local(Vector3(-_off_centre_moved(), 0.0, 0.0))
+
+
+func _off_centre_moved() -> float:
+	return _off_centre_m * smoothstep(0.0, CENTRING_TIME_S, _age_s)

@@ -7,14 +7,17 @@ extends Node3D
 ## Add it as a child of a [SpidarG]. Each physics frame it publishes the surfaces near the tool as contact
 ## planes and the body between the pads as a stop on the grasp angle, both rendered in the device thread, and
 ## asks for the weight and inertia of the body it holds. A [RigidBody3D] squeezed hard enough (friction check) is
-## held by a 6-DOF joint until the jaws open. Bodies with metadata [code]spidar_stiffness_n_m[/code] (N/m) or
-## [code]spidar_squeeze_nm_rad[/code] (N m/rad) feel softer than the rest.
+## held by a 6-DOF joint until the jaws open. Bodies with metadata [code]spidar_stiffness_n_m[/code] (N/m),
+## [code]spidar_squeeze_nm_rad[/code] (N m/rad) or [code]spidar_friction[/code] (a coefficient) feel softer, rougher or
+## smoother than the rest.
 
 signal body_grasped(body: RigidBody3D)
 ## Also when the body leaves the tree.
 signal body_released(body: RigidBody3D)
 ## The pads closed on a body and do not hold it; once per attempt, with the reason and the remedy.
 signal grasp_refused(body: RigidBody3D, reason: String)
+## Once a physics frame while a body is held, before it is moved: the time for [method add_load] and [method detain].
+signal carrying(delta: float)
 
 const ContactFinder := preload("contact_finder.gd")
 const ContactPlane := preload("contact_plane.gd")
@@ -127,11 +130,13 @@ func get_held_width_m() -> float:
 	return _held_width_m if _hold != null else 0.0
 
 
-## Middle of a pad's inner face in the world: side 0 at -x of the grip, side 1 at +x. Pads stop at a body's faces.
+## Middle of a pad's inner face in the world: side 0 at -x of the grip, side 1 at +x. Pads stop at a body's faces, and
+## stay on a held body that something stops.
 func get_pad_position(side: int) -> Vector3:
 	if spidar == null:
 		return global_position
-	return _pad.transform_of(side, spidar.get_grip_transform(), _shown_gap_m()).origin
+	var grip: Transform3D = _hold.carried_grip() if _hold != null else spidar.get_grip_transform()
+	return _pad.transform_of(side, grip, _shown_gap_m()).origin
 
 
 ## Radius of a pad, scene metres.
@@ -147,6 +152,26 @@ func get_squeeze_torque_nm() -> float:
 ## Grasp angle at which the body between the pads (or the closed pads) stops the fingers, rad; NAN when nothing does.
 func get_stop_angle() -> float:
 	return _stop.angle_rad if _stop.active else NAN
+
+
+## Where the held body would be if nothing stood in its way; the identity when none is held.
+func get_wanted_pose() -> Transform3D:
+	if _hold == null or spidar == null:
+		return Transform3D.IDENTITY
+	return _hold.where(spidar.get_grip_transform())
+
+
+## What else pulls on the held body in this frame, a magnet or a spring: felt with its weight. Force in N, moment in
+## N m about the grip's centre, world axes. Call it when [signal carrying] comes; a spring is stable to about 150 N/m.
+func add_load(force_n: Vector3, moment_nm: Vector3 = Vector3.ZERO) -> void:
+	_load.add(force_n, moment_nm)
+
+
+## In this frame the held body stays at `seat` and the grip alone moves on: for parts that have snapped in. Call it when
+## [signal carrying] comes, and [method add_load] for the pull that the hand feels.
+func detain(seat: Transform3D) -> void:
+	if _hold != null:
+		_hold.detain(seat)
 
 
 ## Lets go of the held body, if any.
@@ -176,7 +201,7 @@ func _physics_process(delta: float) -> void:
 	_contacts.read_impulses(spidar.get_contact_impulses())
 	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
 	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
-	_push_bodies(delta)
+	_contacts.push_bodies(_settings().max_force * delta)
 	if _hold != null:
 		_watch_hold(delta)
 	var exclude: Array[RID] = []
@@ -192,16 +217,6 @@ func _physics_process(delta: float) -> void:
 	_contacts.replace(found)
 	_publish(grip)
 	_request_load(grip, delta)
-
-
-## Newton's third law at game rate: what a plane gave the hand, its body gets back.
-func _push_bodies(delta: float) -> void:
-	var most: float = _settings().max_force * delta
-	for plane: ContactPlane in _contacts.planes:
-		var impulse: Vector3 = -_contacts.gained(plane.id)
-		if is_instance_valid(plane.pushed_body) and impulse.is_finite() and not impulse.is_zero_approx():
-			var arm: Vector3 = plane.point - plane.pushed_body.global_position
-			plane.pushed_body.apply_impulse(impulse.limit_length(most), arm)
 
 
 func _sense_jaws(grip: Transform3D) -> void:
@@ -279,16 +294,17 @@ func _carry(
 	grip: Transform3D, exclude: Array[RID], delta: float, found: Array[ContactPlane]
 ) -> void:
 	_hold.advance(delta)
+	_load.clear()
+	carrying.emit(delta)
+	if _hold == null:
+		return  # A listener let go.
+	if _hold.detained:
+		_hold.follow(grip, Vector3.ZERO)
+		return  # Where it sits the world cannot stop it: no planes.
 	var body: RigidBody3D = _hold.body
 	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
-	for shape_owner: int in body.get_shape_owners():
-		if body.is_shape_owner_disabled(shape_owner):
-			continue
-		var placed: Transform3D = at * body.shape_owner_get_transform(shape_owner)
-		for index: int in body.shape_owner_get_shape_count(shape_owner):
-			var shape: Shape3D = body.shape_owner_get_shape(shape_owner, index)
-			_finder.find(_space(), shape, placed, exclude, found)
+	_finder.find_round_body(_space(), body, at, exclude, found)
 	var shift: Vector3 = Vector3.ZERO
 	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
 		for plane: ContactPlane in found:
@@ -340,8 +356,9 @@ func _request_load(grip: Transform3D, delta: float) -> void:
 		return
 	_load.gain = weight_scale
 	_load.max_force_n = _settings().max_force
-	_load.with_weight = render_weight
-	_load.with_inertia = render_inertia
+	# What has snapped in is carried by its socket.
+	_load.with_weight = render_weight and not _hold.detained
+	_load.with_inertia = render_inertia and not _hold.detained
 	_load.advance(delta, _hold.body, grip.origin, spidar.workspace_scale)
 	_load_requested = spidar.request_wrench(_load.force_n, _load.moment_nm, 0.0)
 

@@ -16,12 +16,21 @@ var size_m := Vector3.ZERO
 var mass_kg := 0.0
 var colour := Color.WHITE
 var stand := Stand.TABLE
+var friction := TaskBody.DEFAULT_FRICTION
+## Softness; 0: as hard as everything else.
+var squeeze_nm_rad := 0.0
+var stiffness_n_m := 0.0
 ## Height of the fingers above the object's centre when it is picked up.
 var grasp_above_centre_m := 0.0
 
 
 static func make(
-	label_: String, shape_: Shape, size_: Vector3, mass_: float, colour_: Color, stand_: Stand
+	label_: String,
+	shape_: Shape,
+	size_: Vector3,
+	mass_: float,
+	colour_: Color,
+	stand_: Stand = Stand.TABLE
 ) -> ObjectSpec:
 	var spec := ObjectSpec.new()
 	spec.label = label_

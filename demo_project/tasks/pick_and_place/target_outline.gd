@@ -17,20 +17,19 @@ var _line_material: StandardMaterial3D
 var _fill_material: StandardMaterial3D
 
 
-## pose: of the object when placed, in the table's frame.
-func setup(spec: ObjectSpec, pose: Transform3D) -> void:
+## pose: of the object when placed, in the table's frame. tolerance: of its centre, metres.
+func setup(spec: ObjectSpec, pose: Transform3D, tolerance: float) -> void:
 	_spec = spec
 	transform = Transform3D(pose.basis, pose.origin - pose.basis.y * spec.rest_height_m())
 	var half := spec.footprint_m()
 	var corner := half.x if spec.is_round() else 0.002
-	_line_material = _flat(spec.colour)
-	_fill_material = _flat(Color(spec.colour, FILL_ALPHA))
-	var tolerance := PlacementJudge.POSITION_TOLERANCE_M
+	_line_material = DemoPalette.flat(spec.colour)
+	_fill_material = DemoPalette.flat(Color(spec.colour, FILL_ALPHA))
 	_add_band(half, Vector2.ZERO, corner, _fill_material)
 	_add_band(half + Vector2.ONE * LINE_M, half, corner, _line_material)
 	_add_band(
 		half + Vector2.ONE * tolerance, half + Vector2.ONE * LINE_M, corner,
-		_flat(Color(spec.colour, BAND_ALPHA))
+		DemoPalette.flat(Color(spec.colour, BAND_ALPHA))
 	)
 	var stand := StandBuilder.build(spec, DemoPalette.STAND)
 	if stand != null:
@@ -38,7 +37,7 @@ func setup(spec: ObjectSpec, pose: Transform3D) -> void:
 	_ghost = MeshInstance3D.new()
 	_ghost.mesh = spec.mesh()
 	_ghost.position.y = spec.rest_height_m()
-	_ghost.material_override = _flat(Color(spec.colour, GHOST_ALPHA))
+	_ghost.material_override = DemoPalette.flat(Color(spec.colour, GHOST_ALPHA))
 	_ghost.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 	add_child(_ghost)
 
@@ -51,14 +50,6 @@ func goal() -> Transform3D:
 func show_placed(placed: bool) -> void:
 	_ghost.visible = not placed
 	_fill_material.albedo_color.a = PLACED_ALPHA if placed else FILL_ALPHA
-
-
-func _flat(colour: Color) -> StandardMaterial3D:
-	var material := StandardMaterial3D.new()
-	material.albedo_color = colour
-	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
-	material.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
-	return material
 
 
 func _add_band(outer: Vector2, inner: Vector2, corner: float, material: Material) -> void:

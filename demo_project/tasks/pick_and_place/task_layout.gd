@@ -8,32 +8,32 @@ const COLUMNS := 4
 const ROWS := 4
 const PITCH_M := Vector2(0.083, 0.065)
 const JITTER_M := 0.003
-const YAW_RAD := deg_to_rad(12.0)
 
 ## In the frame of the table top: origin at its centre, y = 0 on its surface.
 var starts: Array[Transform3D] = []
 var targets: Array[Transform3D] = []
 
 
-static func make(seed_number: int, specs: Array[ObjectSpec]) -> TaskLayout:
+## yaw_limit: boxes are turned by up to this, rad.
+static func make(seed_number: int, specs: Array[ObjectSpec], yaw_limit: float) -> TaskLayout:
 	var random := RandomNumberGenerator.new()
 	random.seed = seed_number
 	var cells := _shuffled_cells(random)
 	var layout := TaskLayout.new()
 	for index in specs.size():
-		layout.starts.append(_pose(specs[index], cells[index], random))
+		layout.starts.append(_pose(specs[index], cells[index], random, yaw_limit))
 	for index in specs.size():
-		layout.targets.append(_pose(specs[index], cells[specs.size() + index], random))
+		layout.targets.append(_pose(specs[index], cells[specs.size() + index], random, yaw_limit))
 	return layout
 
 
 static func _pose(
-	spec: ObjectSpec, cell: Vector2, random: RandomNumberGenerator
+	spec: ObjectSpec, cell: Vector2, random: RandomNumberGenerator, yaw_limit: float
 ) -> Transform3D:
 	var x := cell.x + random.randf_range(-JITTER_M, JITTER_M)
 	var z := cell.y + random.randf_range(-JITTER_M, JITTER_M)
 	# Round things show no yaw; drawing the number anyway keeps every seed's sequence alike.
-	var yaw := random.randf_range(-YAW_RAD, YAW_RAD)
+	var yaw := random.randf_range(-yaw_limit, yaw_limit)
 	if spec.is_round():
 		yaw = 0.0
 	return Transform3D(Basis(Vector3.UP, yaw), Vector3(x, spec.rest_height_m(), z))

@@ -1,64 +1,54 @@
 class_name TaskObject
-extends RigidBody3D
-## A thing to pick up, and its story in this trial.
-
-## This object struck another one.
-signal struck(other: TaskObject)
-
-const FRICTION := 0.8
-## Slows a rolling ball so that it comes to rest.
-const ANGULAR_DAMP_1_S := 2.0
-const HELD_ALPHA := 0.62
+extends TaskBody
+## A thing of pick and place: one of the catalogue, with the outline where it belongs.
 
 var spec: ObjectSpec
-var start := Transform3D.IDENTITY
 var target: TargetOutline
-var attempts := 0
-var placed := false
-
-var _material := StandardMaterial3D.new()
 
 
 func setup(spec_: ObjectSpec, start_: Transform3D, target_: TargetOutline) -> void:
 	spec = spec_
-	start = start_
 	target = target_
-	name = spec.label.to_pascal_case()
+	start = start_
+	label = spec.label
+	kind = (ObjectSpec.Shape.find_key(spec.shape) as String).to_lower()
+	name = label.to_pascal_case()
 	mass = spec.mass_kg
-	angular_damp = ANGULAR_DAMP_1_S
-	physics_material_override = PhysicsMaterial.new()
-	physics_material_override.friction = FRICTION
-	contact_monitor = true
-	max_contacts_reported = 4
-	var collision := CollisionShape3D.new()
-	collision.shape = spec.collision_shape()
-	add_child(collision)
-	var instance := MeshInstance3D.new()
-	instance.mesh = spec.mesh()
-	_material.albedo_color = spec.colour
-	_material.roughness = 0.55
-	instance.material_override = _material
-	add_child(instance)
-	body_entered.connect(_on_body_entered)
+	width_m = spec.size_m.x
+	grasp_offset_m = Vector3.UP * spec.grasp_above_centre_m
+	is_round = spec.is_round()
+	physics_material_override.friction = spec.friction
+	if spec.squeeze_nm_rad > 0.0:
+		set_meta(&"spidar_squeeze_nm_rad", spec.squeeze_nm_rad)
+	if spec.stiffness_n_m > 0.0:
+		set_meta(&"spidar_stiffness_n_m", spec.stiffness_n_m)
+	add_piece(spec.collision_shape(), spec.mesh(), Transform3D.IDENTITY, spec.colour)
 	transform = start
 
 
-## Held things are shown as glass, so that the grip's poles stay in sight inside them.
-func show_held(held: bool) -> void:
-	_material.transparency = (
-		BaseMaterial3D.TRANSPARENCY_ALPHA if held else BaseMaterial3D.TRANSPARENCY_DISABLED
-	)
-	_material.albedo_color.a = HELD_ALPHA if held else 1.0
+func goal() -> Transform3D:
+	return target.goal()
 
 
-func position_error_m() -> float:
-	return global_position.distance_to(target.goal().origin)
+func show_placed(placed_: bool) -> void:
+	target.show_placed(placed_)
 
 
 func rotation_error_rad() -> float:
-	return PlacementJudge.rotation_error_rad(spec, global_basis, target.goal().basis)
+	return turn_as_shown(spec, global_basis, goal().basis)
 
 
-func _on_body_entered(other: Node) -> void:
-	if other is TaskObject:
-		struck.emit(other as TaskObject)
+## Angle between two orientations as far as the shape can show it.
+static func turn_as_shown(shown: ObjectSpec, actual: Basis, wanted: Basis) -> float:
+	match shown.shape:
+		ObjectSpec.Shape.SPHERE:
+			return 0.0
+		ObjectSpec.Shape.CYLINDER:
+			var tilt := actual.y.normalized().angle_to(wanted.y.normalized())
+			return minf(tilt, PI - tilt)
+	# A box looks the same after half a turn about its height; a square one after a quarter.
+	var turn := PI * 0.5 if is_equal_approx(shown.size_m.x, shown.size_m.z) else PI
+	var best := TAU
+	for step in roundi(TAU / turn):
+		best = minf(best, turn_between(actual.orthonormalized() * Basis(Vector3.UP, turn * step), wanted))
+	return best

@@ -11,7 +11,7 @@ namespace spidar {
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 17, "HapticCommand changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 20, "HapticCommand changed: list its fields here");
 
 template <typename Matrix, typename Visit>
 void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
@@ -36,6 +36,8 @@ void for_each_field(Command &command, Visit &&visit) requires
     visit("clear_fault_count", 0, command.clear_fault_count);
     visit("zero_count", 0, command.zero_count);
     visit("heartbeat", 0, command.heartbeat);
+    visit("stop_count", 0, command.stop_count);
+    visit("stop_reason", 0, command.stop_reason);
     visit("wrench_sequence", 0, command.wrench_sequence);
     visit_vector("wrench.force_n", 0, command.wrench.force_n, visit);
     visit_vector("wrench.moment_nm", 0, command.wrench.moment_nm, visit);
@@ -55,6 +57,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         visit("contact.id", i, plane.id);
         ++i;
     }
+    visit("contacts_state_time_s", 0, command.contacts_state_time_s);
     visit("coupling_sequence", 0, command.coupling_sequence);
     auto &coupling = command.coupling;
     visit_vector("coupling.position_m", 0, coupling.position_m, visit);

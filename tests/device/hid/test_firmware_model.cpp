@@ -32,10 +32,8 @@ struct Rig {
         REQUIRE(decode(firmware.report(), report) == Decoded::ok);
         return report;
     }
-    void zero() { REQUIRE(firmware.set_feature(encode(HidZero{}))); }
     // Enabled, ramp over.
     void activate(std::uint16_t tension_mn) {
-        zero();
         for (int i = 0; i < 150; ++i) {
             send(command_flag::kEnable, tension_mn);
             firmware.advance(kTick_us);
@@ -98,12 +96,8 @@ TEST_CASE("firmware: a longer validity than its limit is cut") {
     CHECK(rig.firmware.mode() == FirmwareModel::Mode::holding);
 }
 
-TEST_CASE("firmware: enables only when zeroed, powered and without fault") {
+TEST_CASE("firmware: enables only when powered and without fault") {
     Rig rig;
-    rig.send(command_flag::kEnable, 1000);
-    rig.firmware.advance(kTick_us);
-    CHECK(rig.off());
-    rig.zero();
     rig.firmware.inputs.motor_power = false;
     rig.send(command_flag::kEnable, 1000);
     rig.firmware.advance(kTick_us);

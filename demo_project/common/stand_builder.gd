@@ -67,10 +67,17 @@ static func _add_rack(body: StaticBody3D, stick_width_m: float) -> void:
 
 
 static func _add_block(body: StaticBody3D, size: Vector3, at: Transform3D) -> void:
-	_add_shape(body, size, at)
+	add_block(body, size, at.origin, DemoPalette.STAND)
+
+
+## A solid box with its mesh.
+static func add_block(body: StaticBody3D, size: Vector3, at: Vector3, colour: Color) -> void:
+	var placed := Transform3D(Basis(), at)
+	_add_shape(body, size, placed)
 	var box := BoxMesh.new()
 	box.size = size
-	_add_mesh(body, box, at)
+	box.material = DemoPalette.matte(colour)
+	_add_mesh(body, box, placed)
 
 
 static func _add_shape(body: StaticBody3D, size: Vector3, at: Transform3D) -> void:

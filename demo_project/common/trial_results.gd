@@ -3,22 +3,23 @@ extends RefCounted
 ## Turns a finished trial into summary.csv and objects.csv, and into the exit code of a scripted play.
 
 const OBJECT_COLUMNS: PackedStringArray = [
-	"name", "shape", "mass_kg", "width_m", "placed", "position_error_mm", "rotation_error_deg",
+	"name", "kind", "mass_kg", "width_m", "placed", "position_error_mm", "rotation_error_deg",
 	"weight_felt_n", "weight_expected_n", "weight_ok", "width_felt_m", "width_felt_error_mm",
-	"squeeze_torque_nm", "width_ok", "attempts",
+	"squeeze_torque_nm", "width_ok", "detent_felt_n_m", "detent_expected_n_m", "release_felt_n",
+	"release_expected_n", "detent_ok", "grasp_angle_deg", "jitter_mm", "attempts",
 ]
 
-var _task: PickAndPlace
-var _player: PickAndPlacePlayer
+var _task: DemoTask
 var _spidar: SpidarG
-var _objects_placed := 0
+var _placed := 0
 var _weights_ok := 0
 var _widths_ok := 0
+var _detents_ok := 0
+var _all_felt := true
 
 
-func _init(task: PickAndPlace, player: PickAndPlacePlayer, spidar: SpidarG) -> void:
+func _init(task: DemoTask, spidar: SpidarG) -> void:
 	_task = task
-	_player = player
 	_spidar = spidar
 
 
@@ -26,12 +27,8 @@ func _init(task: PickAndPlace, player: PickAndPlacePlayer, spidar: SpidarG) -> v
 func save_scripted(abort_reason: String) -> int:
 	var arguments := _task.arguments
 	var table := _object_table()
-	var passed := (
-		abort_reason == ""
-		and _objects_placed == _task.objects.size()
-		and _weights_ok == _task.objects.size()
-		and _widths_ok == _task.objects.size()
-	)
+	var total := _task.bodies.size()
+	var passed := abort_reason == "" and total > 0 and _placed == total and _all_felt
 	var condition := "simulated_forces"
 	if arguments.cut_output:
 		condition = "simulated_output_cut"
@@ -40,14 +37,16 @@ func save_scripted(abort_reason: String) -> int:
 	_fill_row("play-%d" % arguments.seed_number, condition, "scripted", abort_reason)
 	_task.logger.row["weight_checks_ok"] = _weights_ok
 	_task.logger.row["width_checks_ok"] = _widths_ok
+	_task.logger.row["detent_checks_ok"] = _detents_ok
+	_task.logger.row["max_penetration_mm"] = 1000.0 * _task.player.penetration.worst_m
 	var code := PlayArguments.EXIT_DONE if passed else PlayArguments.EXIT_NOT_DONE
 	if not _save(arguments.out_dir, table):
 		code = PlayArguments.EXIT_NOT_DONE
 	print(
-		"pick_and_place seed %d: placed %d/%d, weight felt %d/%d, width felt %d/%d, %.1f s simulated%s"
+		"%s level %d seed %d: placed %d/%d, felt: weight %d, width %d, detent %d of %d, %.1f s simulated%s"
 		% [
-			arguments.seed_number, _objects_placed, _task.objects.size(), _weights_ok,
-			_task.objects.size(), _widths_ok, _task.objects.size(), _task.logger.task_time_s,
+			_task.task_name(), arguments.level, arguments.seed_number, _placed, total, _weights_ok,
+			_widths_ok, _detents_ok, total, _task.logger.task_time_s,
 			"" if abort_reason == "" else "; stopped: " + abort_reason,
 		]
 	)
@@ -61,8 +60,9 @@ func save_interactive() -> String:
 	var folder := "user://trials".path_join(started)
 	var table := _object_table()
 	var condition := "forces_on" if _spidar.forces_enabled else "forces_off"
-	var source := "mouse" if _spidar.config == null or _spidar.config.device_name == "" else "device"
-	_fill_row(started, condition, source, "")
+	_fill_row(started, condition, _task.settings.grip_source(), "")
+	_task.logger.row["participant_id"] = _task.settings.participant
+	_task.logger.row["auto_animation"] = _task.settings.auto_animation
 	_task.logger.row["started_utc"] = started
 	_save(folder, table)
 	return "All placed in %.1f s. Results: %s" % [
@@ -72,27 +72,36 @@ func save_interactive() -> String:
 
 func _object_table() -> CsvTable:
 	var table := CsvTable.new(OBJECT_COLUMNS)
-	for object in _task.objects:
-		var record: FeltRecord = _player.records.get(object, FeltRecord.new())
-		_objects_placed += int(object.placed)
-		_weights_ok += int(record.weight_ok())
-		_widths_ok += int(record.width_ok())
+	for body in _task.bodies:
+		var felt := body.felt
+		_placed += int(body.placed)
+		_weights_ok += int(felt.weight_ok())
+		_widths_ok += int(felt.width_ok())
+		_detents_ok += int(felt.detent_ok())
+		_all_felt = _all_felt and felt.all_ok()
 		table.add_row({
-			"name": object.spec.label,
-			"shape": (ObjectSpec.Shape.find_key(object.spec.shape) as String).to_lower(),
-			"mass_kg": object.mass,
-			"width_m": object.spec.size_m.x,
-			"placed": object.placed,
-			"position_error_mm": object.position_error_m() * 1000.0,
-			"rotation_error_deg": rad_to_deg(object.rotation_error_rad()),
-			"weight_felt_n": record.weight_felt_n,
-			"weight_expected_n": object.mass * _gravity(),
-			"weight_ok": record.weight_ok(),
-			"width_felt_m": record.width_felt_m,
-			"width_felt_error_mm": (record.width_felt_m - object.spec.size_m.x) * 1000.0,
-			"squeeze_torque_nm": record.squeeze_torque_nm,
-			"width_ok": record.width_ok(),
-			"attempts": object.attempts,
+			"name": body.label,
+			"kind": body.kind,
+			"mass_kg": body.mass,
+			"width_m": body.width_m,
+			"placed": body.placed,
+			"position_error_mm": body.position_error_m() * 1000.0,
+			"rotation_error_deg": rad_to_deg(body.rotation_error_rad()),
+			"weight_felt_n": felt.weight_felt_n,
+			"weight_expected_n": body.mass * _gravity() if felt.checks_weight else NAN,
+			"weight_ok": felt.weight_ok(),
+			"width_felt_m": felt.width_felt_m,
+			"width_felt_error_mm": (felt.width_felt_m - body.width_m) * 1000.0,
+			"squeeze_torque_nm": felt.squeeze_torque_nm,
+			"width_ok": felt.width_ok(),
+			"detent_felt_n_m": felt.detent_felt_n_m,
+			"detent_expected_n_m": felt.detent_expected_n_m,
+			"release_felt_n": felt.release_felt_n,
+			"release_expected_n": felt.release_expected_n,
+			"detent_ok": felt.detent_ok(),
+			"grasp_angle_deg": rad_to_deg(felt.grasp_angle_rad),
+			"jitter_mm": felt.jitter_m * 1000.0,
+			"attempts": body.attempts,
 		})
 	return table
 
@@ -101,26 +110,28 @@ func _fill_row(session: String, condition: String, source: String, abort_reason:
 	var position_sum_m := 0.0
 	var rotation_sum_rad := 0.0
 	var ideal_path_m := 0.0
-	for object in _task.objects:
-		if object.placed:
-			position_sum_m += object.position_error_m()
-			rotation_sum_rad += object.rotation_error_rad()
-			ideal_path_m += object.start.origin.distance_to(object.target.position)
+	for body in _task.bodies:
+		if body.placed:
+			position_sum_m += body.position_error_m()
+			rotation_sum_rad += body.rotation_error_rad()
+			var began := (body.get_parent() as Node3D).to_global(body.start.origin)
+			ideal_path_m += began.distance_to(body.goal().origin)
 	var row := _task.logger.row
 	row["session_id"] = session
-	row["task"] = PickAndPlace.TASK_NAME
+	row["task"] = _task.task_name()
+	row["level"] = _task.arguments.level
 	row["condition"] = condition
 	row["grip_source"] = source
 	row["auto_animation"] = false
 	row["trial"] = 1
 	row["seed"] = _task.arguments.seed_number
-	row["completed"] = _objects_placed == _task.objects.size() and abort_reason == ""
+	row["completed"] = _placed == _task.bodies.size() and abort_reason == ""
 	row["abort_reason"] = abort_reason
-	row["objects"] = _task.objects.size()
-	row["objects_placed"] = _objects_placed
-	if _objects_placed > 0:
-		row["position_error_mm"] = 1000.0 * position_sum_m / _objects_placed
-		row["rotation_error_deg"] = rad_to_deg(rotation_sum_rad / _objects_placed)
+	row["objects"] = _task.bodies.size()
+	row["objects_placed"] = _placed
+	if _placed > 0:
+		row["position_error_mm"] = 1000.0 * position_sum_m / _placed
+		row["rotation_error_deg"] = rad_to_deg(rotation_sum_rad / _placed)
 	_task.logger.finish(_spidar, ideal_path_m)
 
 

@@ -1,0 +1,65 @@
+class_name ScreenReport
+extends Node
+## For a scripted user outside the program, who has a mouse and keys but no eyes: where things are on the screen, in a
+## JSON file that is replaced ten times a second. It only tells; it changes nothing.
+
+const PERIOD_S := 0.1
+
+var path := ""
+var task: DemoTask
+
+var _left_s := 0.0
+var _count := 0
+
+
+func _process(delta: float) -> void:
+	_left_s -= delta
+	if _left_s > 0.0 or not is_instance_valid(task) or not task.is_node_ready():
+		return
+	_left_s = PERIOD_S
+	_count += 1
+	var camera := get_viewport().get_camera_3d()
+	var spidar: SpidarG = task.get_node(^"SpidarG")
+	var tool_hand: SpidarGHand = task.get_node(^"SpidarG/SpidarGHand")
+	var held := tool_hand.get_held_body()
+	var report := {
+		"count": _count,
+		"scene": task.name,
+		"grip": _point(camera, spidar.get_grip_transform().origin),
+		"grasp_angle_deg": rad_to_deg(spidar.get_grasp_angle()),
+		"forces": spidar.forces_enabled,
+		"held": "" if held == null else String(held.name),
+		"busy": (task.get_node(^"AutoAnimator") as AutoAnimator).busy,
+		"finished": task.is_finished(),
+		"bodies": [],
+		"knobs": [],
+	}
+	for body in task.bodies:
+		(report["bodies"] as Array).append({
+			"name": body.name,
+			"at": _point(camera, body.to_global(body.grasp_offset_m)),
+			"goal": _point(camera, body.goal() * body.grasp_offset_m),
+			"placed": body.placed,
+		})
+	for child in task.get_node(^"Items").get_children():
+		if child is HubKnob:
+			(report["knobs"] as Array).append({
+				"name": child.name,
+				"at": _point(camera, (child as HubKnob).to_global(Vector3(0.0, 0.022, 0.0))),
+			})
+	_write(report)
+
+
+func _point(camera: Camera3D, point: Vector3) -> Dictionary:
+	var on_screen := camera.unproject_position(point)
+	return {"screen": [on_screen.x, on_screen.y], "world": [point.x, point.y, point.z]}
+
+
+## Whole or not at all: the reader never sees half of it.
+func _write(report: Dictionary) -> void:
+	var file := FileAccess.open(path + ".part", FileAccess.WRITE)
+	if file == null:
+		return
+	file.store_string(JSON.stringify(report))
+	file.close()
+	DirAccess.rename_absolute(path + ".part", path)

@@ -1,0 +1,138 @@
+class_name FreePlay
+extends DemoTask
+## Nothing to achieve: one sample of everything that can be felt. Hard and soft blocks, a heavy and a light box of
+## the same size, a rough and a smooth floor, a ball on a spring, and sockets that snap.
+
+const SPRING_N_M := 80.0
+const SPRING_MOST_N := 4.0
+const BOX_M := Vector3(0.032, 0.044, 0.032)
+const FLOOR_M := Vector3(0.080, 0.006, 0.070)
+## Row at the back, row at the front; text lies before each.
+const BACK_Z_M := -0.070
+const FRONT_Z_M := 0.055
+
+var linker := Linker.new()
+
+var _ball: TaskBody
+var _ball_home := Vector3.ZERO
+
+
+func task_name() -> String:
+	return "free_play"
+
+
+func title() -> String:
+	return "Free play"
+
+
+func is_trial() -> bool:
+	return false
+
+
+func _ready() -> void:
+	add_child(linker)
+	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
+	super()
+	_tool_hand.carrying.connect(_on_carrying)
+
+
+func _lay_out() -> void:
+	linker.clear()
+	_add_box("hard, light: 40 g", -0.125, 0.040, DemoPalette.BLUE)
+	_add_box("hard, heavy: 300 g", -0.062, 0.300, DemoPalette.PLUM)
+	var soft := _add_box("soft: 60 g", 0.0, 0.060, DemoPalette.CORAL)
+	soft.set_meta(&"spidar_squeeze_nm_rad", 0.10)
+	soft.set_meta(&"spidar_stiffness_n_m", 120.0)
+	_add_ball(0.068)
+	_add_post(0.125)
+	_add_floor("rough floor", -0.085, 1.2, DemoPalette.MUSTARD)
+	_add_floor("smooth floor", 0.005, 0.02, DemoPalette.TEAL)
+	_add_peg(0.110)
+
+
+func _add_box(
+	text: String, x: float, mass_kg: float, colour: Color, z: float = BACK_Z_M
+) -> TaskBody:
+	var body := TaskBody.new()
+	var shape := BoxShape3D.new()
+	shape.size = BOX_M
+	var mesh := BoxMesh.new()
+	mesh.size = BOX_M
+	body.mass = mass_kg
+	body.width_m = BOX_M.x
+	body.add_piece(shape, mesh, Transform3D.IDENTITY, colour)
+	body.position = Vector3(x, 0.5 * BOX_M.y, z)
+	_items.add_child(body)
+	_say(text, Vector2(x, z + 0.028))
+	return body
+
+
+## Held, it pulls back to where it was.
+func _add_ball(x: float) -> void:
+	_ball = TaskBody.new()
+	var shape := SphereShape3D.new()
+	shape.radius = 0.018
+	var mesh := SphereMesh.new()
+	mesh.radius = shape.radius
+	mesh.height = 2.0 * shape.radius
+	_ball.mass = 0.05
+	_ball.add_piece(shape, mesh, Transform3D.IDENTITY, DemoPalette.SAGE)
+	_ball.position = Vector3(x, shape.radius, BACK_Z_M)
+	_items.add_child(_ball)
+	_ball_home = _ball.global_position
+	_say("on a spring: %.0f N/m" % SPRING_N_M, Vector2(x, BACK_Z_M + 0.028))
+
+
+func _add_post(x: float) -> void:
+	var post := StaticBody3D.new()
+	post.position = Vector3(x, 0.0, BACK_Z_M)
+	StandBuilder.add_block(
+		post, Vector3(0.020, 0.060, 0.020), Vector3(0.0, 0.030, 0.0), DemoPalette.STAND
+	)
+	_items.add_child(post)
+	_say("fixed post", Vector2(x, BACK_Z_M + 0.028))
+
+
+func _add_floor(text: String, x: float, friction: float, colour: Color) -> void:
+	var floor_body := StaticBody3D.new()
+	floor_body.position = Vector3(x, 0.0, FRONT_Z_M)
+	floor_body.set_meta(&"spidar_friction", friction)
+	StandBuilder.add_block(floor_body, FLOOR_M, Vector3(0.0, 0.5 * FLOOR_M.y, 0.0), colour)
+	_items.add_child(floor_body)
+	_say(text, Vector2(x, FRONT_Z_M + 0.5 * FLOOR_M.z + 0.010))
+
+
+## A peg and a cap that snaps onto it.
+func _add_peg(x: float) -> void:
+	var peg := StaticBody3D.new()
+	peg.position = Vector3(x, 0.0, FRONT_Z_M - 0.020)
+	StandBuilder.add_block(
+		peg, Vector3(0.014, 0.030, 0.014), Vector3(0.0, 0.015, 0.0), DemoPalette.STAND
+	)
+	peg.add_child(LinkSocket.make(&"cap", false, Transform3D(Basis(), Vector3(0.0, 0.030, 0.0))))
+	_items.add_child(peg)
+	linker.add_carrier(peg)
+	var cap := _add_box("cap: snaps onto the peg", x, 0.060, DemoPalette.BONE, FRONT_Z_M + 0.030)
+	cap.add_child(
+		LinkSocket.make(&"cap", true, Transform3D(Basis(), Vector3(0.0, -0.5 * BOX_M.y - 0.0005, 0.0)))
+	)
+	linker.add_carrier(cap)
+
+
+func _on_carrying(_delta: float) -> void:
+	if _tool_hand.get_held_body() != _ball:
+		return
+	var way := (_ball_home - _tool_hand.get_wanted_pose().origin) / _spidar.workspace_scale
+	_tool_hand.add_load((SPRING_N_M * way).limit_length(SPRING_MOST_N))
+
+
+func _say(text: String, at: Vector2) -> void:
+	var label := Label3D.new()
+	label.text = text
+	label.rotation.x = -0.5 * PI
+	label.position = Vector3(at.x, 0.0008, at.y)
+	label.pixel_size = 0.00018
+	label.font_size = 40
+	label.outline_size = 0
+	label.modulate = DemoPalette.TEXT
+	_items.add_child(label)

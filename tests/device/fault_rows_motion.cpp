@@ -1,0 +1,127 @@
+// What the grip does wrong: too far, too fast, too long, too shaky.
+#include <doctest/doctest.h>
+
+#include <glm/geometric.hpp>
+
+#include "device/fault_table.h"
+
+namespace spidar::test {
+
+namespace {
+
+Answer workspace_edge(HandFirmness hand) {
+    FaultRig rig(hand);
+    rig.activate();
+    rig.mark();
+    rig.move_hand(Vec3(0.3, 0.3, 0.3)); // the hand's own reach ends at 0.2
+    const double told_ms = rig.until(
+        [&](const auto &) { return rig.events_of(DeviceEventKind::workspace_edge) > 0; }, 1500);
+    rig.run_ms(500);
+    CHECK(rig.now.state == DeviceState::active);
+    const Vec3 &push_n = rig.now.requested.force_n;
+    CHECK(push_n.x < -0.5);
+    CHECK(push_n.y < -0.5);
+    CHECK(push_n.z < -0.5);
+    CHECK(glm::length(push_n) < 6.0);
+    const Answer answer = rig.answer(told_ms >= 0.0 ? 0.0 : -1.0); // when it gets there
+    // Poles nearly parallel, both ways: a grasp torque there has no string to act on.
+    rig.move_hand(Vec3(0.0));
+    rig.run_ms(800);
+    for (const double angle_rad : {1.5, -1.5}) {
+        rig.ask({Vec3(0.0, 1.0, 0.0), Vec3(0.0), 0.3});
+        rig.move_hand(Vec3(0.0), angle_rad);
+        rig.run_ms(800);
+        CHECK(rig.now.state == DeviceState::active);
+        CHECK(rig.now.counters.gate_clamps == 0);
+        CHECK(rig.tension_n <= rig.settings.tension.max_tension_n + 1e-9);
+    }
+    return answer;
+}
+
+Answer released_grip(HandFirmness hand) {
+    FaultRig rig(hand);
+    rig.ask({Vec3(8.0, 0.0, 0.0), Vec3(0.0), 0.0});
+    rig.activate();
+    rig.run_ms(300);
+    REQUIRE(rig.now.requested.force_n.x > 4.0);
+    REQUIRE(rig.inject(SimulatedFault::hand_released));
+    rig.mark();
+    const double slows_ms =
+        rig.until([&](const auto &now) { return now.safety_scale < 1.0 || rig.motors_off(); }, 200);
+    rig.run_ms(200);
+    CHECK(rig.now.state != DeviceState::active);
+    return rig.answer(slows_ms);
+}
+
+Answer sustained_force(HandFirmness hand) {
+    FaultRig rig(hand);
+    rig.ask({Vec3(8.0, 0.0, 0.0), Vec3(0.0), 0.0});
+    rig.activate();
+    rig.mark();
+    double share = 0.0;
+    double first_derated_ms = -1.0;
+    const double start_n = rig.now.requested.force_n.x;
+    for (int ms = 0; ms < 60000; ++ms) {
+        rig.tick();
+        share = std::max(share, rig.now.thermal_share);
+        if (first_derated_ms < 0.0 && rig.events_of(DeviceEventKind::motors_warm) > 0) {
+            first_derated_ms = ms;
+        }
+    }
+    CHECK(share < 1.0); // never spent
+    CHECK(share > 0.7);
+    CHECK(rig.now.requested.force_n.x < 0.95 * start_n);
+    CHECK(rig.now.requested.force_n.x > 0.2 * start_n); // derated, not switched off
+    CHECK(rig.now.state == DeviceState::active);
+    return rig.answer(first_derated_ms);
+}
+
+Answer instability(HandFirmness hand) {
+    FaultRig rig(hand, [] {
+        PlantSettings plant;
+        plant.coulomb_friction_n = 0.0;
+        return plant;
+    }());
+    // A device that is not what its settings say: nothing is filtered, nothing foreseen, nothing capped.
+    RenderSettings &render = rig.settings.render;
+    render.string_resonance_hz = 0.0;
+    render.velocity_cutoff_hz = 60.0;
+    render.delay_compensation_s = 0.0;
+    render.caps_from_latency = false;
+    REQUIRE(rig.loop->start_stepped(rig.settings) == Status::ok);
+    ContactPlane &plane = rig.command.contacts[0];
+    plane.normal = Vec3(0.0, 1.0, 0.0);
+    plane.offset_m = 0.0;
+    plane.stiffness_n_m = 2000.0; // far more than this latency bears
+    plane.damping_n_s_m = 5.0;
+    rig.command.contact_count = 1;
+    rig.activate();
+    REQUIRE(rig.inject(SimulatedFault::late_output));
+    rig.mark();
+    rig.move_hand(Vec3(0.0, -0.01, 0.0)); // presses into it
+    const double halved_ms = rig.until(
+        [&](const auto &) {
+            return rig.events_of(DeviceEventKind::shaking) +
+                       rig.events_of(DeviceEventKind::unstable) >
+                   0;
+        },
+        2000);
+    rig.run_ms(1500);
+    CHECK(rig.peak_speed_m_s < 2.0);
+    return rig.answer(halved_ms);
+}
+
+constexpr FaultRow kRows[] = {
+    {23, "edge of the workspace", 1.0, 0.0, workspace_edge},
+    {24, "grip released under 8 N", 100.0, 2.2, released_grip},
+    {25, "8 N for a minute", 60000.0, 0.0, sustained_force},
+    {26, "contact that shakes", 1000.0, 0.0, instability},
+};
+
+} // namespace
+
+std::span<const FaultRow> rows_of_motion() {
+    return kRows;
+}
+
+} // namespace spidar::test

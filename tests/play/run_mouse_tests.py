@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""A scripted user with real mouse events: python3 run_mouse_tests.py GODOT [--display :N]
+
+Under an X server of its own (Xvfb) and with xdotool it works the hub by the simulated grip (touch a knob, close on it),
+places an object with the mouse alone, and completes each task in the mouse condition with auto-animation, two
+clicks a thing. What it cannot see it reads from the file that the demo's --report leaves.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+
+from godot_project import prepare_project  # noqa: E402
+
+DEMO = os.path.join(ROOT, "demo_project")
+SETTINGS = "godot/app_userdata/spidar_g demo/settings.cfg"
+START_LIMIT_S = 90
+STEP_LIMIT_S = 60
+WHEEL_STEP_M = 0.006  # the demo's own
+SCENES = {"pick_and_place": "PickAndPlace", "robot_linking": "RobotLinking", "match_linking": "MatchLinking"}
+
+
+class GaveUp(Exception):
+    """Something did not happen in time; the text says what."""
+
+
+class User:
+    """The demo, a display, a mouse and a keyboard."""
+
+    def __init__(self, godot, display, arguments, settings):
+        self.folder = tempfile.mkdtemp(prefix="spidar_mouse_")
+        self.report_path = os.path.join(self.folder, "report.json")
+        path = os.path.join(self.folder, SETTINGS)
+        os.makedirs(os.path.dirname(path))
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("[demo]\n\n" + "".join(f"{key}={value}\n" for key, value in settings.items()))
+        self.environment = dict(os.environ, DISPLAY=display, XDG_DATA_HOME=self.folder)
+        with open(os.path.join(self.folder, "log.txt"), "w", encoding="utf-8") as log:
+            self.demo = subprocess.Popen(
+                [godot, "--audio-driver", "Dummy", "--rendering-driver", "opengl3", "--path", DEMO,
+                 "--", "--report", self.report_path, *arguments],
+                env=self.environment, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+
+    def close(self):
+        self.demo.terminate()
+        self.demo.wait(timeout=20)
+        with open(os.path.join(self.folder, "log.txt"), encoding="utf-8", errors="replace") as log:
+            text = log.read()
+        return text
+
+    def results(self):
+        """The rows of all summary.csv files that the demo has left."""
+        rows = []
+        for folder, _, names in os.walk(self.folder):
+            if "summary.csv" in names:
+                with open(os.path.join(folder, "summary.csv"), encoding="utf-8") as file:
+                    lines = file.read().splitlines()
+                rows += [dict(zip(lines[0].split(","), line.split(","))) for line in lines[1:]]
+        return rows
+
+    def xdotool(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True)
+
+    def move(self, screen):
+        self.xdotool("mousemove", round(screen[0]), round(screen[1]))
+
+    def click(self, screen):
+        self.move(screen)
+        time.sleep(0.1)
+        self.xdotool("click", 1)
+
+    def see(self):
+        with open(self.report_path, encoding="utf-8") as file:
+            return json.load(file)
+
+    def wait(self, what, condition, limit_s=STEP_LIMIT_S):
+        """The report for which condition holds."""
+        end = time.monotonic() + limit_s
+        while time.monotonic() < end:
+            if self.demo.poll() is not None:
+                raise GaveUp(f"the demo has ended while waiting: {what}")
+            try:
+                report = self.see()
+                if condition(report):
+                    return report
+            except (OSError, ValueError):
+                pass
+            time.sleep(0.1)
+        raise GaveUp(f"not within {limit_s} s: {what}")
+
+    def bring_grip(self, world_of, near_m=0.005):
+        """Closed loop by cursor and wheel: the grip to the point that world_of(report) gives, {screen, world}."""
+        end = time.monotonic() + STEP_LIMIT_S
+        while time.monotonic() < end:
+            report = self.see()
+            goal, grip = world_of(report), report["grip"]
+            off = [there - here for there, here in zip(goal["world"], grip["world"])]
+            if max(map(abs, off)) < near_m:
+                return
+            clicks = round(-off[2] / WHEEL_STEP_M)
+            if abs(off[2]) > near_m and clicks:
+                self.xdotool("click", "--repeat", min(abs(clicks), 5), "--delay", 20, 4 if clicks > 0 else 5)
+            x, y = (grip["screen"][axis] + 0.7 * (goal["screen"][axis] - grip["screen"][axis]) for axis in (0, 1))
+            if abs(off[0]) > near_m or abs(off[1]) > near_m:
+                self.move((x, y))
+            self.wait("the next report", lambda now: now["count"] >= report["count"] + 4)
+        raise GaveUp("the grip does not come to its place")
+
+
+def named(report, kind, name):
+    return next(item for item in report[kind] if item["name"] == name)
+
+
+def above(point, height_m):
+    """The same point so much higher; its place on the screen is about so many pixels higher."""
+    x, y, z = point["world"]
+    pixels = height_m * 1270.0
+    return {"world": [x, y + height_m, z], "screen": [point["screen"][0], point["screen"][1] - pixels]}
+
+
+def hub_by_grip(godot, display, check):
+    user = User(godot, display, [], {})
+    try:
+        user.wait("the hub", lambda report: report["scene"] == "Hub", START_LIMIT_S)
+        check(not user.see()["forces"], "forces are on at the start")
+
+        def knob(report):
+            return named(report, "knobs", "RobotLinking")["at"]
+
+        user.bring_grip(lambda report: above(knob(report), 0.05), 0.008)
+        user.bring_grip(knob, 0.008)
+        user.xdotool("mousedown", 1)
+        user.wait("robot linking by a grasp of its knob", lambda report: report["scene"] == "RobotLinking")
+        user.xdotool("mouseup", 1)
+        user.xdotool("key", "Escape")
+        user.wait("back in the hub", lambda report: report["scene"].startswith("Hub"))
+        user.xdotool("key", "3")
+        user.wait("match linking by a key", lambda report: report["scene"] == "MatchLinking")
+        check(True, "")
+    finally:
+        check("SCRIPT ERROR" not in user.close(), "script errors in the hub")
+        shutil.rmtree(user.folder)
+
+
+def object_by_mouse(godot, display, check):
+    """README, demo, first object placed with a mouse; forces on by F."""
+    began = time.monotonic()
+    user = User(godot, display, ["--task", "pick_and_place"], {})
+    try:
+        first = user.wait("the task", lambda report: report["bodies"], START_LIMIT_S)["bodies"][0]["name"]
+        started = time.monotonic()
+        user.xdotool("key", "f")
+        user.wait("forces on", lambda report: report["forces"])
+
+        def at(report):
+            return named(report, "bodies", first)["at"]
+
+        def goal(report):
+            return named(report, "bodies", first)["goal"]
+
+        user.bring_grip(lambda report: above(at(report), 0.05))
+        user.bring_grip(at)
+        user.xdotool("mousedown", 1)
+        user.wait("the object held", lambda report: report["held"] == first)
+        user.bring_grip(lambda report: above(goal(report), 0.06))
+        user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
+        user.xdotool("mouseup", 1)
+        user.wait("the object placed", lambda report: named(report, "bodies", first)["placed"])
+        print(f"first object placed by mouse: {started - began:.0f} s to the task, "
+              f"{time.monotonic() - started:.0f} s more to place it")
+        check(True, "")
+    finally:
+        check("SCRIPT ERROR" not in user.close(), "script errors in the mouse task")
+        shutil.rmtree(user.folder)
+
+
+def task_by_clicks(godot, display, task, check):
+    user = User(godot, display, ["--task", task], {"auto_animation": "true", "participant": '"p7"'})
+    try:
+        report = user.wait(task, lambda report: report["scene"] == SCENES[task] and report["bodies"], START_LIMIT_S)
+        for body in report["bodies"]:
+            name = body["name"]
+            user.click(named(user.see(), "bodies", name)["at"]["screen"])
+            user.wait(f"{name} picked up", lambda now: now["held"] == name and not now["busy"])
+            user.click(named(user.see(), "bodies", name)["goal"]["screen"])
+            user.wait(f"{name} placed", lambda now: named(now, "bodies", name)["placed"] and not now["busy"])
+        user.wait(f"{task} complete", lambda now: now["finished"])
+        time.sleep(0.5)
+        rows = user.results()
+        check(len(rows) == 1 and rows[0]["completed"] == "1", f"{task}: results {rows}")
+        row = rows[0] if rows else {}
+        check(row.get("task") == task and row.get("auto_animation") == "1", f"{task}: {row}")
+        check(row.get("participant_id") == "p7" and row.get("grip_source") == "mouse", f"{task}: {row}")
+    finally:
+        check("SCRIPT ERROR" not in user.close(), f"script errors in {task}")
+        shutil.rmtree(user.folder)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("godot")
+    parser.add_argument("--display", default=os.environ.get("DISPLAY", ""))
+    parser.add_argument("--only", default="", help="a part of the name of what to run")
+    arguments = parser.parse_args()
+    if not arguments.display:
+        parser.error("no display: run under Xvfb, or give --display")
+    prepare_project(DEMO, arguments.godot)
+    counts = [0, 0]
+
+    def check(condition, message):
+        counts[0 if condition else 1] += 1
+        if not condition:
+            print(f"FAIL {message}")
+
+    parts = {"hub_by_grip": hub_by_grip, "object_by_mouse": object_by_mouse}
+    for task in SCENES:
+        parts[task] = lambda godot, display, check, task=task: task_by_clicks(godot, display, task, check)
+    for name, part in parts.items():
+        if arguments.only not in name:
+            continue
+        try:
+            part(arguments.godot, arguments.display, check)
+        except (GaveUp, OSError, StopIteration, subprocess.SubprocessError) as problem:
+            check(False, f"{name}: {problem}")
+    print(f"{counts[0]} passed, {counts[1]} failed")
+    return 1 if counts[1] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
