@@ -253,7 +253,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
-    snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
+    snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status =
@@ -267,6 +267,7 @@ void ServoStep::publish_state() noexcept {
     snapshot_.fault = machine_.fault();
     snapshot_.fault_string = static_cast<std::int8_t>(machine_.fault_string());
     snapshot_.force_scale = machine_.scale();
+    snapshot_.tension_scale = machine_.tension_scale();
     snapshot_.zero_known = machine_.zero_known();
     snapshot_.safety_scale = monitor_.wrench_scale();
     snapshot_.thermal_share = monitor_.heat().spent();

@@ -17,7 +17,7 @@ TensionSettings solver_settings(const ServoSettings &settings) noexcept {
 
 TensionReport tension_report(const ServoSettings &settings,
                              const ServoSnapshot &snapshot) noexcept {
-    const double ramp = snapshot.force_scale;
+    const double ramp = snapshot.tension_scale;
     const bool on = std::any_of(snapshot.tensions_n.begin(), snapshot.tensions_n.end(),
                                 [](double tension_n) { return tension_n != 0.0; });
     if (!on || !(ramp > 0.0)) {

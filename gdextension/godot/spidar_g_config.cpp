@@ -33,6 +33,17 @@ std::string SpidarGConfig::own_problem() const {
                              "give the frame's outer size along this axis, above zero.");
         }
     }
+    if (transport_ < TRANSPORT_AUTOMATIC || transport_ > TRANSPORT_DEVICE) {
+        return complaint("transport", transport_, "",
+                         "choose Automatic (0), Simulated (1) or Device (2).");
+    }
+    constexpr int kLargestUsbNumber = 0xFFFF;
+    if (device_vendor_id_ < 0 || device_vendor_id_ > kLargestUsbNumber) {
+        return complaint("device_vendor_id", device_vendor_id_, "", "choose 0 (any) to 65535.");
+    }
+    if (device_product_id_ < 0 || device_product_id_ > kLargestUsbNumber) {
+        return complaint("device_product_id", device_product_id_, "", "choose 0 (any) to 65535.");
+    }
     if (preset_ < kPresetCustom || preset_ > spidar::kPresetCount) {
         return complaint("preset", preset_, "(index)", "choose one of the list, 0 to 3.");
     }
@@ -136,6 +147,13 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, Variant::VECTOR3, frame_size, PROPERTY_HINT_NONE, "suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
                         "0.005,0.2,0.0001,or_greater,suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, transport, godot::PROPERTY_HINT_ENUM,
+                        "Automatic,Simulated,Device");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_product, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_serial, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_vendor_id, PROPERTY_HINT_RANGE, "0,65535,1");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_product_id, PROPERTY_HINT_RANGE, "0,65535,1");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, button_device, PROPERTY_HINT_RANGE, "0,31,1");
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
     SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "5,500,1,suffix:Hz");
@@ -176,4 +194,7 @@ void SpidarGConfig::_bind_methods() {
                         "Light,Normal,Firm");
 
     godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
+    BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
+    BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);
+    BIND_ENUM_CONSTANT(TRANSPORT_DEVICE);
 }
