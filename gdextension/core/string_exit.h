@@ -14,9 +14,9 @@ struct StringPath {
     bool on_pulley = false;
 };
 
-// `inlet_m`: where the string comes in. radius 0: an eyelet, from where it leaves straight. Else it comes in along
-// `axis` (unit vector) from outside the frame, lies on the rim of a pulley that swivels about the axis towards the
-// attachment, and leaves along the tangent. The length counts from the inlet. A taut string lies as short as it
+// `inlet_m`: where the string comes in. radius 0: an eyelet, from where it leaves straight. Else it runs there along
+// `axis` (unit vector), outwards from the frame's centre, over the outer side of a pulley that swivels about the axis
+// towards the attachment, and leaves along the tangent. The length counts from the inlet. A taut string lies as short as it
 // can, so that the length grows by exactly direction . (movement of the attachment). An attachment within
 // the pulley has no tangent: the straight line is used there.
 [[nodiscard]] StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
