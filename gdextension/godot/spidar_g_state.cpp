@@ -65,6 +65,7 @@ godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
         break;
     case CONTACT_CENTRE:
     case CONTACT_GRASP_STOP:
+    case CONTACT_TURN_STOP:
         break;
     }
     return spidar::to_godot(world().point_to_world(point));
