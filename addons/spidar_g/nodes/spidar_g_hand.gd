@@ -134,7 +134,7 @@ func get_pad_position(side: int) -> Vector3:
 	if spidar == null:
 		return global_position
 	var grip: Transform3D = _hold.carried_grip() if _hold != null else spidar.get_grip_transform()
-	return _pad.transform_of(side, grip, _shown_gap_m()).origin
+	return _pad.transform_of(side, grip, _shown_gap_m()).origin + _contacts.shown_shift()
 
 
 ## Radius of a pad, scene metres.
