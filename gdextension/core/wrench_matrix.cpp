@@ -4,6 +4,7 @@
 
 #include "core/constants.h"
 #include "core/pole_lanes.h"
+#include "core/string_exit.h"
 
 namespace spidar {
 
@@ -12,19 +13,9 @@ namespace {
 // A string shorter than this has no direction: its column is zero (unit: m).
 constexpr double kShortestString_m = 1e-9;
 
-} // namespace
-
-WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
-                           const GripPose &pose) noexcept {
-    WrenchMatrix matrix;
-    const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
-    const double area = glm::length(cross);
-    const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
-    matrix.grasp_row_vanishes = !(area > kParallelAngle_rad * scale);
-    // Nearer to parallel than the rotation is trusted, n is noise and would turn g into a noisy moment.
-    const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
-
-    // Two strings at a time.
+// Poles and eyelets, two strings at a time.
+void fill_crossed(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
+                  const GripPose &pose, const Vec3 &normal) noexcept {
     for (std::size_t i = 0; i < matrix.columns.size(); i += 2) {
         const Attachment &one = grip.attachments[i];
         const Attachment &two = grip.attachments[i + 1];
@@ -50,6 +41,42 @@ WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
                 pull.x[lane],   pull.y[lane],   pull.z[lane], moment.x[lane],
                 moment.y[lane], moment.z[lane], grasp[lane]};
         }
+    }
+}
+
+// Any grip, any exit.
+void fill_general(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
+                  const GripPose &pose, const Vec3 &normal) noexcept {
+    for (int i = 0; i < kStringCount; ++i) {
+        const auto s = static_cast<std::size_t>(i);
+        const Attachment &tie = grip.attachments[s];
+        const Vec3 lever = attachment_lever(grip, pose, s);
+        const StringPath path = string_path(frame, s, pose.position_m + lever);
+        // A NaN takes the direction and shows in the column: the solver refuses it by status.
+        const Vec3 pull = path.length_m <= kShortestString_m ? Vec3(0.0) : -path.direction;
+        const Vec3 moment = glm::cross(lever, pull);
+        const double grasp = (tie.pole == 0 ? 1.0 : -1.0) * glm::dot(normal, moment);
+        matrix.columns[s] = {pull.x, pull.y, pull.z, moment.x, moment.y, moment.z, grasp};
+    }
+}
+
+} // namespace
+
+WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
+                           const GripPose &pose) noexcept {
+    WrenchMatrix matrix;
+    const bool rigid = grip.kind == GripKind::rigid;
+    const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
+    const double area = glm::length(cross);
+    const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
+    matrix.grasp_row_vanishes = rigid || !(area > kParallelAngle_rad * scale);
+    // Nearer to parallel than the rotation is trusted, n is noise and would turn g into a noisy moment.
+    const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
+
+    if (rigid || frame.pulley_radius_m > 0.0) {
+        fill_general(matrix, frame, grip, pose, normal);
+    } else {
+        fill_crossed(matrix, frame, grip, pose, normal);
     }
     return matrix;
 }

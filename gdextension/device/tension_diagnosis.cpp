@@ -9,6 +9,9 @@ TensionSettings solver_settings(const ServoSettings &settings) noexcept {
     for (const double strongest_n : max_tensions(settings.motors)) {
         tension.max_tension_n = std::min(tension.max_tension_n, strongest_n);
     }
+    if (settings.grip.kind == GripKind::rigid) {
+        tension.dof_mask &= kNoGrasp;
+    }
     return tension;
 }
 

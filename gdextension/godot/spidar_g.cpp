@@ -87,10 +87,8 @@ void SpidarG::set_enabled(bool enabled) {
 }
 
 void SpidarG::set_forces_enabled(bool enabled) {
-    command_.forces_enabled = enabled;
-    if (loop_) {
-        loop_->publish(command_);
-    }
+    forces_wanted_ = enabled;
+    publish_forces();
 }
 
 void SpidarG::set_drive_mode(DriveMode mode) {
@@ -206,28 +204,6 @@ void SpidarG::open_device() {
     set_process_internal(true);
 }
 
-std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(Status &status,
-                                                                std::string &problem) {
-    const std::string device_name = config_or_default().get_device_name().utf8().get_data();
-    if (!claim_.take(device_name, name_for_messages())) {
-        status = Status::device_in_use;
-        problem = "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
-                  spidar::DeviceClaim::owner_of(device_name) +
-                  "\". Free that node, or give this one another device_name.";
-        return nullptr;
-    }
-    auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    if (calibration_.is_null()) {
-        // The ideal calibration of a device that starts at its home pose.
-        settings_.strings =
-            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
-                                                             spidar::rest_pose(settings_.grip)),
-                                      transport->home_counts(), plant_.metres_per_count);
-    }
-    simulated_ = transport.get();
-    return transport;
-}
-
 void SpidarG::refuse_to_open(Status status, const std::string &message) {
     problem_ = message;
     const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +
@@ -266,6 +242,14 @@ void SpidarG::_notification(int what) {
     case NOTIFICATION_INTERNAL_PHYSICS_PROCESS:
         physics_tick();
         break;
+    case NOTIFICATION_APPLICATION_FOCUS_OUT:
+    case NOTIFICATION_APPLICATION_PAUSED:
+        set_away(release_on_focus_loss_);
+        break;
+    case NOTIFICATION_APPLICATION_FOCUS_IN:
+    case NOTIFICATION_APPLICATION_RESUMED:
+        set_away(false);
+        break;
     case NOTIFICATION_INTERNAL_PROCESS:
         pull_snapshot();
         break;
@@ -281,6 +265,7 @@ void SpidarG::physics_tick() {
     if (!loop_) {
         return;
     }
+    beat();
     if (drive_mode_ == DRIVE_STEPPED) {
         const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
@@ -311,6 +296,10 @@ void SpidarG::pull_snapshot() {
     if (loop_->latest(snapshot_)) {
         emit_edges(before);
         emit_buttons(before.buttons);
+    }
+    emit_events();
+    if (loop_) {
+        watch_loop();
     }
     watch_recordings();
 }

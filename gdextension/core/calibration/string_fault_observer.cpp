@@ -100,6 +100,9 @@ Status StringFaultObserver::configure(const FrameGeometry &frame, const GripGeom
             return Status::invalid_calibration;
         }
     }
+    if (grip.kind != GripKind::crossed) {
+        return Status::invalid_geometry; // a rigid grip has two redundant lengths; this knows one
+    }
     const Status status = kinematics_.configure(frame, grip);
     if (!usable(status)) {
         return status;
