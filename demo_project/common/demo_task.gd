@@ -82,6 +82,7 @@ func _enter_tree() -> void:
 	var spidar: SpidarG = $SpidarG
 	if arguments.scripted():
 		spidar.drive_mode = SpidarG.DRIVE_STEPPED
+		spidar.config.transport = SpidarGConfig.TRANSPORT_SIMULATED # A script never moves a real hand.
 	else:
 		settings.apply(spidar)
 

@@ -96,6 +96,15 @@ static func way_out(met: Array[ContactPlane]) -> Vector3:
 	return shift
 
 
+## How far the tool, as it is shown, is moved so that it stands in no surface that it only leans on.
+func shown_shift() -> Vector3:
+	var shift: Vector3 = Vector3.ZERO
+	for plane: ContactPlane in planes:
+		if not plane.through_held_body:
+			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
+	return shift
+
+
 func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:
 	for other: ContactPlane in nearer:
 		if plane.normal.dot(other.normal) > MERGE_COSINE:

@@ -130,13 +130,12 @@ func get_held_width_m() -> float:
 	return _held_width_m if _hold != null else 0.0
 
 
-## Middle of a pad's inner face in the world: side 0 at -x of the grip, side 1 at +x. Pads stop at a body's faces, and
-## stay on a held body that something stops.
+## Middle of a pad's inner face in the world, side 0 at -x of the grip: as shown, stopped by what it meets or holds.
 func get_pad_position(side: int) -> Vector3:
 	if spidar == null:
 		return global_position
 	var grip: Transform3D = _hold.carried_grip() if _hold != null else spidar.get_grip_transform()
-	return _pad.transform_of(side, grip, _shown_gap_m()).origin
+	return _pad.transform_of(side, grip, _shown_gap_m()).origin + _contacts.shown_shift()
 
 
 ## Radius of a pad, scene metres.
@@ -161,14 +160,12 @@ func get_wanted_pose() -> Transform3D:
 	return _hold.where(spidar.get_grip_transform())
 
 
-## What else pulls on the held body in this frame, a magnet or a spring: felt with its weight. Force in N, moment in
-## N m about the grip's centre, world axes. Call it when [signal carrying] comes; a spring is stable to about 150 N/m.
+## A magnet or spring on the held body in this frame: N, and N m about the grip's centre, world axes; to about 150 N/m.
 func add_load(force_n: Vector3, moment_nm: Vector3 = Vector3.ZERO) -> void:
 	_load.add(force_n, moment_nm)
 
 
-## In this frame the held body stays at `seat` and the grip alone moves on: for parts that have snapped in. Call it when
-## [signal carrying] comes, and [method add_load] for the pull that the hand feels.
+## In this frame the held body stays at `seat` and the grip moves on alone; [method add_load] gives the hand its pull.
 func detain(seat: Transform3D) -> void:
 	if _hold != null:
 		_hold.detain(seat)
@@ -296,11 +293,10 @@ func _carry(
 	_hold.advance(delta)
 	_load.clear()
 	carrying.emit(delta)
-	if _hold == null:
-		return  # A listener let go.
-	if _hold.detained:
-		_hold.follow(grip, Vector3.ZERO)
-		return  # Where it sits the world cannot stop it: no planes.
+	if _hold == null or _hold.detained:  # A listener let go, or it sits where the world cannot stop it: no planes.
+		if _hold != null:
+			_hold.follow(grip, Vector3.ZERO)
+		return
 	var body: RigidBody3D = _hold.body
 	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
