@@ -8,6 +8,7 @@
 #include "core/grip_geometry.h"
 #include "core/status.h"
 #include "core/types.h"
+#include "device/gain_clamp.h"
 #include "device/haptic_command.h"
 
 namespace spidar {
@@ -88,6 +89,9 @@ struct ServoSnapshot {
     bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
+    // Work done on the hand in each DOF since the start, by what was asked of the strings.
+    DofGains injected_j{};
+    GainClamp clamp; // the last gain that was brought down
     ServoCounters counters;
     std::uint8_t buttons = 0;
 };

@@ -88,6 +88,15 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     settings.strings = spidar::calibrate_at_home(
         spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},
         metres_per_count);
+    settings.render.string_resonance_hz = string_resonance_hz_;
+    settings.render.delay_compensation_s = delay_compensation_;
+    settings.render.latency_s = link_latency_;
+    settings.render.max_stiffness_n_m = max_stiffness_;
+    settings.render.max_turn_stiffness_nm_rad = max_turn_stiffness_;
+    settings.render.max_grasp_stiffness_nm_rad = max_grasp_stiffness_;
+    settings.render.compensated_mass_kg = compensated_mass_;
+    settings.render.compensated_friction_n = compensated_friction_;
+    settings.render.compensated_viscous_n_s_m = compensated_viscous_;
     settings.tension.min_tension_n = tension_min_;
     settings.tension.reference_tension_n = tension_reference_;
     settings.tension.max_tension_n = tension_max_;
@@ -157,6 +166,21 @@ void SpidarGConfig::_bind_methods() {
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
     SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "5,500,1,suffix:Hz");
+    ADD_GROUP("Rendering", "");
+    SPIDAR_G_BIND_FIELD(Self, real, string_resonance_hz, PROPERTY_HINT_RANGE, "0,400,1,suffix:Hz");
+    SPIDAR_G_BIND_FIELD(Self, real, delay_compensation, PROPERTY_HINT_RANGE,
+                        "0,0.02,0.0001,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, link_latency, PROPERTY_HINT_RANGE, "0,0.05,0.0001,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, max_stiffness, PROPERTY_HINT_RANGE, "0,5000,1,suffix:N/m");
+    SPIDAR_G_BIND_FIELD(Self, real, max_turn_stiffness, PROPERTY_HINT_RANGE,
+                        "0,10,0.01,suffix:N m/rad");
+    SPIDAR_G_BIND_FIELD(Self, real, max_grasp_stiffness, PROPERTY_HINT_RANGE,
+                        "0,5,0.01,suffix:N m/rad");
+    SPIDAR_G_BIND_FIELD(Self, real, compensated_mass, PROPERTY_HINT_RANGE, "0,1,0.001,suffix:kg");
+    SPIDAR_G_BIND_FIELD(Self, real, compensated_friction, PROPERTY_HINT_RANGE,
+                        "0,0.5,0.001,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, compensated_viscous, PROPERTY_HINT_RANGE,
+                        "0,1,0.001,suffix:N s/m");
     ADD_GROUP("Tensions", "");
     SPIDAR_G_BIND_FIELD(Self, real, tension_min, PROPERTY_HINT_RANGE, "0,5,0.01,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, real, tension_reference, PROPERTY_HINT_RANGE, "0,10,0.01,suffix:N");

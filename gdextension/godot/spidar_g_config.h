@@ -41,6 +41,18 @@ private:
     SPIDAR_G_FIELD(int, rate_hz, 1000);
     SPIDAR_G_FIELD(double, velocity_cutoff_hz, 60.0);
 
+    // Rendering.
+    SPIDAR_G_FIELD(double, string_resonance_hz, spidar::RenderSettings{}.string_resonance_hz);
+    SPIDAR_G_FIELD(double, delay_compensation, spidar::RenderSettings{}.delay_compensation_s);
+    SPIDAR_G_FIELD(double, link_latency, spidar::RenderSettings{}.latency_s);
+    SPIDAR_G_FIELD(double, max_stiffness, spidar::RenderSettings{}.max_stiffness_n_m);
+    SPIDAR_G_FIELD(double, max_turn_stiffness, spidar::RenderSettings{}.max_turn_stiffness_nm_rad);
+    SPIDAR_G_FIELD(double, max_grasp_stiffness,
+                   spidar::RenderSettings{}.max_grasp_stiffness_nm_rad);
+    SPIDAR_G_FIELD(double, compensated_mass, spidar::RenderSettings{}.compensated_mass_kg);
+    SPIDAR_G_FIELD(double, compensated_friction, spidar::RenderSettings{}.compensated_friction_n);
+    SPIDAR_G_FIELD(double, compensated_viscous, spidar::RenderSettings{}.compensated_viscous_n_s_m);
+
     // Tensions.
     SPIDAR_G_FIELD(double, tension_min, spidar::TensionSettings{}.min_tension_n);
     SPIDAR_G_FIELD(double, tension_reference, spidar::TensionSettings{}.reference_tension_n);
