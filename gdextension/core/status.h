@@ -15,6 +15,7 @@ enum class Status : std::int32_t {
     request_clamped = 5, // a finite request was brought down to its limit, direction kept
     request_expired = 6, // the game stopped asking; the request faded out
     weakly_observed = 7, // calibration: the motion leaves some combination of values open
+    grasp_unavailable = 8, // a grasp torque was asked of a rigid grip, which cannot give one
     // Bad input: nothing moved, state unchanged.
     not_finite = -1,          // NaN or infinity in an input
     invalid_geometry = -2,    // frame or grip impossible (zero, negative, not finite)
@@ -37,9 +38,9 @@ enum class Status : std::int32_t {
     over_speed = -26,
     fault_latched = -27, // clear_fault() and arm() are needed
     not_armed = -28,
-    string_fault = -29,     // the eight lengths contradict each other: slack, slipped, stuck, broken
-    overheated = -30,       // a motor's thermal budget is spent
-    unstable = -31,         // the rendered forces shake the grip
+    string_fault = -29, // the eight lengths contradict each other: slack, slipped, stuck, broken
+    overheated = -30,   // a motor's thermal budget is spent
+    unstable = -31,     // the rendered forces shake the grip
     device_restarted = -32, // the device's clock or counts began anew: the zero is lost
     zero_needed = -33,      // zero_at_home() is needed before forces
     panic_stopped = -34,

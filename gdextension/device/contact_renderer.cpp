@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "device/grip_points.h"
+#include "device/rotation_log.h"
 #include "device/wrench_request.h"
 
 namespace spidar {
@@ -20,21 +21,41 @@ constexpr double kMaxGraspDepth_rad = 1.6;
 // No game object meets a hand faster; a larger plane velocity is a mistake of the physics engine.
 constexpr double kMaxPlaneSpeed_m_s = 10.0;
 constexpr double kMaxFriction = 10.0;
+// Below this a contact is no contact yet, and its share of a push is not a number to divide by.
+constexpr double kLeastDepth_m = 1e-9;
 constexpr double kFarAway_m = 10.0; // beyond any frame: such a plane never or always touches
-// Normals within 10 degrees count as one surface, beyond 15 as two; in between partly, so nothing snaps.
-constexpr double kSameSurfaceCosine = 0.98480775301220806;
-constexpr double kOtherSurfaceCosine = 0.96592582628906831;
+// Keeps 1 / stiffness finite for a contact that only damps.
+constexpr double kSoftestContact_n_m = 1e-3;
+// 1 / sqrt of the god-object's stiffnesses.
+constexpr double kTurnSoftness = 1.0;
+constexpr double kGraspSoftness = 2.0;
+static_assert(kTurnSoftness * kTurnSoftness * kGodObjectTurnStiffness_nm_rad == 1.0);
+static_assert(kGraspSoftness * kGraspSoftness * kGodObjectGraspStiffness_nm_rad == 1.0);
+// Rotation vectors below this are their own derivative to double precision.
+constexpr double kSmallTurn_rad = 1e-6;
 
-double capped(double value, double cap, bool &was_capped) noexcept {
-    if (value > cap) {
-        was_capped = true;
-        return cap;
-    }
-    return value;
+bool is_grasp_stop(const ContactPlane &plane) noexcept {
+    return plane.target == ContactTarget::grasp_stop;
+}
+
+bool is_turn_stop(const ContactPlane &plane) noexcept {
+    return plane.target == ContactTarget::turn_stop;
 }
 
 bool is_stop(const ContactPlane &plane) noexcept {
-    return plane.target == ContactTarget::grasp_stop;
+    return is_grasp_stop(plane) || is_turn_stop(plane);
+}
+
+// How the component along `axis` of the rotation vector `turn` changes with an angular velocity: a covector.
+Vec3 turn_gradient(const Vec3 &turn, const Vec3 &axis) noexcept {
+    const double angle = glm::length(turn);
+    if (angle < kSmallTurn_rad) {
+        return axis;
+    }
+    // Transpose of the inverse left Jacobian of the rotation group.
+    const double half = 0.5 * angle;
+    const double rest = (1.0 - half / std::tan(half)) / (angle * angle);
+    return axis + 0.5 * glm::cross(turn, axis) + rest * glm::cross(turn, glm::cross(turn, axis));
 }
 
 double blend(double from, double to, double s) noexcept {
@@ -43,14 +64,17 @@ double blend(double from, double to, double s) noexcept {
 
 } // namespace
 
-void ContactRenderer::configure(const SafetySettings &safety) noexcept {
+void ContactRenderer::configure(const ServoSettings &settings) noexcept {
     *this = ContactRenderer();
-    full_s_ = safety.contacts_full_s;
-    gone_s_ = safety.contacts_gone_s;
+    full_s_ = settings.safety.contacts_full_s;
+    gone_s_ = settings.safety.contacts_gone_s;
+    lead_s_ = settings.render.delay_compensation_s;
+    caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
-bool ContactRenderer::accept(const HapticCommand &command) noexcept {
-    bool was_capped = false;
+GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) noexcept {
+    using Gain = GainClamp::Gain;
+    GainClamp clamp;
     for (std::size_t i = 0; i < count_; ++i) {
         place(tracks_[i], 0.0); // where the old planes are now: the cross-fade starts there
     }
@@ -58,24 +82,32 @@ bool ContactRenderer::accept(const HapticCommand &command) noexcept {
     std::array<bool, kMaxContacts> used{};
     const std::size_t old_count = count_;
     count_ = static_cast<std::size_t>(std::clamp(command.contact_count, 0, kMaxContacts));
+    active_mask_ = 0; // contacts may have changed places
     for (std::size_t i = 0; i < count_; ++i) {
         ContactPlane plane = command.contacts[i];
-        if (is_stop(plane)) {
+        const auto index = static_cast<std::int32_t>(i);
+        if (is_grasp_stop(plane)) {
             plane.normal = Vec3(plane.normal.x > 0.0 ? 1.0 : -1.0, 0.0, 0.0);
             plane.velocity_m_s = Vec3(plane.velocity_m_s.x, 0.0, 0.0);
+            plane.stiffness_n_m = capped(plane.stiffness_n_m, caps_.grasp_stiffness_nm_rad,
+                                         Gain::grasp_stiffness, index, caps_.from_latency, clamp);
+            plane.damping_n_s_m = capped(plane.damping_n_s_m, caps_.grasp_damping_nm_s_rad,
+                                         Gain::grasp_damping, index, false, clamp);
         } else {
             plane.normal = glm::normalize(plane.normal);
+            const bool turn = is_turn_stop(plane);
+            plane.stiffness_n_m = capped(
+                plane.stiffness_n_m, turn ? caps_.turn_stiffness_nm_rad : caps_.stiffness_n_m,
+                turn ? Gain::turn_stiffness : Gain::stiffness, index, caps_.from_latency, clamp);
+            plane.damping_n_s_m = capped(
+                plane.damping_n_s_m, turn ? caps_.turn_damping_nm_s_rad : caps_.damping_n_s_m,
+                turn ? Gain::turn_damping : Gain::damping, index, false, clamp);
         }
-        const bool stop = is_stop(plane);
-        plane.stiffness_n_m = capped(
-            plane.stiffness_n_m, stop ? kMaxGraspStiffness_nm_rad : kMaxStiffness_n_m, was_capped);
-        plane.damping_n_s_m = capped(
-            plane.damping_n_s_m, stop ? kMaxGraspDamping_nm_s_rad : kMaxDamping_n_s_m, was_capped);
-        plane.friction = capped(plane.friction, kMaxFriction, was_capped);
+        plane.friction = capped(plane.friction, kMaxFriction, Gain::friction, index, false, clamp);
         plane.offset_m = std::clamp(plane.offset_m, -kFarAway_m, kFarAway_m);
         for (int k = 0; k < 3; ++k) {
-            double &v = plane.velocity_m_s[k];
-            v = std::copysign(capped(std::abs(v), kMaxPlaneSpeed_m_s, was_capped), v);
+            plane.velocity_m_s[k] =
+                capped(plane.velocity_m_s[k], kMaxPlaneSpeed_m_s, Gain::speed, index, false, clamp);
         }
 
         Track track;
@@ -93,19 +125,20 @@ bool ContactRenderer::accept(const HapticCommand &command) noexcept {
         track.plane = plane;
         tracks_[i] = track;
     }
-    age_s_ = 0.0;
+    clock_.receive(command.contacts_state_time_s, now_s);
     if (count_ == 0) {
         strength_ = 1.0; // the game goes on and touches nothing: nothing to recover from
     }
-    return was_capped;
+    return clamp;
 }
 
 bool ContactRenderer::age(double dt_s) noexcept {
-    age_s_ += dt_s;
+    clock_.advance(dt_s);
     if (count_ == 0) {
         return false; // an empty set never grows old
     }
-    const double left = std::clamp(1.0 - (age_s_ - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
+    const double left =
+        std::clamp(1.0 - (clock_.age_s() - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
     strength_ = std::min(left, strength_ + dt_s / kRecovery_s);
     if (left > 0.0) {
         return false;
@@ -116,8 +149,8 @@ bool ContactRenderer::age(double dt_s) noexcept {
 
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     const ContactPlane &plane = track.plane;
-    const double moved_s = std::min(age_s_, kContactExtrapolation_s);
-    const bool moving = age_s_ <= kContactExtrapolation_s;
+    const double moved_s = clock_.carried_s();
+    const bool moving = clock_.carries();
     const double shift_m = glm::dot(plane.normal, plane.velocity_m_s) * moved_s;
 
     Surface to;
@@ -128,7 +161,7 @@ void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     to.damping_n_s_m = plane.damping_n_s_m;
     to.friction = plane.friction;
 
-    const double s = track.fading_in ? std::min(1.0, age_s_ / kContactCrossFade_s) : 1.0;
+    const double s = track.fading_in ? std::min(1.0, clock_.age_s() / kContactCrossFade_s) : 1.0;
     Surface now = to;
     if (s < 1.0) {
         // Both ends of the fade move on alike: a plane that moves as announced is not dragged back.
@@ -147,105 +180,140 @@ void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     }
 }
 
-// Weight of contact `index` among those that push the same way: deeper ones carry more, all weights sum to
-// 1 on one surface, and a contact that has just touched carries nothing, so forces are continuous.
-double ContactRenderer::share_of(std::size_t index) const noexcept {
-    const Track &track = tracks_[index];
-    double sum_m = 0.0;
-    for (std::size_t j = 0; j < count_; ++j) {
-        const Track &other = tracks_[j];
-        if (!other.touching || is_stop(other.plane) != is_stop(track.plane)) {
-            continue;
-        }
-        const double cosine = glm::dot(track.now.normal, other.now.normal);
-        const double alike = std::clamp(
-            (cosine - kOtherSurfaceCosine) / (kSameSurfaceCosine - kOtherSurfaceCosine), 0.0, 1.0);
-        sum_m += (j == index ? 1.0 : alike) * other.depth_m;
+// Depth, and how the contact moves with the grip. `track` is placed.
+ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) const noexcept {
+    const Surface &surface = track.now;
+    const GripState &grip = motion.grip;
+    double place = 0.0;
+    Vec3 along(0.0); // per unit of linear, angular and grasp motion
+    Vec3 turn(0.0);
+    double grasp = 0.0;
+    double most_m = kMaxDepth_m;
+    if (is_grasp_stop(track.plane)) {
+        grasp = surface.normal.x;
+        place = grasp * grip.frame.grasp_angle_rad;
+        most_m = kMaxGraspDepth_rad;
+    } else if (is_turn_stop(track.plane)) {
+        const Vec3 turned = rotation_log(grip.frame.rotation);
+        place = glm::dot(surface.normal, turned);
+        turn = turn_gradient(turned, surface.normal);
+        most_m = kMaxGraspDepth_rad;
+    } else {
+        place = glm::dot(surface.normal, grip_point(grip.pose, track.plane.target));
+        const Wrench unit = wrench_of_force(grip, track.plane.target, surface.normal);
+        along = surface.normal;
+        turn = unit.moment_nm;
+        grasp = unit.grasp_torque_nm;
     }
-    return sum_m > 0.0 ? track.depth_m / sum_m : 1.0;
+    const Displacement &ahead = motion.ahead;
+    const Twist &v = motion.velocity;
+    const double ahead_m = glm::dot(along, ahead.linear_m) + glm::dot(turn, ahead.angular_rad) +
+                           grasp * ahead.grasp_rad;
+    const double surface_m_s = glm::dot(surface.normal, surface.velocity_m_s);
+    const double leaving_m_s = glm::dot(along, v.linear_m_s) + glm::dot(turn, v.angular_rad_s) +
+                               grasp * v.grasp_rate_rad_s - surface_m_s;
+    // The surface moves on too while the loop delays.
+    const double depth_m = surface.offset_m + lead_s_ * surface_m_s - place - ahead_m;
+    track.touching = depth_m > 0.0; // false for NaN
+    track.depth_m = std::clamp(depth_m, -most_m, most_m);
+
+    const double stiffness_n_m = std::max(surface.stiffness_n_m, kSoftestContact_n_m);
+    ConstraintRow row;
+    row.depth = track.depth_m;
+    if (track.touching) {
+        // The damper acts as a deeper spring: so the whole push stays one-sided, and shared.
+        row.depth = std::max(0.0, surface.stiffness_n_m * track.depth_m -
+                                      surface.damping_n_s_m * leaving_m_s) /
+                    stiffness_n_m;
+    }
+    const double softness = 1.0 / std::sqrt(stiffness_n_m);
+    const double turn_softness = is_turn_stop(track.plane) ? softness : kTurnSoftness;
+    const double grasp_softness = is_grasp_stop(track.plane) ? softness : kGraspSoftness;
+    row.row = {softness * along.x,     softness * along.y,
+               softness * along.z,     turn_softness * turn.x,
+               turn_softness * turn.y, turn_softness * turn.z,
+               grasp_softness * grasp, 0.0};
+    return row;
 }
 
-void ContactRenderer::push_point(Track &track, const GripState &grip, double share,
-                                 double damping_scale) const noexcept {
+// Coulomb friction of a contact that pushes: a spring to where it first touched, dragged along beyond the cone.
+void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept {
     const Surface &surface = track.now;
-    const Vec3 point_m = grip_point(grip.pose, track.plane.target);
-    const Vec3 velocity_m_s =
-        damping_scale * (grip_point_velocity(grip, track.plane.target) - surface.velocity_m_s);
-    const double leaving_m_s = glm::dot(surface.normal, velocity_m_s);
-    const double stiffness_n_m = share * surface.stiffness_n_m;
-    const double damping_n_s_m = share * surface.damping_n_s_m;
-    const double push_n =
-        std::max(0.0, stiffness_n_m * track.depth_m - damping_n_s_m * leaving_m_s);
-    track.force_n = push_n * surface.normal;
-
-    const double grip_limit_n = surface.friction * push_n;
-    if (!(surface.friction > 0.0) || !(stiffness_n_m > 0.0)) {
+    if (!(surface.friction > 0.0) || !(surface.stiffness_n_m > 0.0) || is_stop(track.plane)) {
         track.anchored = false;
         return;
     }
+    const GripState &grip = motion.grip;
+    const Vec3 lever_m = grip_point(grip.pose, track.plane.target) - grip.pose.position_m;
+    const Vec3 point_m = grip.pose.position_m + lever_m + motion.ahead.linear_m +
+                         glm::cross(motion.ahead.angular_rad, lever_m);
+    GripState moving = grip;
+    moving.twist = motion.velocity;
+    const Vec3 velocity_m_s =
+        grip_point_velocity(moving, track.plane.target) - surface.velocity_m_s;
     if (!track.anchored) {
         track.anchored = true;
         track.anchor_m = point_m;
     }
+    // Of several contacts with one surface each rubs with its share, which is that of its push.
+    const double share = std::min(
+        1.0, track.push / (surface.stiffness_n_m * std::max(track.depth_m, kLeastDepth_m)));
+    const double stiffness_n_m = share * surface.stiffness_n_m;
+    const double limit_n = surface.friction * track.push;
     const auto along = [&surface](const Vec3 &v) {
         return v - glm::dot(surface.normal, v) * surface.normal;
     };
     Vec3 stretch_m = along(point_m - track.anchor_m);
     const double spring_n = stiffness_n_m * glm::length(stretch_m);
-    if (spring_n > grip_limit_n) {
-        stretch_m *= grip_limit_n / spring_n; // slips: the anchor is dragged along
+    if (spring_n > limit_n) {
+        stretch_m *= limit_n / spring_n; // slips: the anchor is dragged along
         track.anchor_m = point_m - stretch_m;
     }
-    Vec3 rub_n = -stiffness_n_m * stretch_m - damping_n_s_m * along(velocity_m_s);
-    const double rub = glm::length(rub_n);
-    if (rub > grip_limit_n) {
-        rub_n *= grip_limit_n / rub;
+    Vec3 rub_n = -stiffness_n_m * stretch_m - (share * surface.damping_n_s_m) * along(velocity_m_s);
+    const double size_n = glm::length(rub_n);
+    if (size_n > limit_n) {
+        rub_n *= limit_n / size_n;
     }
     track.force_n += rub_n;
 }
 
-void ContactRenderer::push_grasp(Track &track, const GripState &grip, double share,
-                                 double damping_scale) const noexcept {
-    const double side = track.now.normal.x;
-    const double leaving_rad_s =
-        damping_scale * side * (grip.twist.grasp_rate_rad_s - track.now.velocity_m_s.x);
-    const double push_nm = std::max(0.0, share * (track.now.stiffness_n_m * track.depth_m -
-                                                  track.now.damping_n_s_m * leaving_rad_s));
-    track.grasp_torque_nm = side * push_nm;
-}
-
-Wrench ContactRenderer::render(const GripState &grip, double dt_s, double damping_scale) noexcept {
+Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
+    std::array<ConstraintRow, kMaxConstraints> rows;
+    bool any = false;
     for (std::size_t i = 0; i < count_; ++i) {
-        Track &track = tracks_[i];
-        place(track, dt_s);
-        const bool stop = is_stop(track.plane);
-        const double place_m =
-            stop ? track.now.normal.x * grip.frame.grasp_angle_rad
-                 : glm::dot(track.now.normal, grip_point(grip.pose, track.plane.target));
-        const double depth_m = track.now.offset_m - place_m;
-        track.touching = depth_m > 0.0; // false for NaN
-        track.depth_m =
-            track.touching ? std::min(depth_m, stop ? kMaxGraspDepth_rad : kMaxDepth_m) : 0.0;
-        track.force_n = Vec3(0.0);
-        track.grasp_torque_nm = 0.0;
+        place(tracks_[i], dt_s);
+        rows[i] = measure(tracks_[i], motion);
+        any = any || tracks_[i].touching;
     }
+    GodObjectSolution solution;
+    if (any) {
+        solution = solve_god_object(rows, static_cast<int>(count_), active_mask_);
+    }
+    active_mask_ = solution.active_mask;
     Wrench sum;
     for (std::size_t i = 0; i < count_; ++i) {
         Track &track = tracks_[i];
-        if (!track.touching) {
+        track.push = solution.push[i];
+        track.force_n = Vec3(0.0);
+        track.moment_nm = Vec3(0.0);
+        track.grasp_torque_nm = 0.0;
+        if (!(track.push > 0.0)) {
             track.anchored = false;
             continue;
         }
-        const double share = share_of(i);
-        if (is_stop(track.plane)) {
-            push_grasp(track, grip, share, damping_scale);
+        track.push *= strength_;
+        if (is_grasp_stop(track.plane)) {
+            track.grasp_torque_nm = track.push * track.now.normal.x;
+            sum.grasp_torque_nm += track.grasp_torque_nm;
+        } else if (is_turn_stop(track.plane)) {
+            track.moment_nm = track.push * turn_gradient(rotation_log(motion.grip.frame.rotation),
+                                                         track.now.normal);
+            sum.moment_nm += track.moment_nm;
         } else {
-            push_point(track, grip, share, damping_scale);
+            track.force_n = track.push * track.now.normal;
+            rub(track, motion);
+            sum = sum + wrench_of_force(motion.grip, track.plane.target, track.force_n);
         }
-        track.force_n *= strength_;
-        track.grasp_torque_nm *= strength_;
-        sum = sum + wrench_of_force(grip, track.plane.target, track.force_n);
-        sum.grasp_torque_nm += track.grasp_torque_nm;
     }
     return sum;
 }
@@ -255,7 +323,8 @@ void ContactRenderer::integrate(double scale, double dt_s) noexcept {
         return;
     }
     for (std::size_t i = 0; i < count_; ++i) {
-        tracks_[i].impulse_ns += (scale * dt_s) * tracks_[i].force_n;
+        // A turn stop's is in N m s: the same three numbers.
+        tracks_[i].impulse_ns += (scale * dt_s) * (tracks_[i].force_n + tracks_[i].moment_nm);
         tracks_[i].grasp_impulse_nms += (scale * dt_s) * tracks_[i].grasp_torque_nm;
     }
 }

@@ -18,6 +18,7 @@ Vec3 lever_of(const GripPose &pose, ContactTarget target) noexcept {
         return -pose.r2_m;
     case ContactTarget::centre:
     case ContactTarget::grasp_stop:
+    case ContactTarget::turn_stop:
         break;
     }
     return Vec3(0.0);
@@ -35,6 +36,7 @@ double turn_per_grasp(ContactTarget target) noexcept {
         return 0.5;
     case ContactTarget::centre:
     case ContactTarget::grasp_stop:
+    case ContactTarget::turn_stop:
         break;
     }
     return 0.0;

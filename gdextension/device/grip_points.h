@@ -6,7 +6,7 @@
 
 namespace spidar {
 
-// Device frame (unit: m). grasp_stop has no point: P0.
+// Device frame (unit: m). a stop has no point: P0.
 [[nodiscard]] Vec3 grip_point(const GripPose &pose, ContactTarget target) noexcept;
 
 // Velocity of that point for this twist (unit: m/s). The poles turn about z by -+ grasp_rate / 2.

@@ -8,22 +8,9 @@
 #include <glm/matrix.hpp>
 
 #include "device/grip_points.h"
+#include "device/rotation_log.h"
 
 namespace spidar {
-
-namespace {
-
-// Rotation vector of a rotation matrix (unit: rad), for turns below half a turn: one cycle is far less.
-Vec3 rotation_log(const Mat3 &turn) noexcept {
-    const Vec3 sine(0.5 * (turn[1][2] - turn[2][1]), 0.5 * (turn[2][0] - turn[0][2]),
-                    0.5 * (turn[0][1] - turn[1][0]));
-    const double s = glm::length(sine);
-    const double c = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
-    constexpr double kSmall = 1e-9; // angle / sine is 1 to double precision below this
-    return s > kSmall ? (std::atan2(s, c) / s) * sine : sine;
-}
-
-} // namespace
 
 Status GripTracker::configure(const ServoSettings &settings) noexcept {
     ForwardKinematics kinematics;
@@ -45,6 +32,7 @@ void GripTracker::restart() noexcept {
     has_pose_ = false;
     solved_ = false;
     since_pose_s_ = 0.0;
+    moved_ = Displacement();
     grip_.twist = Twist();
     grip_.status = Status::held_last_pose;
 }
@@ -65,6 +53,7 @@ void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
 GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged,
                                         double dt_s) noexcept {
     Update result;
+    moved_ = Displacement();
     if (unchanged && solved_) {
         result.skipped = true;
         since_pose_s_ = 0.0;
@@ -98,6 +87,8 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
             rotation_log(frame.rotation * glm::transpose(grip_.frame.rotation)) / elapsed_s;
         raw.grasp_rate_rad_s = (frame.grasp_angle_rad - grip_.frame.grasp_angle_rad) / elapsed_s;
         filter_twist(raw, dt_s);
+        moved_ = {elapsed_s * raw.linear_m_s, elapsed_s * raw.angular_rad_s,
+                  elapsed_s * raw.grasp_rate_rad_s};
     }
     grip_.pose = solution.pose;
     grip_.frame = frame;
@@ -111,6 +102,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
 
 void GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
     since_pose_s_ += dt_s;
+    moved_ = Displacement();
     grip_.status = why;
     if (stale) {
         filter_twist(Twist(), dt_s);

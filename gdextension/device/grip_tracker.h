@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/forward_kinematics.h"
+#include "device/motion_filter.h"
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
 
@@ -29,6 +30,8 @@ public:
     void hold(Status why, double dt_s, bool stale) noexcept;
 
     [[nodiscard]] const GripState &grip() const noexcept { return grip_; }
+    // In the last cycle, unfiltered; nothing when the pose was held or found anew.
+    [[nodiscard]] const Displacement &moved() const noexcept { return moved_; }
     [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest of P0 and the four pole ends (unit: m/s).
@@ -41,6 +44,7 @@ private:
     StringCalibration strings_{};
     double cutoff_rad_s_ = 0.0;
     GripState grip_{};
+    Displacement moved_{};
     StringArray lengths_m_{};
     Status solved_status_ = Status::ok; // of the pose held
     bool has_pose_ = false;

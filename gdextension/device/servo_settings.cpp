@@ -103,6 +103,9 @@ std::string validate(const ServoSettings &settings) {
         problem = validate_safety(settings.safety);
     }
     if (problem.empty()) {
+        problem = validate(settings.render);
+    }
+    if (problem.empty()) {
         const StringArray strongest_n = max_tensions(settings.motors);
         const double weakest_n = *std::min_element(strongest_n.begin(), strongest_n.end());
         if (!(weakest_n > settings.tension.reference_tension_n) ||

@@ -9,6 +9,7 @@
 #include "core/motor_calibration.h"
 #include "core/string_calibration.h"
 #include "core/tension_solver.h"
+#include "device/render_settings.h"
 
 namespace spidar {
 
@@ -52,6 +53,7 @@ struct ServoSettings {
     TensionSettings tension;
     GraspSettings grasp;
     SafetySettings safety;
+    RenderSettings render;
 };
 
 // Empty when usable; else one sentence naming the field, the value, the unit and the remedy. Checks every part.

@@ -8,6 +8,7 @@
 #include "core/grip_geometry.h"
 #include "core/status.h"
 #include "core/types.h"
+#include "device/gain_clamp.h"
 #include "device/haptic_command.h"
 
 namespace spidar {
@@ -81,12 +82,16 @@ struct ServoSnapshot {
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
     double force_scale = 0.0;    // arming ramp, 0..1
+    double tension_scale = 0.0;  // the part of it that scales all tensions, pretension too
     double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
     double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
     double parity_error_m = 0.0; // what no pose explains of the eight lengths
     bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
+    // Work done on the hand in each DOF since the start, by what was asked of the strings.
+    DofGains injected_j{};
+    GainClamp clamp; // the last gain that was brought down
     ServoCounters counters;
     std::uint8_t buttons = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "device/rotor_compensation.h"
 #include "device/tension_diagnosis.h"
 
 namespace spidar {
@@ -50,8 +51,8 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     fresh.guard_.configure(settings.strings, safety.max_count_speed_m_s, safety.max_bad_samples,
                            fresh.nominal_dt_s_);
     fresh.grasp_.configure(settings.grasp);
-    fresh.wrench_.configure(safety);
-    fresh.contacts_.configure(safety);
+    fresh.renderer_.configure(settings);
+    fresh.max_tension_n_ = tension.max_tension_n;
     fresh.machine_.configure(safety.arming_time_s);
     fresh.gate_.configure(limits_n, safety.tension_slew_n_per_ms);
     fresh.snapshot_.grip = fresh.tracker_.grip();
@@ -61,8 +62,7 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
 
 void ServoStep::acknowledge(const HapticCommand &command) noexcept {
     take_edges(command);
-    wrench_sequence_ = command.wrench_sequence;
-    contacts_sequence_ = command.contacts_sequence;
+    renderer_.acknowledge(command);
 }
 
 ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
@@ -80,30 +80,6 @@ ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
     disarm_count_ = command.disarm_count;
     clear_fault_count_ = command.clear_fault_count;
     return edges;
-}
-
-void ServoStep::take_requests(const HapticCommand &command, double dt_s) noexcept {
-    ServoCounters &counters = snapshot_.counters;
-    counters.expired_requests += wrench_.age(dt_s) ? 1U : 0U;
-    counters.expired_requests += contacts_.age(dt_s) ? 1U : 0U;
-    if (command.wrench_sequence != wrench_sequence_) {
-        wrench_sequence_ = command.wrench_sequence;
-        if (!usable(validate_wrench(command.wrench, command.wrench_duration_s))) {
-            ++counters.rejected_requests; // the last good one stands until it expires
-            events_.tell(DeviceEventKind::request_refused);
-        } else if (wrench_.accept(command.wrench, command.wrench_duration_s)) {
-            ++counters.clamped_requests;
-        }
-    }
-    if (command.contacts_sequence != contacts_sequence_) {
-        contacts_sequence_ = command.contacts_sequence;
-        if (!usable(validate_contacts(command))) {
-            ++counters.rejected_requests;
-            events_.tell(DeviceEventKind::request_refused);
-        } else if (contacts_.accept(command)) {
-            ++counters.clamped_requests;
-        }
-    }
 }
 
 void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept {
@@ -192,10 +168,27 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
     }
 }
 
+void ServoStep::add_rotor_compensation(StringArray &tensions_n) const noexcept {
+    const RenderSettings &render = settings_.render;
+    if (render.compensated_friction_n == 0.0 && render.compensated_viscous_n_s_m == 0.0) {
+        return;
+    }
+    const double ramp = machine_.tension_scale();
+    const StringArray extra_n = rotor_compensation(render, matrix_, tracker_.grip().twist);
+    for (std::size_t i = 0; i < tensions_n.size(); ++i) {
+        tensions_n[i] = std::clamp(tensions_n[i] + ramp * extra_n[i], 0.0, max_tension_n_);
+    }
+}
+
 DriveCommand ServoStep::drive(double dt_s) noexcept {
-    const double trust = tracking_ && monitor_.velocity_trusted() ? 1.0 : 0.0;
-    const Wrench rendered = wrench_.value() + contacts_.render(tracker_.grip(), dt_s, trust);
-    const Wrench asked = rendered + monitor_.wall(tracker_.grip());
+    const bool trusted = tracking_ && monitor_.velocity_trusted();
+    const Wrench rendered = renderer_.render(tracker_.grip(), tracker_.moved(), trusted, dt_s);
+    Wrench asked = rendered + monitor_.wall(tracker_.grip());
+    // A rigid grip has no hinge to turn: what was asked of it is left out, and said.
+    const bool no_grasp = settings_.grip.kind == GripKind::rigid && asked.grasp_torque_nm != 0.0;
+    if (no_grasp) {
+        asked.grasp_torque_nm = 0.0;
+    }
     const double factor = limit_factor(asked, settings_.safety);
     if (factor < 1.0 && !limiting_) {
         ++snapshot_.counters.clamped_requests;
@@ -207,12 +200,16 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     const double left = monitor_.wrench_scale();
     snapshot_.counters.faded_ticks += left < 1.0 && machine_.motors_on() ? 1U : 0U;
     const double request_scale = factor * link_scale_ * left * machine_.wrench_scale();
-    contacts_.integrate(request_scale * ramp, dt_s);
+    // A factor of 0 means a sum that is not finite: 0 times it would still be NaN.
+    const Wrench full = request_scale > 0.0 ? request_scale * asked : Wrench();
 
-    if (machine_.state() == DeviceState::taut) {
+    const bool taut = machine_.state() == DeviceState::taut;
+    const bool on = machine_.motors_on() && tracker_.has_pose();
+    const bool gives = on && !taut;
+    renderer_.given(gives ? request_scale * ramp : 0.0, gives ? ramp * full : Wrench(), dt_s);
+    if (taut) {
         return hold_pretension(dt_s);
     }
-    const bool on = machine_.motors_on() && tracker_.has_pose();
     if (!on) {
         clear_outputs();
         return {};
@@ -227,13 +224,12 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     }
     // The ramp scales the tensions, not the request: pretension and wrench rise together, and A (ramp tau) is
     // ramp times the wrench, exactly.
-    // A factor of 0 means a sum that is not finite: 0 times it would still be NaN.
-    const Wrench full = request_scale > 0.0 ? request_scale * asked : Wrench();
     const TensionResult result = solver_.update(matrix_, to_paper(full));
     StringArray wanted_n{};
     for (std::size_t i = 0; i < wanted_n.size(); ++i) {
         wanted_n[i] = ramp * result.tensions_n[i];
     }
+    add_rotor_compensation(wanted_n);
     const SafetyGate::Output gate = gate_.pass(wanted_n, dt_s);
     if (gate.slewed && ramp >= 1.0) {
         solver_.set_last_tensions(gate.tensions_n);
@@ -248,10 +244,11 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
-    snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
+    snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
-    snapshot_.tension_status = result.status;
+    snapshot_.tension_status =
+        no_grasp && usable(result.status) ? Status::grasp_unavailable : result.status;
 
     return command_for(gate.tensions_n);
 }
@@ -261,13 +258,14 @@ void ServoStep::publish_state() noexcept {
     snapshot_.fault = machine_.fault();
     snapshot_.fault_string = static_cast<std::int8_t>(machine_.fault_string());
     snapshot_.force_scale = machine_.scale();
+    snapshot_.tension_scale = machine_.tension_scale();
     snapshot_.zero_known = machine_.zero_known();
     snapshot_.safety_scale = monitor_.wrench_scale();
     snapshot_.thermal_share = monitor_.heat().spent();
     snapshot_.parity_error_m = monitor_.strings().parity_m();
     snapshot_.grip = tracker_.grip();
     snapshot_.grasp = grasp_.phase();
-    snapshot_.contact_count = contacts_.report(snapshot_.contacts);
+    renderer_.report(snapshot_);
 }
 
 DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
@@ -296,7 +294,11 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
     if (jumped) {
         jump_clock(asked_dt_s);
     }
-    take_requests(command, dt_s);
+    const std::uint64_t refused = snapshot_.counters.rejected_requests;
+    renderer_.take(command, snapshot_.time_s, dt_s, snapshot_.counters);
+    if (snapshot_.counters.rejected_requests != refused) {
+        events_.tell(DeviceEventKind::request_refused);
+    }
     observe(read_status, reading, dt_s);
     watch(dt_s);
     check_zero(dt_s);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "core/tension_solver.h"
-#include "device/contact_renderer.h"
 #include "device/device_event.h"
 #include "device/device_state_machine.h"
 #include "device/grip_tracker.h"
 #include "device/haptic_command.h"
+#include "device/haptic_renderer.h"
 #include "device/report_order.h"
 #include "device/safety_gate.h"
 #include "device/safety_monitor.h"
@@ -15,7 +15,6 @@
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
 #include "device/transport.h"
-#include "device/wrench_request.h"
 #include "device/zero_check.h"
 
 namespace spidar {
@@ -37,6 +36,9 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
+    // The next step skips no solve of tensions. It changes no output, only counters().tension_skipped.
+    void forget_settled() noexcept { solver_.forget_settled(); }
+
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }
@@ -51,7 +53,6 @@ private:
         bool stop = false;
     };
     Edges take_edges(const HapticCommand &command) noexcept;
-    void take_requests(const HapticCommand &command, double dt_s) noexcept;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
     // False: an old report, or none of this device's.
@@ -73,14 +74,15 @@ private:
     void clear_reports() noexcept;
     void clear_outputs() noexcept;
     void publish_state() noexcept;
+    void add_rotor_compensation(StringArray &tensions_n) const noexcept;
 
     ServoSettings settings_{};
     double nominal_dt_s_ = 0.001;
+    double max_tension_n_ = 0.0;
     SampleGuard guard_;
     GripTracker tracker_;
     GraspDetector grasp_;
-    WrenchRequest wrench_;
-    ContactRenderer contacts_;
+    HapticRenderer renderer_;
     DeviceStateMachine machine_;
     TensionSolver solver_;
     SafetyGate gate_;
@@ -111,8 +113,6 @@ private:
     std::uint32_t zero_count_ = 0;
     std::uint32_t heartbeat_ = 0;
     std::uint32_t stop_count_ = 0;
-    std::uint64_t wrench_sequence_ = 0;
-    std::uint64_t contacts_sequence_ = 0;
     ServoSnapshot snapshot_{};
 };
 

@@ -34,13 +34,17 @@ Status StringMonitor::configure(const ServoSettings &settings) noexcept {
     FaultObserverSettings observed;
     observed.tick_s = 1.0 / settings.rate_hz;
     StringFaultObserver observer;
+    // The observer knows crossed grips. Of a rigid one the parity error tells that, not what and where.
+    const bool names = settings.grip.kind == GripKind::crossed;
     const Status status =
-        observer.configure(settings.frame, settings.grip, settings.strings, observed);
+        names ? observer.configure(settings.frame, settings.grip, settings.strings, observed)
+              : Status::ok;
     if (!usable(status)) {
         return status;
     }
     *this = StringMonitor();
     observer_ = observer;
+    names_ = names;
     fade_m_ = settings.safety.string_error_fade_m;
     fault_m_ = settings.safety.string_error_fault_m;
     return Status::ok;
@@ -67,7 +71,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         return;
     }
     const double stretch_m = kStretch_m_n * strongest_n;
-    if (moved && strongest_n <= kNamingMost_n) {
+    if (moved && names_ && strongest_n <= kNamingMost_n) {
         KinematicsResult solved;
         solved.residual_rms_m = grip.residual_rms_m;
         solved.status = grip.status;

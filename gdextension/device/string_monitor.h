@@ -40,6 +40,7 @@ private:
     double fade_m_ = 0.0;
     double fault_m_ = 0.0;
     StringFaultObserver observer_;
+    bool names_ = false; // observer_ is configured
     FaultEvidence named_;
     std::array<Still, kStringCount> still_{};
     bool started_ = false;

@@ -50,13 +50,16 @@ void WrenchRequest::configure(const SafetySettings &safety) noexcept {
     safety_ = safety;
 }
 
-bool WrenchRequest::accept(const Wrench &wrench, double duration_s) noexcept {
+GainClamp WrenchRequest::accept(const Wrench &wrench, double duration_s) noexcept {
     const double factor = limit_factor(wrench, safety_);
     wrench_ = factor * wrench;
     duration_s_ = duration_s;
     age_s_ = 0.0;
     live_ = true;
-    return factor < 1.0;
+    GainClamp clamp;
+    clamp.request = GainClamp::Request::wrench;
+    capped(1.0, factor, GainClamp::Gain::wrench, 0, false, clamp);
+    return clamp;
 }
 
 bool WrenchRequest::age(double dt_s) noexcept {

@@ -1,6 +1,7 @@
 // The raw 7-D wrench: full for as long as it was asked for, then faded; and the limits that every wrench keeps.
 #pragma once
 
+#include "device/gain_clamp.h"
 #include "device/servo_settings.h"
 
 namespace spidar {
@@ -15,11 +16,12 @@ namespace spidar {
 class WrenchRequest {
 public:
     void configure(const SafetySettings &safety) noexcept;
-    // A valid request (validate_wrench). True when it had to be brought down to a limit.
-    bool accept(const Wrench &wrench, double duration_s) noexcept;
+    // A valid request (validate_wrench). Says when it had to be brought down to a limit.
+    GainClamp accept(const Wrench &wrench, double duration_s) noexcept;
     // Once a cycle, before accept(). True in the cycle in which the request ends.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench value() const noexcept;
+    [[nodiscard]] bool live() const noexcept { return live_; }
 
 private:
     SafetySettings safety_{};

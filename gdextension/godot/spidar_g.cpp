@@ -178,23 +178,13 @@ void SpidarG::open_device() {
         refuse_to_open(Status::invalid_settings, problem_);
         return;
     }
-    const std::string device_name = config_or_default().get_device_name().utf8().get_data();
-    if (!claim_.take(device_name, name_for_messages())) {
-        refuse_to_open(Status::device_in_use,
-                       "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
-                           spidar::DeviceClaim::owner_of(device_name) +
-                           "\". Free that node, or give this one another device_name.");
+    Status chosen = Status::ok;
+    std::string problem;
+    auto transport = choose_transport(chosen, problem);
+    if (!transport) {
+        refuse_to_open(chosen, problem);
         return;
     }
-    auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    if (calibration_.is_null()) {
-        // The ideal calibration of a device that starts at its home pose.
-        settings_.strings =
-            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
-                                                             spidar::rest_pose(settings_.grip)),
-                                      transport->home_counts(), plant_.metres_per_count);
-    }
-    simulated_ = transport.get();
     loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
     // Counters of an earlier run say nothing to the new loop.
     command_.wrench_sequence = 0;
@@ -206,6 +196,7 @@ void SpidarG::open_device() {
     if (!spidar::usable(status)) {
         loop_.reset();
         simulated_ = nullptr;
+        hid_ = nullptr;
         claim_.release();
         refuse_to_open(status, spidar::describe(status));
         return;
@@ -226,6 +217,7 @@ void SpidarG::close_device() {
         loop_->stop(); // motors off, thread joined, then the handle
         loop_.reset();
         simulated_ = nullptr;
+        hid_ = nullptr;
         replay_ = nullptr;
     }
     claim_.release();
@@ -303,6 +295,7 @@ void SpidarG::pull_snapshot() {
     const spidar::ServoSnapshot before = snapshot_;
     if (loop_->latest(snapshot_)) {
         emit_edges(before);
+        emit_buttons(before.buttons);
     }
     emit_events();
     if (loop_) {

@@ -13,12 +13,16 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 
 #include "device/device_claims.h"
-#include "device/recording/replay_transport.h"
+#include "device/hid/hid_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_config.h"
 #include "godot/world_frame.h"
+
+namespace spidar {
+class ReplayTransport;
+}
 
 class SpidarG : public godot::Node3D {
     GDCLASS(SpidarG, godot::Node3D)
@@ -43,7 +47,21 @@ public:
         CONTACT_POLE1_MINUS,
         CONTACT_POLE2_PLUS,
         CONTACT_POLE2_MINUS,
-        CONTACT_GRASP_STOP
+        CONTACT_GRASP_STOP,
+        CONTACT_TURN_STOP
+    };
+    // The node's own axes.
+    enum DofMask {
+        DOF_X = 1,
+        DOF_Y = 2,
+        DOF_Z = 4,
+        DOF_LINEAR = 7,
+        DOF_TURN_X = 8,
+        DOF_TURN_Y = 16,
+        DOF_TURN_Z = 32,
+        DOF_ANGULAR = 56,
+        DOF_GRASP = 64,
+        DOF_ALL = 127
     };
     enum HandFirmness { HAND_LIGHT, HAND_NORMAL, HAND_FIRM };
     enum SimulatedFault {
@@ -94,6 +112,10 @@ public:
     void clear_fault();
     int advance_cycles(int cycles);
 
+    // Real device (spidar_g_device.cpp).
+    bool zero_device();
+    [[nodiscard]] godot::Dictionary get_device_info() const;
+
     // Safety (spidar_g_safety.cpp).
     void panic_stop();
     bool zero_at_home();
@@ -103,6 +125,30 @@ public:
                         double grasp_torque, double duration_s);
     bool set_contacts(const godot::PackedFloat64Array &contacts);
     void clear_contacts();
+    // Coupling and effects (spidar_g_effects.cpp).
+    bool set_coupling_gains(const godot::PackedFloat64Array &stiffness,
+                            const godot::PackedFloat64Array &damping, double max_force,
+                            double max_moment, double max_grasp_torque);
+    bool set_coupling(const godot::Transform3D &target, double grasp_angle,
+                      const godot::Vector3 &linear_velocity, const godot::Vector3 &angular_velocity,
+                      double grasp_rate, int dof_mask);
+    void clear_coupling();
+    bool set_viscous_effect(int id, double linear, double angular, double grasp, int dof_mask,
+                            double duration_s);
+    bool set_force_effect(int id, const godot::Vector3 &force, const godot::Vector3 &moment,
+                          double grasp_torque, double duration_s);
+    bool set_spring_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+                           double linear, double angular, double grasp, int dof_mask,
+                           double duration_s);
+    bool set_vibration_effect(int id, const godot::Vector3 &force, const godot::Vector3 &moment,
+                              double grasp_torque, double frequency_hz, double duration_s);
+    bool set_detent_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+                           double spacing, double strength, int dof_mask, double duration_s);
+    void clear_effect(int id);
+    void clear_effects();
+    [[nodiscard]] godot::Vector3 get_stiffness_limits() const;
+    [[nodiscard]] godot::String get_clamp_text() const;
+    [[nodiscard]] godot::PackedFloat64Array get_injected_energy() const;
 
     // State (spidar_g_state.cpp). World coordinates.
     [[nodiscard]] State get_state() const;
@@ -148,6 +194,7 @@ public:
     bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
+    bool simulated_buttons(int mask);
 
     void _notification(int what);
 
@@ -158,8 +205,10 @@ private:
     static void bind_setup();
     static void bind_state();
     static void bind_requests();
+    static void bind_effects();
     static void bind_recording();
     static void bind_simulated();
+    static void bind_device();
     static void bind_enums();
 
     void resource_changed();
@@ -170,6 +219,15 @@ private:
     void open_device();
     void open_replay();
     void close_device();
+    // Null, with the reason: none.
+    std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
+                                                        std::string &problem);
+    std::unique_ptr<spidar::HidTransport> open_hid(spidar::Status &status, std::string &problem);
+    std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
+                                                           std::string &problem);
+    [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
+    void use_hid_calibration();
+    void emit_buttons(std::uint8_t before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
@@ -185,6 +243,7 @@ private:
     void watch_recordings();
     void tell_recording_failed();
     bool reject(const std::string &message);
+    bool take_effect(const char *method, spidar::Effect effect);
     [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] std::string fault_message() const;
     [[nodiscard]] std::string name_for_messages() const;
@@ -206,11 +265,15 @@ private:
     bool stall_told_ = false; // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
+    spidar::HidTransport *hid_ = nullptr; // owned by loop_
+    std::string fallback_;                // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
     bool replay_end_told_ = false;
     spidar::HapticCommand command_;
+    spidar::Coupling coupling_gains_;                         // for the next set_coupling()
+    std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time
     spidar::ServoSnapshot snapshot_;
 };
 
@@ -219,5 +282,6 @@ VARIANT_ENUM_CAST(SpidarG::State);
 VARIANT_ENUM_CAST(SpidarG::EventLevel);
 VARIANT_ENUM_CAST(SpidarG::GraspPhase);
 VARIANT_ENUM_CAST(SpidarG::ContactTarget);
+VARIANT_ENUM_CAST(SpidarG::DofMask);
 VARIANT_ENUM_CAST(SpidarG::HandFirmness);
 VARIANT_ENUM_CAST(SpidarG::SimulatedFault);

@@ -10,7 +10,8 @@ using godot::Variant;
 // Godot's enums are the core's, number for number.
 static_assert(static_cast<int>(spidar::DeviceState::calibrated) == SpidarG::STATE_CALIBRATED);
 static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRASP_OVER_CLOSED);
-static_assert(static_cast<int>(spidar::ContactTarget::grasp_stop) == SpidarG::CONTACT_GRASP_STOP);
+static_assert(static_cast<int>(spidar::ContactTarget::turn_stop) == SpidarG::CONTACT_TURN_STOP);
+static_assert(static_cast<int>(spidar::kAllDof) == SpidarG::DOF_ALL);
 static_assert(static_cast<int>(spidar::HandFirmness::firm) == SpidarG::HAND_FIRM);
 static_assert(static_cast<int>(spidar::SimulatedFault::blocked_output) ==
               SpidarG::FAULT_BLOCKED_OUTPUT);
@@ -20,8 +21,10 @@ void SpidarG::_bind_methods() {
     bind_setup();
     bind_state();
     bind_requests();
+    bind_effects();
     bind_recording();
     bind_simulated();
+    bind_device();
 }
 
 void SpidarG::bind_setup() {
@@ -168,6 +171,17 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(CONTACT_POLE2_PLUS);
     BIND_ENUM_CONSTANT(CONTACT_POLE2_MINUS);
     BIND_ENUM_CONSTANT(CONTACT_GRASP_STOP);
+    BIND_ENUM_CONSTANT(CONTACT_TURN_STOP);
+    BIND_ENUM_CONSTANT(DOF_X);
+    BIND_ENUM_CONSTANT(DOF_Y);
+    BIND_ENUM_CONSTANT(DOF_Z);
+    BIND_ENUM_CONSTANT(DOF_LINEAR);
+    BIND_ENUM_CONSTANT(DOF_TURN_X);
+    BIND_ENUM_CONSTANT(DOF_TURN_Y);
+    BIND_ENUM_CONSTANT(DOF_TURN_Z);
+    BIND_ENUM_CONSTANT(DOF_ANGULAR);
+    BIND_ENUM_CONSTANT(DOF_GRASP);
+    BIND_ENUM_CONSTANT(DOF_ALL);
     BIND_ENUM_CONSTANT(HAND_LIGHT);
     BIND_ENUM_CONSTANT(HAND_NORMAL);
     BIND_ENUM_CONSTANT(HAND_FIRM);
@@ -190,4 +204,12 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(FAULT_LATE_OUTPUT);
     BIND_ENUM_CONSTANT(FAULT_BLOCKED_OUTPUT);
     BIND_CONSTANT(CONTACT_STRIDE);
+}
+
+void SpidarG::bind_device() {
+    ClassDB::bind_method(D_METHOD("zero_device"), &SpidarG::zero_device);
+    ClassDB::bind_method(D_METHOD("get_device_info"), &SpidarG::get_device_info);
+    ClassDB::bind_method(D_METHOD("simulated_buttons", "mask"), &SpidarG::simulated_buttons);
+    ADD_SIGNAL(MethodInfo("button_changed", PropertyInfo(Variant::INT, "button"),
+                          PropertyInfo(Variant::BOOL, "pressed")));
 }

@@ -11,7 +11,7 @@ using spidar::Status;
 namespace {
 
 // What the eleventh and twelfth numbers of a contact may be.
-constexpr int kLastContactTarget = static_cast<int>(spidar::ContactTarget::grasp_stop);
+constexpr int kLastContactTarget = static_cast<int>(spidar::ContactTarget::turn_stop);
 // Identifiers are counted in doubles on their way here: beyond this they would not be exact in an int32.
 constexpr double kLargestContactId = 2147483647.0;
 
@@ -67,7 +67,7 @@ std::string read_plane(const double *values, std::int64_t index, ContactPlane &p
         return "set_contacts: plane " + std::to_string(index) + ", normal = (" +
                std::to_string(values[0]) + ", " + std::to_string(values[1]) + ", " +
                std::to_string(values[2]) + "): " + spidar::describe(status) +
-               " Give a unit normal; a grasp stop has normal.x 1 or -1.";
+               " Give a unit normal; a grasp stop has normal.x 1 or -1, a turn stop an axis.";
     }
     return {};
 }
@@ -118,6 +118,7 @@ bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts) {
     }
     command_.contacts = planes;
     command_.contact_count = static_cast<int>(count);
+    command_.contacts_state_time_s = snapshot_.time_s; // the game saw this one
     ++command_.contacts_sequence;
     if (loop_) {
         loop_->publish(command_);

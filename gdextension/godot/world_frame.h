@@ -59,6 +59,11 @@ struct WorldFrame {
         if (contact.target == ContactTarget::grasp_stop) {
             return contact;
         }
+        if (contact.target == ContactTarget::turn_stop) {
+            contact.normal = turn_to_device(contact.normal);
+            contact.velocity_m_s = turn_to_device(contact.velocity_m_s);
+            return contact; // the angle is the same in both
+        }
         contact.offset_m = (contact.offset_m - glm::dot(contact.normal, origin)) / scale;
         contact.normal = turn_to_device(contact.normal);
         contact.velocity_m_s = velocity_to_device(contact.velocity_m_s);

@@ -82,10 +82,17 @@ Answer instability(HandFirmness hand) {
         plant.coulomb_friction_n = 0.0;
         return plant;
     }());
+    // A device that is not what its settings say: nothing is filtered, nothing foreseen, nothing capped.
+    RenderSettings &render = rig.settings.render;
+    render.string_resonance_hz = 0.0;
+    render.velocity_cutoff_hz = 60.0;
+    render.delay_compensation_s = 0.0;
+    render.caps_from_latency = false;
+    REQUIRE(rig.loop->start_stepped(rig.settings) == Status::ok);
     ContactPlane &plane = rig.command.contacts[0];
     plane.normal = Vec3(0.0, 1.0, 0.0);
     plane.offset_m = 0.0;
-    plane.stiffness_n_m = 2000.0; // the cap: far more than this latency bears
+    plane.stiffness_n_m = 2000.0; // far more than this latency bears
     plane.damping_n_s_m = 5.0;
     rig.command.contact_count = 1;
     rig.activate();

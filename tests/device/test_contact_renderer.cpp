@@ -5,8 +5,11 @@
 #include <random>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 #include "device/contact_renderer.h"
+#include "device/rotation_log.h"
 
 using namespace spidar;
 
@@ -41,21 +44,41 @@ ContactPlane stop_at(double angle_rad) {
     return stop;
 }
 
+// Seen as it is: nothing filtered, nothing ahead.
+GripMotion motion_of(const GripState &grip) {
+    return {grip, Displacement(), grip.twist};
+}
+
+ContactPlane turn_stop(const Vec3 &axis, double angle_rad) {
+    ContactPlane stop;
+    stop.target = ContactTarget::turn_stop;
+    stop.normal = axis;
+    stop.offset_m = angle_rad;
+    stop.stiffness_n_m = 0.5;
+    stop.damping_n_s_m = 0.001;
+    return stop;
+}
+
 struct Rig {
     ContactRenderer renderer;
     HapticCommand command;
 
-    Rig() { renderer.configure(SafetySettings()); }
+    Rig() { renderer.configure(settings()); }
+    static ServoSettings settings() {
+        ServoSettings settings;
+        settings.render.delay_compensation_s = 0.0; // the tests give the motion themselves
+        return settings;
+    }
     void give(std::initializer_list<ContactPlane> planes) {
         command.contact_count = 0;
         for (const ContactPlane &plane : planes) {
             command.contacts[static_cast<std::size_t>(command.contact_count++)] = plane;
         }
-        renderer.accept(command);
+        renderer.accept(command, 0.0);
     }
     Wrench tick(const GripState &grip, double scale = 1.0) {
         renderer.age(kTick_s);
-        const Wrench wrench = renderer.render(grip, kTick_s, 1.0);
+        const Wrench wrench = renderer.render(motion_of(grip), kTick_s);
         renderer.integrate(scale, kTick_s);
         return wrench;
     }
@@ -72,7 +95,7 @@ TEST_CASE("contact: force = stiffness x depth, along the normal; nothing outside
     Rig rig;
     rig.give({floor_plane()});
     const Wrench inside = rig.tick(grip_at(Vec3(0.0, 0.0, -0.004)));
-    CHECK(glm::distance(inside.force_n, Vec3(0.0, 0.0, 350.0 * 0.004)) < 1e-12);
+    CHECK(glm::distance(inside.force_n, Vec3(0.0, 0.0, 350.0 * 0.004)) < 1e-9);
     CHECK(glm::length(inside.moment_nm) < 1e-15);
     CHECK(inside.grasp_torque_nm == 0.0);
     CHECK(rig.report().touching);
@@ -93,43 +116,155 @@ TEST_CASE("contact: damping resists but never pulls") {
     }
 }
 
-TEST_CASE("contact: one, two or four coplanar contacts feel the same") {
-    for (const int count : {1, 2, 4}) {
-        Rig rig;
+TEST_CASE("contact: one, two, four or eight coplanar contacts feel the same") {
+    const Vec3 p(0.0, 0.0, -0.004);
+    GripState moving = grip_at(p);
+    moving.twist.linear_m_s.z = -0.1;
+    const double still_n = 350.0 * 0.004;
+    const double moving_n = still_n + 2.0 * 0.1; // damping is shared as well
+    for (const int count : {1, 2, 4, 8}) {
+        Rig same;   // all at one point
+        Rig spread; // at opposite pole ends
         for (int i = 0; i < count; ++i) {
-            rig.command.contacts[static_cast<std::size_t>(i)] = floor_plane(kEnds[i], i);
+            const auto k = static_cast<std::size_t>(i);
+            same.command.contacts[k] = floor_plane(ContactTarget::centre, i);
+            spread.command.contacts[k] =
+                floor_plane(count == 1 ? ContactTarget::centre : kEnds[i % 4], i);
         }
-        rig.command.contact_count = count;
-        rig.renderer.accept(rig.command);
-        GripState grip = grip_at(Vec3(0.0, 0.0, -0.004));
-        CAPTURE(count);
-        CHECK(rig.tick(grip).force_n.z == doctest::Approx(350.0 * 0.004));
-        grip.twist.linear_m_s.z = -0.1; // damping is shared as well
-        CHECK(rig.tick(grip).force_n.z == doctest::Approx(350.0 * 0.004 + 2.0 * 0.1));
+        for (Rig *rig : {&same, &spread}) {
+            rig->command.contact_count = count;
+            rig->renderer.accept(rig->command, 0.0);
+            CAPTURE(count);
+            CHECK(rig->tick(grip_at(p)).force_n.z == doctest::Approx(still_n));
+            CHECK(rig->tick(moving).force_n.z == doctest::Approx(moving_n));
+        }
     }
 }
 
-TEST_CASE("contact: normals 5 degrees apart share, 30 degrees apart do not") {
-    for (const double degrees : {5.0, 30.0}) {
+TEST_CASE("contact: one at a pole's end turns the grip, and gives way by that") {
+    Rig rig;
+    rig.give({floor_plane(ContactTarget::pole2_plus)});
+    const double r = kPaperPoleHalfLength_m;
+    const double k = 1.0 / (1.0 / 350.0 + r * r / kGodObjectTurnStiffness_nm_rad);
+    const Wrench wrench = rig.tick(grip_at(Vec3(0.0, 0.0, -0.004)));
+    CHECK(wrench.force_n.z == doctest::Approx(k * 0.004));
+    CHECK(wrench.moment_nm.y == doctest::Approx(-r * k * 0.004)); // r2 = +x, force +z
+}
+
+TEST_CASE("contact: in a wedge the force leads to the nearest allowed point") {
+    for (const double degrees : {5.0, 30.0, 60.0, 90.0, 120.0}) {
         Rig rig;
-        ContactPlane a = floor_plane(ContactTarget::centre, 1);
-        ContactPlane b = floor_plane(ContactTarget::centre, 2);
-        b.normal = Vec3(std::sin(degrees * kDegree_rad), 0.0, std::cos(degrees * kDegree_rad));
-        rig.give({a, b});
-        const Vec3 p(0.0, 0.0, -0.004);
-        const double depth_b = 0.004 * b.normal.z;
-        const double sum = rig.tick(grip_at(p)).force_n.z / 350.0;
-        const double shared = (0.004 * 0.004 + depth_b * depth_b * b.normal.z) / (0.004 + depth_b);
-        const double separate = 0.004 + depth_b * b.normal.z;
-        CHECK(sum == doctest::Approx(degrees < 10.0 ? shared : separate));
+        const double a = degrees * kDegree_rad;
+        ContactPlane left = floor_plane(ContactTarget::centre, 1);
+        ContactPlane right = floor_plane(ContactTarget::centre, 2);
+        right.normal = Vec3(std::sin(a), 0.0, std::cos(a));
+        rig.give({left, right});
+        // Both planes pass through the origin; below both, the nearest allowed point is the edge or on a plane.
+        for (const Vec3 &p : {Vec3(-0.002, 0.0, -0.004), Vec3(-0.004, 0.0, -0.001),
+                              Vec3(0.003, 0.0, -0.004), Vec3(-0.0001, 0.0, -0.003)}) {
+            Vec3 nearest(0.0);
+            double least_m = 1.0;
+            const Vec3 candidates[] = {Vec3(0.0, p.y, 0.0),
+                                       p - glm::dot(left.normal, p) * left.normal,
+                                       p - glm::dot(right.normal, p) * right.normal};
+            for (const Vec3 &q : candidates) {
+                const bool allowed =
+                    glm::dot(left.normal, q) > -1e-12 && glm::dot(right.normal, q) > -1e-12;
+                if (allowed && glm::distance(p, q) < least_m) {
+                    least_m = glm::distance(p, q);
+                    nearest = q;
+                }
+            }
+            CAPTURE(degrees);
+            CHECK(glm::distance(rig.tick(grip_at(p)).force_n, 350.0 * (nearest - p)) < 1e-6);
+        }
     }
+}
+
+TEST_CASE("contact: a closed path in contact gains no energy from several planes") {
+    Rig rig;
+    rig.give({floor_plane(ContactTarget::pole1_plus, 1), floor_plane(ContactTarget::pole2_plus, 2),
+              floor_plane(ContactTarget::centre, 3)});
+    const auto pose_at = [](double t) {
+        const Mat3 turn(std::cos(0.05 * std::sin(t)), 0.0, -std::sin(0.05 * std::sin(t)), 0.0, 1.0,
+                        0.0, std::sin(0.05 * std::sin(t)), 0.0, std::cos(0.05 * std::sin(t)));
+        GripState grip;
+        grip.pose = make_pose(GripGeometry(), Vec3(0.0, 0.0, -0.002 + 0.002 * std::cos(t)), turn,
+                              0.1 * std::sin(2.0 * t));
+        grip.frame = frame_of(grip.pose, turn);
+        return grip;
+    };
+    constexpr int kSteps = 20000;
+    double work_j = 0.0;
+    double passed_j = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t0 = 2.0 * 3.14159265358979 * i / kSteps;
+        const double t1 = 2.0 * 3.14159265358979 * (i + 1) / kSteps;
+        const GripState a = pose_at(t0);
+        const GripState b = pose_at(t1);
+        Rig still;
+        still.give({floor_plane(ContactTarget::pole1_plus, 1),
+                    floor_plane(ContactTarget::pole2_plus, 2),
+                    floor_plane(ContactTarget::centre, 3)});
+        const Wrench w = still.tick(pose_at(0.5 * (t0 + t1)));
+        const double step_j =
+            glm::dot(w.force_n, b.pose.position_m - a.pose.position_m) +
+            glm::dot(w.moment_nm,
+                     rotation_log(b.frame.rotation * glm::transpose(a.frame.rotation))) +
+            w.grasp_torque_nm * (b.frame.grasp_angle_rad - a.frame.grasp_angle_rad);
+        work_j += step_j;
+        passed_j += std::abs(step_j);
+    }
+    CHECK(passed_j > 1e-3); // the path is felt
+    CHECK(std::abs(work_j) < 1e-3 * passed_j);
+}
+
+TEST_CASE("turn stop: keeps the turn about its axis, wherever the others are") {
+    Rig rig;
+    const double angle = 0.3;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 unit(0.0);
+        unit[axis] = 1.0;
+        rig.give({turn_stop(-unit, -0.2)}); // turns up to 0.2 rad are free
+        GripState grip;
+        const Mat3 turn(glm::mat3_cast(glm::angleAxis(angle, unit)));
+        grip.pose = make_pose(GripGeometry(), Vec3(0.01, 0.0, 0.02), turn, 0.1);
+        grip.frame = frame_of(grip.pose, turn);
+        const Wrench wrench = rig.tick(grip);
+        CHECK(glm::distance(wrench.moment_nm, -0.5 * 0.1 * unit) < 1e-9);
+        CHECK(glm::length(wrench.force_n) == 0.0);
+        CHECK(wrench.grasp_torque_nm == 0.0);
+        grip.twist.angular_rad_s = 2.0 * unit;
+        CHECK(rig.tick(grip).moment_nm[axis] == doctest::Approx(-0.5 * 0.1 - 0.001 * 2.0));
+        grip.twist.angular_rad_s = -1000.0 * unit;
+        CHECK(rig.tick(grip).moment_nm[axis] == 0.0);
+        CHECK(rig.tick(grip_at(Vec3(0.0))).moment_nm[axis] == 0.0);
+    }
+}
+
+TEST_CASE("contact: the push acts on where the grip will be, surface and all") {
+    ServoSettings settings;
+    settings.render.delay_compensation_s = 0.003;
+    ContactRenderer renderer;
+    renderer.configure(settings);
+    HapticCommand command;
+    command.contact_count = 1;
+    command.contacts[0] = floor_plane();
+    command.contacts[0].damping_n_s_m = 0.0;
+    command.contacts[0].velocity_m_s = Vec3(0.0, 0.0, 0.2);
+    renderer.accept(command, 0.0);
+    GripMotion motion = motion_of(grip_at(Vec3(0.0, 0.0, -0.004)));
+    motion.ahead.linear_m.z = -0.001;
+    CHECK(renderer.render(motion, kTick_s).force_n.z ==
+          doctest::Approx(350.0 * (0.004 + 0.001 + 0.003 * 0.2)));
 }
 
 TEST_CASE("contact: a second coplanar contact comes in without a jump") {
     Rig rig;
     ContactPlane late = floor_plane(ContactTarget::pole2_plus, 2);
+    late.offset_m = -0.004 - 2e-3;
     rig.give({floor_plane(ContactTarget::pole1_plus, 1), late});
-    double last_n = 350.0 * 0.004;
+    double last_n = rig.tick(grip_at(Vec3(0.0, 0.0, -0.004))).force_n.z;
     for (int i = 0; i <= 400; ++i) { // the second plane rises through its pole end
         late.offset_m = -0.004 + 1e-5 * i - 2e-3;
         Rig fresh;
@@ -200,6 +335,19 @@ TEST_CASE("contact: planes move on by their velocity for 30 ms, then stand") {
     }
 }
 
+TEST_CASE("contact: a plane that says when it was computed is moved on from then") {
+    Rig rig;
+    ContactPlane plane = floor_plane();
+    plane.damping_n_s_m = 0.0;
+    plane.velocity_m_s = Vec3(0.0, 0.0, 0.2);
+    rig.command.contacts[0] = plane;
+    rig.command.contact_count = 1;
+    rig.command.contacts_state_time_s = 7.0;
+    rig.renderer.accept(rig.command, 7.008); // 8 ms old
+    const double force_n = rig.tick(grip_at(Vec3(0.0, 0.0, -0.001))).force_n.z;
+    CHECK(force_n == doctest::Approx(350.0 * (0.001 + 0.2 * 0.009)));
+}
+
 TEST_CASE("contact: full to 100 ms, half at 200 ms, gone at 300 ms, and back gradually") {
     Rig rig;
     rig.give({floor_plane()});
@@ -252,7 +400,7 @@ TEST_CASE("contact: a plane that moves as announced is not dragged back by its u
         } else {
             rig.renderer.age(kTick_s);
         }
-        const double depth = rig.renderer.render(grip, kTick_s, 1.0).force_n.z / 350.0;
+        const double depth = rig.renderer.render(motion_of(grip), kTick_s).force_n.z / 350.0;
         CHECK(std::abs(depth - (0.01 + 0.1e-3 * ms)) < 1e-9);
     }
 }
@@ -302,17 +450,24 @@ TEST_CASE("contact: caps of stiffness and damping, reported") {
     plane.damping_n_s_m = 1e6;
     rig.command.contacts[0] = plane;
     rig.command.contact_count = 1;
-    CHECK(rig.renderer.accept(rig.command));
+    const GainCaps caps = gain_caps(Rig::settings().render, Rig::settings().rate_hz);
+    const GainClamp clamp = rig.renderer.accept(rig.command, 0.0);
+    CHECK(clamp.gain == GainClamp::Gain::stiffness);
+    CHECK(clamp.asked == 1e6);
+    CHECK(clamp.given == caps.stiffness_n_m);
+    CHECK(clamp.from_latency);
     GripState grip = grip_at(Vec3(0.0, 0.0, -0.004));
     grip.twist.linear_m_s.z = -0.1;
     CHECK(rig.tick(grip).force_n.z ==
-          doctest::Approx(kMaxStiffness_n_m * 0.004 + kMaxDamping_n_s_m * 0.1));
+          doctest::Approx(caps.stiffness_n_m * 0.004 + caps.damping_n_s_m * 0.1));
     ContactPlane stop = stop_at(0.0);
     stop.stiffness_n_m = 100.0;
     rig.command.contacts[0] = stop;
-    CHECK(rig.renderer.accept(rig.command));
+    CHECK(rig.renderer.accept(rig.command, 0.0).gain == GainClamp::Gain::grasp_stiffness);
     CHECK(rig.tick(grip_at(Vec3(0.0), 0.1)).grasp_torque_nm ==
-          doctest::Approx(-kMaxGraspStiffness_nm_rad * 0.1));
+          doctest::Approx(-caps.grasp_stiffness_nm_rad * 0.1));
+    rig.command.contacts[0] = floor_plane();
+    CHECK(rig.renderer.accept(rig.command, 0.0).gain == GainClamp::Gain::none);
 }
 
 TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that never pulls") {
@@ -326,7 +481,7 @@ TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that 
     for (int round = 0; round < 20000; ++round) {
         for (int i = 0; i < kMaxContacts; ++i) {
             ContactPlane plane;
-            plane.target = static_cast<ContactTarget>(random() % 6);
+            plane.target = static_cast<ContactTarget>(random() % 7);
             plane.normal = Vec3(0.0);
             const auto axis =
                 static_cast<int>(plane.target == ContactTarget::grasp_stop ? 0 : random() % 3);
@@ -342,7 +497,7 @@ TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that 
         }
         rig.command.contact_count = static_cast<int>(random() % (kMaxContacts + 1));
         if (random() % 3 == 0) {
-            rig.renderer.accept(rig.command);
+            rig.renderer.accept(rig.command, 0.0);
         }
         GripState grip = grip_at(Vec3(0.01, -0.02, 0.03), 0.1);
         grip.twist.linear_m_s = Vec3(0.5, -0.5, 1.0);

@@ -59,7 +59,7 @@ TEST_CASE("contact: every malformed field is refused, the default is fine") {
     CHECK(refused([](ContactPlane &p) { p.stiffness_n_m = -1.0; }));
     CHECK(refused([](ContactPlane &p) { p.damping_n_s_m = -1.0; }));
     CHECK(refused([](ContactPlane &p) { p.friction = -0.1; }));
-    CHECK(refused([](ContactPlane &p) { p.target = static_cast<ContactTarget>(6); }));
+    CHECK(refused([](ContactPlane &p) { p.target = static_cast<ContactTarget>(7); }));
     // A grasp stop has only x, which is a direction.
     CHECK(refused([](ContactPlane &p) { p.target = ContactTarget::grasp_stop; }));
     ContactPlane stop;

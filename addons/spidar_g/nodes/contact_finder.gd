@@ -12,6 +12,9 @@ const MAX_BODIES: int = 6
 ## Contact points asked per body: a face on a face gives four.
 const MAX_POINTS: int = 4
 
+## A plane that the shape would be nearer to than this (scene metres) after its way ahead is looked at from there too.
+const LOOK_AHEAD_BELOW_M: float = 0.005
+
 ## A body with this metadata (N/m per device metre) feels softer than the rest.
 const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
 ## A body with this metadata (coefficient) is rougher or smoother than the rest.
@@ -30,13 +33,16 @@ var friction: float = 0.4
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
 
 
-## Appends to `found` the planes near `shape` at `transform`; bodies in `exclude` are not seen.
+## Appends to `found` the planes near `shape` at `transform`; bodies in `exclude` are not seen. The shape moves on by
+## `ahead` (scene metres) before the next planes come: of the planes that touch a body now and then, the one is taken that
+## the shape stays clear of longest. Both hold the whole convex body behind them, so neither is passed unfelt.
 func find(
 	space: PhysicsDirectSpaceState3D,
 	shape: Shape3D,
 	transform: Transform3D,
 	exclude: Array[RID],
-	found: Array[ContactPlane]
+	found: Array[ContactPlane],
+	ahead: Vector3 = Vector3.ZERO
 ) -> void:
 	_query.shape = shape
 	_query.transform = transform
@@ -48,7 +54,7 @@ func find(
 		_query.exclude = exclude + bodies.filter(func(other: RID) -> bool: return other != rid)
 		var plane: ContactPlane = _nearest_plane(space)
 		if plane != null:
-			found.append(plane)
+			found.append(_clearest_plane(space, plane, transform, ahead))
 
 
 ## The same for every shape of `body`, as if it were at `at`.
@@ -75,6 +81,24 @@ static func unique_rids(hits: Array[Dictionary]) -> Array[RID]:
 		if not rids.has(rid) and rids.size() < MAX_BODIES:
 			rids.append(rid)
 	return rids
+
+
+## `now`, or the plane of the same body as seen from the end of the way, whichever the shape keeps clear of better.
+func _clearest_plane(
+	space: PhysicsDirectSpaceState3D, now: ContactPlane, transform: Transform3D, ahead: Vector3
+) -> ContactPlane:
+	var soonest: float = now.separation_m + now.normal.dot(ahead)
+	if soonest >= minf(LOOK_AHEAD_BELOW_M, now.separation_m):
+		return now
+	_query.transform = transform.translated(ahead)
+	var later: ContactPlane = _nearest_plane(space)
+	_query.transform = transform
+	# A normal that turned over belongs to the body's far side: the shape went through.
+	if later == null or later.rid != now.rid or later.normal.dot(now.normal) <= 0.0:
+		return now
+	var at_end: float = later.separation_m
+	later.separation_m -= later.normal.dot(ahead)
+	return later if minf(later.separation_m, at_end) > minf(now.separation_m, soonest) else now
 
 
 func _nearest_plane(space: PhysicsDirectSpaceState3D) -> ContactPlane:

@@ -43,6 +43,8 @@ const CLOSED_STOP_RANGE: float = 0.17
 const MAX_RELEASE_SPEED_M_S: float = 2.0
 ## A held body torn this far from the grip (device metres) is stuck behind something.
 const MAX_STRETCH_M: float = 0.015
+## A plane is up to two frames old when the next one replaces it.
+const LOOK_AHEAD_FRAMES: float = 1.5
 ## Load or stretch has to last this long to break a hold, s.
 const BREAK_TIME_S: float = 0.05
 
@@ -211,7 +213,7 @@ func _physics_process(delta: float) -> void:
 	var found: Array[ContactPlane] = []
 	if _hold != null:
 		_carry(grip, exclude, delta, found)
-	_find_tool_planes(grip, exclude, found)
+	_find_tool_planes(grip, delta, exclude, found)
 	_contacts.replace(found)
 	_publish(grip)
 	_request_load(grip, delta)
@@ -303,16 +305,11 @@ func _carry(
 	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
 	_finder.find_round_body(_space(), body, at, exclude, found)
-	var shift: Vector3 = Vector3.ZERO
-	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
-		for plane: ContactPlane in found:
-			plane.through_held_body = true
-			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
-	_hold.follow(grip, shift)
+	_hold.follow(grip, ContactSet.way_out(found))
 
 
 func _find_tool_planes(
-	grip: Transform3D, exclude: Array[RID], found: Array[ContactPlane]
+	grip: Transform3D, delta: float, exclude: Array[RID], found: Array[ContactPlane]
 ) -> void:
 	if not render_contacts:
 		return
@@ -326,9 +323,11 @@ func _find_tool_planes(
 		var slack: float = SIDE_SLACK_M * spidar.workspace_scale
 		_jaw.side_planes(_finder, grip, _gap_m(), closing, slack, found)
 	var shape: Shape3D = _pad.shape_for(spidar.workspace_scale)
+	# Planes act until those of the next frame come.
+	var ahead: Vector3 = LOOK_AHEAD_FRAMES * delta * spidar.get_linear_velocity()
 	for side: int in 2:
 		var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())
-		_finder.find(_space(), shape, at, beside, found)
+		_finder.find(_space(), shape, at, beside, found, ahead)
 
 
 func _publish(grip: Transform3D) -> void:

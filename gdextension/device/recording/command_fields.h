@@ -9,7 +9,23 @@ namespace spidar {
 
 // A field added to one of these structs: add it to the list below, then correct the number.
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 14, "HapticCommand changed: list its fields here");
+static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
+static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 20, "HapticCommand changed: list its fields here");
+
+template <typename Matrix, typename Visit>
+void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
+    for (int column = 0; column < 3; ++column) {
+        visit_vector(name, 3 * index + column, matrix[column], visit);
+    }
+}
+
+template <typename Gains, typename Visit>
+void visit_dof(std::string_view name, int index, Gains &gains, Visit &&visit) {
+    for (int dof = 0; dof < kDofCount; ++dof) {
+        visit(name, kDofCount * index + dof, gains[static_cast<std::size_t>(dof)]);
+    }
+}
 
 template <typename Command, typename Visit>
 void for_each_field(Command &command, Visit &&visit) requires
@@ -39,6 +55,39 @@ void for_each_field(Command &command, Visit &&visit) requires
         visit("contact.friction", i, plane.friction);
         visit("contact.target", i, plane.target);
         visit("contact.id", i, plane.id);
+        ++i;
+    }
+    visit("contacts_state_time_s", 0, command.contacts_state_time_s);
+    visit("coupling_sequence", 0, command.coupling_sequence);
+    auto &coupling = command.coupling;
+    visit_vector("coupling.position_m", 0, coupling.position_m, visit);
+    visit_matrix("coupling.rotation", 0, coupling.rotation, visit);
+    visit("coupling.grasp_angle_rad", 0, coupling.grasp_angle_rad);
+    visit_vector("coupling.twist.linear_m_s", 0, coupling.twist.linear_m_s, visit);
+    visit_vector("coupling.twist.angular_rad_s", 0, coupling.twist.angular_rad_s, visit);
+    visit("coupling.twist.grasp_rate_rad_s", 0, coupling.twist.grasp_rate_rad_s);
+    visit_array("coupling.stiffness", coupling.stiffness, visit);
+    visit_array("coupling.damping", coupling.damping, visit);
+    visit("coupling.max_force_n", 0, coupling.max_force_n);
+    visit("coupling.max_moment_nm", 0, coupling.max_moment_nm);
+    visit("coupling.max_grasp_torque_nm", 0, coupling.max_grasp_torque_nm);
+    visit("coupling.state_time_s", 0, coupling.state_time_s);
+    visit("coupling.dof_mask", 0, coupling.dof_mask);
+    visit("effects_sequence", 0, command.effects_sequence);
+    visit("effect_count", 0, command.effect_count);
+    i = 0;
+    for (auto &effect : command.effects) {
+        visit("effect.kind", i, effect.kind);
+        visit("effect.dof_mask", i, effect.dof_mask);
+        visit("effect.id", i, effect.id);
+        visit_dof("effect.gain", i, effect.gain, visit);
+        visit_vector("effect.centre_m", i, effect.centre_m, visit);
+        visit_matrix("effect.centre_rotation", i, effect.centre_rotation, visit);
+        visit("effect.centre_grasp_rad", i, effect.centre_grasp_rad);
+        visit("effect.frequency_hz", i, effect.frequency_hz);
+        visit_dof("effect.spacing", i, effect.spacing, visit);
+        visit("effect.duration_s", i, effect.duration_s);
+        visit("effect.renewal", i, effect.renewal);
         ++i;
     }
 }

@@ -9,14 +9,15 @@
 namespace spidar {
 
 // A field added to one of these structs: add it to the list below, then correct the number.
-static_assert(count_members<FrameGeometry>() == 1, "FrameGeometry changed: list its fields here");
-static_assert(count_members<GripGeometry>() == 2, "GripGeometry changed: list its fields here");
+static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list its fields here");
+static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
 static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
-static_assert(count_members<ServoSettings>() == 11, "ServoSettings changed: list its fields here");
+static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
+static_assert(count_members<ServoSettings>() == 12, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
 void for_each_field(Settings &settings, Visit &&visit) requires
@@ -26,7 +27,11 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("device_clocked", 0, settings.device_clocked);
     visit("reopen_interval_s", 0, settings.reopen_interval_s);
     visit_vectors("frame.motors_m", settings.frame.motors_m, visit);
+    visit("frame.pulley_radius_m", 0, settings.frame.pulley_radius_m);
+    visit_vector("frame.pulley_axis", 0, settings.frame.pulley_axis, visit);
     visit("grip.pole_half_length_m", 0, settings.grip.pole_half_length_m);
+    visit("grip.kind", 0, settings.grip.kind);
+    visit_vectors("grip.joints_m", settings.grip.joints_m, visit);
     int i = 0;
     for (auto &attachment : settings.grip.attachments) {
         visit("grip.attachment.pole", i, attachment.pole);
@@ -72,6 +77,9 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.fade_grip_speed_m_s", 0, safety.fade_grip_speed_m_s);
     visit("safety.fade_turn_rate_rad_s", 0, safety.fade_turn_rate_rad_s);
     visit("safety.max_turn_rate_rad_s", 0, safety.max_turn_rate_rad_s);
+    visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
+    visit("safety.contacts_full_s", 0, safety.contacts_full_s);
+    visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
     visit("safety.game_timeout_s", 0, safety.game_timeout_s);
     visit("safety.continuous_tension_n", 0, safety.continuous_tension_n);
     visit("safety.thermal_time_s", 0, safety.thermal_time_s);
@@ -79,9 +87,23 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("safety.string_error_fault_m", 0, safety.string_error_fault_m);
     visit("safety.workspace_margin_m", 0, safety.workspace_margin_m);
     visit("safety.hand_presence_s", 0, safety.hand_presence_s);
-    visit("safety.wrench_fade_s", 0, safety.wrench_fade_s);
-    visit("safety.contacts_full_s", 0, safety.contacts_full_s);
-    visit("safety.contacts_gone_s", 0, safety.contacts_gone_s);
+    auto &render = settings.render;
+    visit("render.string_resonance_hz", 0, render.string_resonance_hz);
+    visit("render.velocity_cutoff_hz", 0, render.velocity_cutoff_hz);
+    visit("render.delay_compensation_s", 0, render.delay_compensation_s);
+    visit("render.latency_s", 0, render.latency_s);
+    visit("render.caps_from_latency", 0, render.caps_from_latency);
+    visit("render.max_stiffness_n_m", 0, render.max_stiffness_n_m);
+    visit("render.max_turn_stiffness_nm_rad", 0, render.max_turn_stiffness_nm_rad);
+    visit("render.max_grasp_stiffness_nm_rad", 0, render.max_grasp_stiffness_nm_rad);
+    visit("render.max_damping_n_s_m", 0, render.max_damping_n_s_m);
+    visit("render.max_turn_damping_nm_s_rad", 0, render.max_turn_damping_nm_s_rad);
+    visit("render.max_grasp_damping_nm_s_rad", 0, render.max_grasp_damping_nm_s_rad);
+    visit("render.passivity_share", 0, render.passivity_share);
+    visit("render.compensated_mass_kg", 0, render.compensated_mass_kg);
+    visit_vector("render.gravity_m_s2", 0, render.gravity_m_s2, visit);
+    visit("render.compensated_friction_n", 0, render.compensated_friction_n);
+    visit("render.compensated_viscous_n_s_m", 0, render.compensated_viscous_n_s_m);
 }
 
 } // namespace spidar

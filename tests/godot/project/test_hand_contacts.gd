@@ -98,3 +98,21 @@ func test_a_hand_without_a_device_warns_and_does_nothing() -> void:
 	check(not lonely.is_physics_processing(), "does not run")
 	var warnings: PackedStringArray = lonely._get_configuration_warnings()
 	check(warnings.size() > 0 and warnings[0].contains("SpidarG"), "says what to do: %s" % warnings)
+
+
+func test_passing_an_edge_at_a_distance_touches_nothing() -> void:
+	elastic = true
+	await set_up(Vector3(-0.1, 0.02, 0.0))
+	# Its top is 18 mm under the pads, and its edge lies across the way.
+	add_box(Vector3(0.06, 0.06, 0.3), Vector3(0.02, 0.02 - 0.012 - 0.018 - 0.03, 0.0), 0.0)
+	await physics_frames(2)
+	var touched: int = 0
+	var most: float = 0.0
+	for i: int in 30:  # 0.2 m in half a second
+		await move_to(Vector3(-0.1 + 0.2 * (i + 1) / 30.0, 0.02, 0.0), 0.0, 1)
+		touched += device.get_touching_contacts().size()
+		var asked: PackedFloat64Array = device.get_requested_wrench()
+		most = maxf(most, Vector3(asked[0], asked[1], asked[2]).length())
+	print("INFO passing an edge at 18 mm: %d touches, %.3f N" % [touched, most])
+	check_equal(touched, 0, "nothing is touched")
+	check_near(most, 0.0, 1e-6, "no force is asked for")

@@ -1,0 +1,55 @@
+// All requests -> one wrench, every cycle: contacts, coupling, wrench, effects and the calibrated load of the grip
+// itself add up; each ages and fades on its own.
+#pragma once
+
+#include "device/contact_renderer.h"
+#include "device/coupling_request.h"
+#include "device/effect_set.h"
+#include "device/passivity.h"
+#include "device/wrench_request.h"
+
+namespace spidar {
+
+class HapticRenderer {
+public:
+    void configure(const ServoSettings &settings) noexcept;
+    // Takes this command's requests as already seen.
+    void acknowledge(const HapticCommand &command) noexcept;
+
+    // Once a cycle, first: ages what there is, then takes what is new. What is not valid is counted, and the last
+    // good request stands.
+    // now_s: ServoSnapshot::time_s of this cycle.
+    void take(const HapticCommand &command, double now_s, double dt_s,
+              ServoCounters &counters) noexcept;
+
+    // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. trusted: the pose is
+    // of now; otherwise nothing that depends on speed acts.
+    Wrench render(const GripState &grip, const Displacement &moved, bool trusted,
+                  double dt_s) noexcept;
+    // What became of it: `scale` of what render() returned acts until the next cycle, as `given`.
+    void given(double scale, const Wrench &given, double dt_s) noexcept;
+
+    void report(ServoSnapshot &snapshot) const noexcept;
+
+    // Nothing is asked and nothing moves: render() gives the same again, and changes nothing, until that changes.
+    [[nodiscard]] bool idle() const noexcept;
+
+private:
+    void note(const GainClamp &clamp, ServoCounters &counters) noexcept;
+
+    MotionFilter motion_;
+    ContactRenderer contacts_;
+    CouplingRequest coupling_;
+    WrenchRequest wrench_;
+    EffectSet effects_;
+    PassivityController controller_;
+    EnergyObserver observer_;
+    Wrench load_{}; // holds up the grip's weight
+    GainClamp last_clamp_{};
+    std::uint64_t wrench_sequence_ = 0;
+    std::uint64_t contacts_sequence_ = 0;
+    std::uint64_t coupling_sequence_ = 0;
+    std::uint64_t effects_sequence_ = 0;
+};
+
+} // namespace spidar

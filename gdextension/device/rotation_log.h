@@ -1,0 +1,22 @@
+// Rotation vector of a rotation matrix.
+#pragma once
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/types.h"
+
+namespace spidar {
+
+// Axis times angle (unit: rad), for turns below half a turn.
+[[nodiscard]] inline Vec3 rotation_log(const Mat3 &turn) noexcept {
+    const Vec3 sine(0.5 * (turn[1][2] - turn[2][1]), 0.5 * (turn[2][0] - turn[0][2]),
+                    0.5 * (turn[0][1] - turn[1][0]));
+    const double s = glm::length(sine);
+    const double c = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
+    constexpr double kSmall = 1e-9; // angle / sine is 1 to double precision below this
+    return s > kSmall ? (std::atan2(s, c) / s) * sine : sine;
+}
+
+} // namespace spidar
