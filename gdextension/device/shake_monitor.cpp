@@ -7,15 +7,16 @@ namespace spidar {
 
 namespace {
 
-// A swing: 0.5 mm to and fro at 40 Hz, twice what a good rendering may dither.
-constexpr double kSwing_m_s = 0.06;
+// A swing: 1 mm to and fro at 40 Hz, five times what a good rendering may dither. Rubbing along three surfaces at once
+// shows nearly as much and is felt as rough, not as a danger.
+constexpr double kSwing_m_s = 0.10;
 // Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
 constexpr double kRotationArm_m = 0.04;
 constexpr double kGraspArm_m = 0.02;
 // Half a period of 8 Hz: a light hand bounces off a wall so slowly; nobody shakes a grip as fast for long.
 constexpr double kLongestHalfPeriod_s = 0.060;
-// Three whole periods in a row: no tap swings so often.
-constexpr int kSwings = 6;
+// Four whole periods in a row: no tap swings so often.
+constexpr int kSwings = 8;
 // Time constant of what counts as the hand's own motion: a corner of 13 Hz.
 constexpr double kHandMotion_s = 0.012;
 // The forces come back to full within this, once the grip is calm.

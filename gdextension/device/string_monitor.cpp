@@ -103,8 +103,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
             continue;
         }
         still.still_s += dt_s;
-        if (still.still_s >= kStill_s &&
-            std::abs(parity_m - still.parity_m) > kStuckParity_m + stretch_m) {
+        if (still.still_s >= kStill_s && parity_m - still.parity_m > kStuckParity_m + stretch_m) {
             stuck = static_cast<int>(i);
         }
     }

@@ -119,7 +119,7 @@ constexpr FaultRow kRows[] = {
     {23, "edge of the workspace", 1.0, 0.0, workspace_edge},
     {24, "grip released under 8 N", 100.0, 2.2, released_grip},
     {25, "8 N for a minute", 60000.0, 0.0, sustained_force},
-    {26, "contact that shakes", 1000.0, 0.0, instability},
+    {26, "contact that shakes", 2000.0, 0.0, instability},
 };
 
 } // namespace

@@ -94,8 +94,8 @@ void play(Game &game, long frame) {
         ContactPlane &plane = command.contacts[static_cast<std::size_t>(i)];
         plane.normal = normals[i];
         plane.offset_m = -0.05;
-        plane.friction = 0.5;
-        plane.target = static_cast<ContactTarget>(i); // the centre and two pole ends
+        plane.stiffness_n_m = 250.0; // what several DOF in contact together bear
+        plane.friction = 0.3;
         plane.id = i + 1;
     }
     ContactPlane &stop = command.contacts[3];
