@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import zipfile
 
-SANITIZERS = ("address", "undefined", "thread")
+SANITIZERS = ("address", "undefined", "thread", "realtime")  # realtime: clang 20 and later
 MINIMUM_GODOT = (4, 4)  # classdb_register_extension_class4 and construct_object2
 
 
@@ -31,8 +31,8 @@ def sanitizers(value):
     unknown = [name for name in names if name not in SANITIZERS]
     if unknown:
         raise BuildError(f"sanitize={value}: unknown {unknown[0]}; use {', '.join(SANITIZERS)}")
-    if "thread" in names and len(names) > 1:
-        raise BuildError(f"sanitize={value}: thread cannot be combined with another sanitizer")
+    if {"thread", "realtime"} & set(names) and len(names) > 1:
+        raise BuildError(f"sanitize={value}: thread and realtime stand alone")
     return [name for name in SANITIZERS if name in names]
 
 
@@ -80,6 +80,57 @@ def version_header(version):
         f'inline constexpr char kVersion[] = "{version}";\n\n'
         "} // namespace spidar\n"
     )
+
+
+# --- Windows, cross-compiled -----------------------------------------------------------------------
+
+MINGW = "x86_64-w64-mingw32-"
+
+
+def use_mingw(env):
+    """Programs and flags of mingw-w64, with the threads of the -posix variant and nothing linked at run time."""
+    env.Replace(
+        CC=MINGW + "gcc-posix",
+        CXX=MINGW + "g++-posix",
+        AR=MINGW + "ar",
+        RANLIB=MINGW + "ranlib",
+        PROGSUFFIX=".exe",
+        SHLIBSUFFIX=".dll",
+    )
+    env.Append(
+        # This compiler does not align the stack to 32 bytes: aligned moves of spilled AVX registers would fault.
+        CCFLAGS=["-Wa,-muse-unaligned-vector-move"],
+        CPPDEFINES=[("_WIN32_WINNT", "0x0A00")],
+        LINKFLAGS=["-static", "-static-libgcc", "-static-libstdc++"],
+    )
+    # Headers alone, shared with the host; its /usr/include as a whole would bring the wrong C library.
+    folder = "build/host_headers"
+    os.makedirs(folder, exist_ok=True)
+    for name in ("glm", "doctest"):
+        source = os.path.join("/usr/include", name)
+        link = os.path.join(folder, name)
+        if os.path.isdir(source) and not os.path.islink(link):
+            os.symlink(source, link)
+    system_include(env, "#" + folder)
+
+
+def windows_hidapi(env, build):
+    """hidapi's Windows backend, compiled here: its folder is what tools/fetch/fetch_hidapi.py brought."""
+    folder = "build/hidapi"
+    source = os.path.join(folder, "windows", "hid.c")
+    if not os.path.isfile(source):
+        raise BuildError(f"{source} is missing: run tools/fetch/fetch_hidapi.py")
+    headers = "build/host_headers/hidapi"
+    if not os.path.islink(headers):
+        os.symlink(os.path.abspath(os.path.join(folder, "hidapi")), headers)
+    hidapi = env.Clone()
+    hidapi.Append(CPPPATH=["#" + folder + "/hidapi"])
+    return [hidapi.StaticLibrary(f"{build}/lib/hidapi", hidapi.SharedObject(f"{build}/obj/hidapi_hid", source))]
+
+
+def library_path(addon, platform_name, target):
+    name = f"spidar_g.{platform_name}.{target}.{architecture()}"
+    return f"{addon}/bin/{name}.dll" if platform_name == "windows" else f"{addon}/bin/lib{name}.so"
 
 
 # --- hidapi --------------------------------------------------------------------------------------

@@ -39,7 +39,9 @@ func _ready() -> void:
 		return
 	_arguments = arguments
 	_settings = (load("res://common/demo_settings.gd") as Script).call(&"load_or_default")
-	if arguments.scripted():
+	if arguments.simulates():
+		_open("experiment")
+	elif arguments.scripted():
 		_open(arguments.task)
 	else:
 		_settings.set(&"level", arguments.level if arguments.open_task != "" else _settings.get(&"level"))
@@ -50,8 +52,10 @@ func _ready() -> void:
 func _open(scene_name: String) -> void:
 	if _scene != null:
 		_scene.queue_free()
-	var scene: PackedScene = load(TASKS.get(scene_name, OTHER_SCENES.get(scene_name, "")))
-	_scene = scene.instantiate()
+	_scene = _make(scene_name)
+	if not _scene.has_signal(&"left"):
+		_refuse("%s did not load: import the project first (./dev does)." % scene_name, _arguments.scripted())
+		return
 	_scene.set(&"arguments", _arguments)
 	_scene.set(&"settings", _settings)
 	if scene_name == "hub":
@@ -59,13 +63,23 @@ func _open(scene_name: String) -> void:
 		_scene.connect(&"left", get_tree().quit)
 	else:
 		_scene.connect(&"left", _open.bind("hub"))
+	if scene_name == "experiment":
+		_scene.set(&"scene_of", _make)
+		_scene.connect(&"ended", get_tree().quit)
 	add_child(_scene)
 	if _arguments.report != "" and _report == null:
 		_report = (load("res://common/screen_report.gd") as Script).call(&"new")
 		_report.set(&"path", _arguments.report)
 		add_child(_report)
-	if _report != null:
+	if _report != null and scene_name != "experiment":
 		_report.set(&"task", _scene)
+
+
+func _make(scene_name: String) -> Node:
+	if scene_name == "experiment":
+		return (load("res://experiment/experiment.gd") as Script).call(&"new")
+	var scene: PackedScene = load(TASKS.get(scene_name, OTHER_SCENES.get(scene_name, "")))
+	return scene.instantiate()
 
 
 func _on_chosen(entry: StringName, level: int) -> void:

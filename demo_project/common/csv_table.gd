@@ -24,6 +24,11 @@ func add_row(values: Dictionary) -> void:
 	_lines.append(",".join(cells))
 
 
+## The rows without the header, ready to be appended.
+func rows_text() -> String:
+	return "" if _lines.size() < 2 else "\n".join(_lines.slice(1)) + "\n"
+
+
 func save(path: String) -> Error:
 	var file := FileAccess.open(path, FileAccess.WRITE)
 	if file == null:

@@ -5,6 +5,8 @@ extends Node3D
 
 ## Esc: back to the menu.
 signal left
+## In an experiment: the trial is over, as a whole when reason is empty.
+signal ended(reason: String)
 
 ## A scripted play that takes longer than this has gone wrong.
 const TIME_LIMIT_S := 240.0
@@ -17,9 +19,15 @@ const DWELL_S := 0.5
 
 var arguments := PlayArguments.new()
 var settings := DemoSettings.new()
+## Results then go to the experiment, not to files of the trial.
+var in_experiment := false
+var forces_at_start := false
+## Only so many things have to be placed; 0: all. For simulated participants.
+var most_bodies := 0
 var logger := TrialLogger.new()
 var bodies: Array[TaskBody] = []
 var player: TaskPlayer
+var frame_cost := FrameCost.new()
 
 var _running := false
 var _finished := false
@@ -54,6 +62,10 @@ func is_finished() -> bool:
 	return _finished
 
 
+func is_running() -> bool:
+	return _running
+
+
 ## Builds the things of arguments.level from arguments.seed_number under _items, and fills `bodies`.
 func _lay_out() -> void:
 	pass
@@ -86,12 +98,17 @@ func _ready() -> void:
 	player = _make_player()
 	add_child(player)
 	_lay_out()
+	if most_bodies > 0:
+		bodies.resize(mini(bodies.size(), most_bodies))
 	_watch_bodies()
 	_equip_player()
 	if arguments.scripted():
 		_start_script()
 	else:
 		_controls.interactive = true
+		_spidar.forces_enabled = forces_at_start
+		if forces_at_start:
+			_spidar.arm()
 		_scripted_hand.process_mode = Node.PROCESS_MODE_DISABLED
 		_mouse_hand.start(_spidar, $CameraRig/Camera, _home_in_device())
 		_animator.setup(_mouse_hand, _scripted_hand, player, settings.auto_animation)
@@ -109,6 +126,7 @@ func _physics_process(delta: float) -> void:
 			_start_clock()
 		return
 	logger.sample(_spidar, delta)
+	frame_cost.sample()
 	_placed_for_s = _placed_for_s + delta if placed == bodies.size() else 0.0
 	if _placed_for_s >= DWELL_S and not arguments.scripted():
 		_finish("")
@@ -165,15 +183,16 @@ func _restart() -> void:
 func _start_script() -> void:
 	_mouse_hand.process_mode = Node.PROCESS_MODE_DISABLED
 	_animator.process_mode = Node.PROCESS_MODE_DISABLED
-	var error := DirAccess.make_dir_recursive_absolute(arguments.out_dir)
+	var error := OK if in_experiment else DirAccess.make_dir_recursive_absolute(arguments.out_dir)
 	if error != OK:
 		printerr("--out %s: cannot be made: %s" % [arguments.out_dir, error_string(error)])
 		get_tree().quit(PlayArguments.EXIT_BAD_ARGUMENTS)
 		return
-	if arguments.pictures:
+	if arguments.pictures or arguments.movie:
 		_pictures.start(arguments.out_dir)
+		_pictures.filming = arguments.movie
 	_hud.show_result("Played by script, layout %d" % arguments.seed_number)
-	_spidar.forces_enabled = true
+	_spidar.forces_enabled = not in_experiment or forces_at_start
 	_scripted_hand.be(arguments.hand, arguments.seed_number)
 	var reason := await _wait_until_ready()
 	if reason == "":
@@ -198,11 +217,12 @@ func _equip_player() -> void:
 	player.pictures = _pictures
 	player.camera_rig = $CameraRig
 	player.table_height_m = _items.global_position.y
+	var checked := arguments.scripted() and not in_experiment
 	for item in bodies:
-		item.felt.checks_weight = item.felt.checks_weight and arguments.scripted()
-		item.felt.checks_width = item.felt.checks_width and arguments.scripted()
-		item.felt.checks_detent = item.felt.checks_detent and arguments.scripted()
-		item.felt.checks_release = item.felt.checks_release and arguments.scripted()
+		item.felt.checks_weight = item.felt.checks_weight and checked
+		item.felt.checks_width = item.felt.checks_width and checked
+		item.felt.checks_detent = item.felt.checks_detent and checked
+		item.felt.checks_release = item.felt.checks_release and checked
 
 
 func _wait_until_ready() -> String:
@@ -210,6 +230,8 @@ func _wait_until_ready() -> String:
 	_scripted_hand.start(_spidar)
 	await _scripted_hand.move_to(home, 1.0)
 	var waited_s := 0.0
+	if not _spidar.forces_enabled:
+		_start_clock()
 	while not _running:
 		await _scripted_hand.wait(0.1)
 		waited_s += 0.1
@@ -220,6 +242,9 @@ func _wait_until_ready() -> String:
 
 func _finish(reason: String) -> void:
 	_stop_clock()
+	if in_experiment:
+		ended.emit(reason)
+		return
 	var results := TrialResults.new(self, _spidar)
 	if not arguments.scripted():
 		_hud.show_result(results.save_interactive())

@@ -8,7 +8,7 @@ enum Mode { OFF, SHORT, FULL }
 const HINT_FORCES_OFF := "Forces are off.  F  turns them on (they ramp up while the device arms).   H  help"
 ## In the order of SpidarG.State.
 const STATE_NAMES: PackedStringArray = [
-	"closed", "connected", "arming", "active", "fading", "fault"
+	"closed", "connected", "arming", "active", "fading", "fault", "taut", "calibrated"
 ]
 const HINT_ON := "Left button  closes the grasp    Space  stops the forces    H  help"
 

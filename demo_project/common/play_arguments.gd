@@ -9,7 +9,8 @@ const LEVELS := 3
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
-	+ "              [--pictures] [--cut-output] [--freeze-pose]\n"
+	+ "              [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
+	+ "       ... -- --participant N --out DIR [--trials K] [--things K] [--level L]    (simulated)\n"
 	+ "       ... -- [--task TASK] [--level L] [--seed N] [--report FILE]    (interactive)"
 )
 
@@ -29,12 +30,23 @@ var out_dir := ""
 var pictures := false
 ## Absolute path of a file that says where things are on the screen; for a scripted user. Empty: none.
 var report := ""
+## A simulated participant of the experiment; 0: none. With it, counted trials per task and condition, and how many
+## things of each have to be placed (0: all).
+var participant := 0
+var trials := 1
+var things := 0
+## Save the frames of a short movie there, too.
+var movie := false
 ## Cut the motor currents inside the simulated device: nothing can be felt.
 var cut_output := false
 ## Freeze the simulated encoders: the grip's pose never changes.
 var freeze_pose := false
 ## What is wrong with the arguments; empty when nothing is.
 var problem := ""
+
+
+func simulates() -> bool:
+	return participant > 0
 
 
 func scripted() -> bool:
@@ -49,11 +61,13 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 		match word:
 			"--pictures":
 				pictures = true
+			"--movie":
+				movie = true
 			"--cut-output":
 				cut_output = true
 			"--freeze-pose":
 				freeze_pose = true
-			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report":
+			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report", "--participant", "--trials", "--things":
 				index += 1
 				if index >= words.size():
 					problem = "%s needs a value after it" % word
@@ -87,6 +101,10 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 			if not value.is_valid_int() or value.to_int() < 0:
 				problem = "--seed %s: must be a whole number of 0 or more" % value
 			seed_number = value.to_int()
+		"--participant", "--trials", "--things":
+			if not value.is_valid_int() or value.to_int() < 1:
+				problem = "%s %s: must be a whole number of 1 or more" % [word, value]
+			set(word.trim_prefix("--"), value.to_int())
 		"--report":
 			if not value.is_absolute_path():
 				problem = "--report %s: must be an absolute path of a file" % value
@@ -100,8 +118,12 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 func _find_conflict() -> String:
 	if scripted() and out_dir == "":
 		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
-	if not scripted() and (pictures or cut_output or freeze_pose or out_dir != "" or hand != HANDS[0]):
-		return "--hand, --out, --pictures, --cut-output and --freeze-pose need --play TASK"
-	if pictures and DisplayServer.get_name() == "headless":
-		return "--pictures needs a display: run without --headless (under Xvfb where there is none)"
+	if simulates() and (scripted() or out_dir == ""):
+		return "--participant needs --out DIR, and no --play"
+	if simulates():
+		return ""
+	if not scripted() and (pictures or movie or cut_output or freeze_pose or out_dir != "" or hand != HANDS[0]):
+		return "--hand, --out, --pictures, --movie, --cut-output and --freeze-pose need --play TASK"
+	if (pictures or movie) and DisplayServer.get_name() == "headless":
+		return "--pictures and --movie need a display: run without --headless (under Xvfb where there is none)"
 	return ""

@@ -54,6 +54,14 @@ func save_scripted(abort_reason: String) -> int:
 	return code
 
 
+## One row of summary.csv, for an experiment that keeps its own files.
+func row_of(abort_reason: String) -> Dictionary:
+	_object_table()
+	_fill_row("", "", "", abort_reason)
+	_task.logger.row["auto_animation"] = _task.settings.auto_animation
+	return _task.logger.row
+
+
 ## Results of a person's trial; returns the line to show.
 func save_interactive() -> String:
 	var started := Time.get_datetime_string_from_system(true).replace(":", "-")
@@ -149,6 +157,7 @@ func _save(folder: String, table: CsvTable) -> bool:
 			"written_utc": Time.get_datetime_string_from_system(true),
 			"operating_system": OS.get_name(),
 			"statistics": _spidar.get_statistics(),
+			"frame_ms": _task.frame_cost.report(),
 		}, "  ") + "\n")
 	return saved
 

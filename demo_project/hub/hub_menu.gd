@@ -1,7 +1,7 @@
 class_name HubMenu
 extends CanvasLayer
 ## The menu on the screen: the same choices as the knobs, and settings and participant. Works by mouse and by keyboard
-## (1 to 5, or Tab and Enter).
+## (1 to 7, or Tab and Enter).
 
 signal chosen(entry: StringName)
 signal applied
@@ -41,6 +41,7 @@ func setup(settings: DemoSettings) -> void:
 	var settings_button := _add_button("6   Settings")
 	settings_button.toggle_mode = true
 	settings_button.toggled.connect(func(shown: bool) -> void: _form.visible = shown)
+	_add_button("7   Experiment").pressed.connect(func() -> void: chosen.emit(&"experiment"))
 	_build_form()
 
 
@@ -55,6 +56,8 @@ func _unhandled_key_input(event: InputEvent) -> void:
 	var number := key.physical_keycode - KEY_1
 	if number >= 0 and number < ENTRIES.size():
 		chosen.emit(ENTRIES.keys()[number])
+	elif key.physical_keycode == KEY_7:
+		chosen.emit(&"experiment")
 	elif key.physical_keycode == KEY_6:
 		_form.visible = not _form.visible
 

@@ -51,6 +51,7 @@ void solve_cubics(ClosedForm &form, Lanes circle2) noexcept {
     const Lanes cosine = at_most(at_least(half / (m2 * m), -1.0), both(1.0)); // cos(3 t)
     const Lanes w = square_root(both(0.5) * (both(1.0) + cosine));            // cos(3 t / 2)
     Lanes s = both(kStart0) + w * (both(kStart1) + w * (both(kStart2) + w * both(kStart3)));
+#pragma GCC unroll 2
     for (int i = 0; i < kRootSteps; ++i) {
         const Lanes s2 = s * s;
         s = (both(8.0) * s2 * s + w) / (both(12.0) * s2 - both(3.0));
@@ -92,6 +93,7 @@ Lanes heights(const ClosedForm &form, Lanes roots) noexcept {
     // lengths say so.
     Lanes z = form.face + Lanes{-1.0, 1.0} * h;
     double best = std::fabs(z[0] - z[1]);
+#pragma GCC unroll 2
     for (const double sign : {1.0, -1.0}) {
         const Lanes other = form.face + both(sign) * h;
         if (std::fabs(other[0] - other[1]) < best) {
@@ -102,10 +104,56 @@ Lanes heights(const ClosedForm &form, Lanes roots) noexcept {
     return z;
 }
 
+Lanes roots_of(const ClosedForm &form, int pair) noexcept {
+    return Lanes{(pair & 1) != 0 ? form.flipped[0] : form.upright[0],
+                 (pair & 2) != 0 ? form.flipped[1] : form.upright[1]};
+}
+
+// Each pole's z weighted by how well that pole sees z.
+double fused_height(const ClosedForm &form, Lanes z_each) noexcept {
+    const Misfit each = misfit(form, z_each);
+    const Lanes weight = each.slope * each.slope;
+    const double weights = sum_of(weight);
+    const bool weighted = weights > 0.0 && std::isfinite(weights);
+    return weighted ? sum_of(weight * z_each) / weights : 0.5 * sum_of(z_each);
+}
+
+CrossedPose pose_at_height(const ClosedForm &form, Lanes roots, double z) noexcept {
+    const double d = form.pole_half_length_m;
+    z = std::isfinite(z) ? z : 0.0;
+
+    // Third components from z; sign and size from the equation, or what the circle leaves.
+    const Lanes h = away_from_zero(both(z) - form.face);
+    const Lanes size2 = both(d * d) - form.side * form.side - roots * roots;
+    const Lanes room = both(2.0) * square_root(at_least(size2, 0.0));
+    const Lanes wanted = (form.e - form.position * roots) / h;
+    const Lanes vertical = at_most(wanted >= -room ? wanted : -room, room);
+
+    const Lanes length2 = form.side * form.side + roots * roots + vertical * vertical;
+    const Lanes scale = both(d) / square_root(length2);
+    CrossedPose pose;
+    pose.position_m = {both(form.position[1]), both(form.position[0]), both(z)};
+    pose.poles_m = {scale * Lanes{form.side[0], roots[1]}, scale * Lanes{roots[0], form.side[1]},
+                    scale * vertical};
+#pragma GCC unroll 2
+    for (int pole = 0; pole < 2; ++pole) {
+        // Nothing left of a pole, or far too much: its rest direction.
+        if (!(length2[pole] > 0.0) || !std::isfinite(length2[pole])) {
+            pose.poles_m.x[pole] = pole == 0 ? 0.0 : d;
+            pose.poles_m.y[pole] = pole == 0 ? d : 0.0;
+            pose.poles_m.z[pole] = 0.0;
+        }
+    }
+    return pose;
+}
+
 } // namespace
 
 bool has_paper_attachments(const GripGeometry &grip) noexcept {
     const GripGeometry paper;
+    if (grip.kind != GripKind::crossed) {
+        return false;
+    }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         if (grip.attachments[i].pole != paper.attachments[i].pole ||
             grip.attachments[i].sign != paper.attachments[i].sign) {
@@ -152,18 +200,56 @@ ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length
     return form;
 }
 
+RootHeights root_heights(const ClosedForm &form) noexcept {
+    RootHeights heights;
+    heights.faces_apart_m = form.face[0] - form.face[1];
+    const Lanes per_along = both(1.0) / form.along;
+    for (std::size_t flipped = 0; flipped < 2; ++flipped) {
+        const Lanes root = flipped == 0 ? form.upright : form.flipped;
+        const Lanes square = both(2.0) * form.along * root - form.k;
+        const Lanes h = at_least(square_root(at_least(square, 0.0)), kSmallestDistance_m);
+        const Lanes per_h = both(1.0) / h;
+        const Lanes vertical = (form.e - form.position * root) * per_h;
+        const Lanes slope = both(2.0) * ((root - vertical * form.position) * h * per_along -
+                                         vertical * vertical * per_h);
+        heights.from_face_m[flipped] = h;
+        heights.slope_m[flipped] = slope < both(0.0) ? -slope : slope;
+    }
+    return heights;
+}
+
+MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_length_m,
+                               int pair) noexcept {
+    const std::size_t one = (pair & 1) != 0 ? 1 : 0;
+    const std::size_t two = (pair & 2) != 0 ? 1 : 0;
+    const double h0 = heights.from_face_m[one][0];
+    const double h1 = heights.from_face_m[two][1];
+    const double s0 = heights.slope_m[one][0];
+    const double s1 = heights.slope_m[two][1];
+    // P0 between the faces, or beyond either.
+    const double between = std::fabs(heights.faces_apart_m - h0 - h1);
+    const double beyond = heights.faces_apart_m - std::fabs(h0 - h1);
+    const double apart = between < std::fabs(beyond) ? between : std::fabs(beyond);
+    const double both_slopes2 = s0 * s0 + s1 * s1;
+    MisfitForecast forecast;
+    forecast.misfit_m = both_slopes2 > 0.0
+                            ? apart * s0 * s1 / (2.0 * pole_half_length_m * std::sqrt(both_slopes2))
+                            : 0.0;
+    forecast.gain = 1.0 + 0.5 * heights.faces_apart_m / (h0 < h1 ? h0 : h1);
+    return forecast;
+}
+
+CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept {
+    const Lanes roots = roots_of(form, pair);
+    return pose_at_height(form, roots, fused_height(form, heights(form, roots)));
+}
+
 RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
-    const Lanes roots{(pair & 1) != 0 ? form.flipped[0] : form.upright[0],
-                      (pair & 2) != 0 ? form.flipped[1] : form.upright[1]};
-    const double d = form.pole_half_length_m;
+    const Lanes roots = roots_of(form, pair);
     const Lanes z_each = heights(form, roots);
     const double apart = std::fabs(z_each[0] - z_each[1]);
-    // Each pole's z weighted by how well that pole sees z; then one Newton step on the sum of the squared misfits.
-    const Misfit each = misfit(form, z_each);
-    const Lanes weight = each.slope * each.slope;
-    const double weights = sum_of(weight);
-    const bool weighted = weights > 0.0 && std::isfinite(weights);
-    double z = weighted ? sum_of(weight * z_each) / weights : 0.5 * sum_of(z_each);
+    double z = fused_height(form, z_each);
+    // One Newton step on the sum of the squared misfits.
     const Misfit fused = misfit(form, both(z));
     double misfit2 = sum_of(fused.value * fused.value);
     const double gradient = sum_of(fused.value * fused.slope);
@@ -172,31 +258,9 @@ RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
         z -= step;
         misfit2 -= step * gradient;
     }
-
-    z = std::isfinite(z) ? z : 0.0;
-
-    // Third components from z; sign and size from the equation, or what the circle leaves.
-    const Lanes h = away_from_zero(both(z) - form.face);
-    const Lanes size2 = both(d * d) - form.side * form.side - roots * roots;
-    const Lanes room = both(2.0) * square_root(at_least(size2, 0.0));
-    const Lanes wanted = (form.e - form.position * roots) / h;
-    const Lanes vertical = at_most(wanted >= -room ? wanted : -room, room);
-
-    const Lanes length2 = form.side * form.side + roots * roots + vertical * vertical;
-    const Lanes scale = both(d) / square_root(length2);
     RootPairPose result;
-    result.misfit_m = std::sqrt(misfit2 > 0.0 ? misfit2 : 0.0) / (2.0 * d);
-    result.pose.position_m = {both(form.position[1]), both(form.position[0]), both(z)};
-    result.pose.poles_m = {scale * Lanes{form.side[0], roots[1]},
-                           scale * Lanes{roots[0], form.side[1]}, scale * vertical};
-    for (int pole = 0; pole < 2; ++pole) {
-        // Nothing left of a pole, or far too much: its rest direction.
-        if (!(length2[pole] > 0.0) || !std::isfinite(length2[pole])) {
-            result.pose.poles_m.x[pole] = pole == 0 ? 0.0 : d;
-            result.pose.poles_m.y[pole] = pole == 0 ? d : 0.0;
-            result.pose.poles_m.z[pole] = 0.0;
-        }
-    }
+    result.misfit_m = std::sqrt(misfit2 > 0.0 ? misfit2 : 0.0) / (2.0 * form.pole_half_length_m);
+    result.pose = pose_at_height(form, roots, z);
     return result;
 }
 

@@ -4,6 +4,8 @@
 // two of whose roots can lie on the pole's circle: pole upright or flipped. Four pairs in all.
 #pragma once
 
+#include <array>
+
 #include "core/crossed_step.h"
 #include "core/grip_geometry.h"
 #include "core/types.h"
@@ -33,6 +35,25 @@ struct ClosedForm {
 [[nodiscard]] ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
                                            const StringArray &lengths_m) noexcept;
 
+// Where each root of each pole puts P0, and how sharply: [0] upright, [1] flipped.
+struct RootHeights {
+    std::array<Lanes, 2> from_face_m{}; // |z of P0 - face|
+    std::array<Lanes, 2> slope_m{};     // |d(|r|^2)/dz|
+    double faces_apart_m = 0.0;         // 2 c
+};
+
+[[nodiscard]] RootHeights root_heights(const ClosedForm &form) noexcept;
+
+// What RootPairPose::misfit_m will be, to first order in how far the poles disagree about z: all pairs for little more
+// than the price of one. And how much of an error of the lengths a misfit may be, before kMisfitGain: it grows
+// towards the z faces.
+struct MisfitForecast {
+    double misfit_m = 0.0;
+    double gain = 1.0;
+};
+[[nodiscard]] MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_length_m,
+                                             int pair) noexcept;
+
 struct RootPairPose {
     CrossedPose pose;
     // How far from a true solution the pair is: the length by which the poles miss their spheres at the
@@ -43,6 +64,9 @@ struct RootPairPose {
 // The pose of root pair `pair`. Exact for exact lengths; with errors, a start for Gauss-Newton (roots that turned
 // complex are replaced by the nearest real ones). Always finite for finite lengths, poles on their spheres.
 [[nodiscard]] RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept;
+
+// Its pose alone, for a pair that is tried whatever its misfit: z without the last refinement.
+[[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
 // Both at once.
 [[nodiscard]] GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,

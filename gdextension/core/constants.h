@@ -37,12 +37,19 @@ inline constexpr double kForgetStep_m = 0.05;
 
 // Residual at which a pose explains the lengths to double precision (eight lengths near 0.5 m).
 inline constexpr double kResidualFloor_m = 1e-14;
-// Another root pair is taken over the upright one (or the remembered pose) when it fits better by these
-// factors. Only one length is redundant, so noise alone often halves a residual: the plain factor
-// counts only where the first pose fits worse than calibrated strings err.
+// Only one length is redundant, so noise alone often makes one pose fit many times better than another. A pose that
+// fits worse than the best by less than these factors may be the truth: it makes the answer ambiguous, and it is no
+// reason to leave the remembered pose. The plain factor counts where the fit is worse than calibrated strings err.
 inline constexpr double kSuspiciousResidual_m = 2e-3;
 inline constexpr double kClearlyBetter = 0.5;
 inline constexpr double kBeyondChance = 0.02;
+// Without memory: how much better another root pair must fit than the upright one, which is right in 98 % of all
+// poses. Of 1 to 0.02 the factor with the fewest wrong choices on the 60/45 set, counts and noise of 0.1 mm.
+inline constexpr double kUprightPrior = 0.3;
+// A root pair that starts this close to the remembered pose leads to it.
+inline constexpr double kSamePose_m = 1e-3;
+// Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
+inline constexpr int kRivalPeriod = 8;
 
 // Two poses further apart than this (grip centre or pole end) are different answers, not rounding.
 inline constexpr double kDistinctPose_m = 1e-5;
@@ -55,6 +62,8 @@ inline constexpr double kRankDeficientPivot = 1e-12;
 // Error that a step of size s leaves behind: about this times s^2, in metres. The poles are the most curved
 // part of the map, 1 / d = 25 for the paper's grip. Divided by the root of the pivot where that is small.
 inline constexpr double kLengthCurvature = 25.0;
+// The largest seen, where a search must not stop early.
+inline constexpr double kWorstCurvature = 4.0 * kLengthCurvature;
 // A residual bends the steps as a step of this many times its size does.
 inline constexpr double kResidualCurvature = 4.0;
 // A warm tick is done when the error it leaves is below the first of these, or below the second part of what
@@ -78,6 +87,9 @@ inline constexpr double kSettledDecrease = 0.2;
 // Largest misfit of a root pair per residual of the lengths, over (1 + c / distance to the z face): 2.6 was the
 // worst of 120,000 poses of the 60/45 set with noise of 0.01 to 1 mm, 1.1 the median.
 inline constexpr double kMisfitGain = 3.0;
+// How far above that limit the forecast of a misfit may be and the pair is still looked at: of the pairs that mattered on
+// that set 1 in 1000 was above.
+inline constexpr double kForecastSlack = 3.0;
 
 // Newton to convergence: bound, and the step at which double precision ends. Quadratic convergence
 // takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.
@@ -85,6 +97,10 @@ inline constexpr int kMaxPolishSteps = 50;
 inline constexpr double kConvergedStep_m = 1e-15;
 // Below this a step that no longer shrinks is rounding, not progress.
 inline constexpr double kStagnantStep_m = 1e-9;
+// The residual after a last step below this is the one it foretells: to the root of rounding of the step.
+inline constexpr double kForetoldStep_m = 1e-12;
+// By a factorisation from elsewhere only where the step is this small against the lengths' errors (squared).
+inline constexpr double kForetoldShare = 1e-6;
 // No trial step may exceed this: the linear model holds over about one pole length.
 inline constexpr double kMaxTrialStep_m = 0.04;
 

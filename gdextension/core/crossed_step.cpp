@@ -4,6 +4,9 @@ namespace spidar {
 
 bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,
                  CrossedLayout &layout) noexcept {
+    if (grip.kind != GripKind::crossed) {
+        return false;
+    }
     CrossedLayout made;
     std::array<std::array<std::size_t, 2>, 2> filled{}; // [end][pole]
     for (std::size_t i = 0; i < kStringCount; ++i) {

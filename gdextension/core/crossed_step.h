@@ -25,7 +25,7 @@ struct CrossedLayout {
     double pole_half_length_m = 0.0;
 };
 
-// False, layout untouched, when some pole end does not carry exactly two strings.
+// False, layout untouched, when some pole end does not carry exactly two strings, or the grip is rigid.
 [[nodiscard]] bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,
                                CrossedLayout &layout) noexcept;
 
@@ -46,21 +46,22 @@ struct CrossedPose {
 struct CrossedErrors {
     std::array<LaneVec, kSlotCount> direction;
     std::array<Lanes, kSlotCount> residual_m{};
+    std::array<Lanes, kSlotCount> per_length{}; // 1 / computed length (unit: 1/m)
     double sum_of_squares_m2 = 0.0;
 };
 
-// Normal equations of one pose, eliminated poles first; the 3 x 3 position block as L D L'.
+// Normal equations of one pose: the poles' blocks eliminated and what then stays of the position, both inverted by
+// cofactors. One division each: the latency of divisions is what a step costs most.
 struct CrossedFactor {
     LaneVec u; // tangents of the poles
     LaneVec v;
-    LaneVec couple_u; // of the position to u, and to v once u is eliminated
-    LaneVec couple_v;
-    Lanes inverse_u{};
-    Lanes inverse_v{};
-    Lanes ratio{};
-    double l10 = 0.0, l20 = 0.0, l21 = 0.0;
-    double inverse_0 = 0.0, inverse_1 = 0.0, inverse_2 = 0.0;
-    double min_pivot = 0.0; // as in GaussNewtonStep
+    LaneVec carry_u; // coupling of the position to u and v times the inverse of the pole's block
+    LaneVec carry_v;
+    Lanes inverse_uu{};
+    Lanes inverse_uv{};
+    Lanes inverse_vv{};
+    std::array<double, 6> inverse_position{}; // xx xy xz yy yz zz
+    double min_pivot = 0.0;                   // as in GaussNewtonStep
     bool solvable = false;
 };
 
@@ -79,6 +80,15 @@ using LaneMatrix = std::array<Lanes, 6>;
 [[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b) noexcept {
     return {a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.x * a.z + b.x * b.z,
             a.y * a.y + b.y * b.y, a.y * a.z + b.y * b.z, a.z * a.z + b.z * b.z};
+}
+
+// The same with a weight each.
+[[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b, Lanes wa,
+                                                   Lanes wb) noexcept {
+    const LaneVec p = wa * a;
+    const LaneVec q = wb * b;
+    return {p.x * a.x + q.x * b.x, p.x * a.y + q.x * b.y, p.x * a.z + q.x * b.z,
+            p.y * a.y + q.y * b.y, p.y * a.z + q.y * b.z, p.z * a.z + q.z * b.z};
 }
 
 [[gnu::always_inline]] inline LaneVec product(const LaneMatrix &m, const LaneVec &v) noexcept {
@@ -115,29 +125,90 @@ struct Gradients {
     return b < a ? b : a; // a when b is NaN: the pivots themselves decide then
 }
 
+// Eliminates the matrix whose strings sum to `plus` and `minus` at the two ends; `fall` adds to the poles' diagonals.
+[[nodiscard, gnu::always_inline]] inline CrossedFactor
+eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, const CrossedPose &pose,
+          double pole_half_length_m) noexcept {
+    CrossedFactor f;
+    LaneMatrix sum;
+    LaneMatrix difference;
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        sum[i] = plus[i] + minus[i];
+        difference[i] = plus[i] - minus[i];
+    }
+    tangents(pose.poles_m, pole_half_length_m, f.u, f.v);
+    const LaneVec sum_u = product(sum, f.u);
+    const Lanes uu = dot(f.u, sum_u) + fall;
+    const Lanes uv = dot(f.v, sum_u);
+    const Lanes vv = dot(f.v, product(sum, f.v)) + fall;
+    const Lanes area = uu * vv - uv * uv;
+    const Lanes per_area = both(1.0) / area;
+    f.inverse_uu = per_area * vv;
+    f.inverse_uv = -(per_area * uv);
+    f.inverse_vv = per_area * uu;
+    const LaneVec couple_u = product(difference, f.u);
+    const LaneVec couple_v = product(difference, f.v);
+    f.carry_u = f.inverse_uu * couple_u + f.inverse_uv * couple_v;
+    f.carry_v = f.inverse_uv * couple_u + f.inverse_vv * couple_v;
+
+    const LaneVec &a = f.carry_u;
+    const LaneVec &b = f.carry_v;
+    const double s0 = sum_of(sum[0] - a.x * couple_u.x - b.x * couple_v.x);
+    const double s1 = sum_of(sum[1] - a.x * couple_u.y - b.x * couple_v.y);
+    const double s2 = sum_of(sum[2] - a.x * couple_u.z - b.x * couple_v.z);
+    const double s3 = sum_of(sum[3] - a.y * couple_u.y - b.y * couple_v.y);
+    const double s4 = sum_of(sum[4] - a.y * couple_u.z - b.y * couple_v.z);
+    const double s5 = sum_of(sum[5] - a.z * couple_u.z - b.z * couple_v.z);
+    const double minor_yz = s3 * s5 - s4 * s4;
+    const double minor_xy = s0 * s3 - s1 * s1;
+    const double cofactor_xy = s2 * s4 - s1 * s5;
+    const double cofactor_xz = s1 * s4 - s2 * s3;
+    const double volume = s0 * minor_yz + s1 * cofactor_xy + s2 * cofactor_xz;
+    const double per_volume = 1.0 / volume;
+    f.inverse_position = {minor_yz * per_volume,
+                          cofactor_xy * per_volume,
+                          cofactor_xz * per_volume,
+                          (s0 * s5 - s2 * s2) * per_volume,
+                          (s1 * s2 - s0 * s4) * per_volume,
+                          minor_xy * per_volume};
+
+    // Of the poles the determinant over the squared mean of the diagonal: the same in every basis.
+    const Lanes mean = both(0.5) * (uu + vv);
+    const Lanes pole = area / (mean * mean);
+    const double pivot_x = s0 / sum_of(sum[0]);
+    const double pivot_y = minor_xy / (s0 * sum_of(sum[3]));
+    const double pivot_z = volume / (minor_xy * sum_of(sum[5]));
+    f.min_pivot = smaller(smaller(smaller(pole[0], pole[1]), pivot_x), smaller(pivot_y, pivot_z));
+    f.solvable = uu[0] > 0.0 && uu[1] > 0.0 && area[0] > 0.0 && area[1] > 0.0 && s0 > 0.0 &&
+                 minor_xy > 0.0 && volume > 0.0;
+    return f;
+}
+
 [[gnu::always_inline]] inline CrossedStep step_of(const CrossedFactor &f,
                                                   const Gradients &g) noexcept {
     const Lanes gradient_u = dot(f.u, g.difference);
-    const Lanes full_v = dot(f.v, g.difference);
-    const Lanes gradient_v = full_v - f.ratio * gradient_u;
-    const Lanes wu = gradient_u * f.inverse_u;
-    const Lanes wv = gradient_v * f.inverse_v;
-    const LaneVec rest = g.sum - wu * f.couple_u - wv * f.couple_v;
-    const double y0 = sum_of(rest.x);
-    const double y1 = sum_of(rest.y) - f.l10 * y0;
-    const double y2 = sum_of(rest.z) - f.l20 * y0 - f.l21 * y1;
-    const double z = y2 * f.inverse_2;
-    const double y = y1 * f.inverse_1 - f.l21 * z;
-    const double x = y0 * f.inverse_0 - f.l10 * y - f.l20 * z;
+    const Lanes gradient_v = dot(f.v, g.difference);
+    const LaneVec rest = g.sum - gradient_u * f.carry_u - gradient_v * f.carry_v;
+    const double rx = sum_of(rest.x);
+    const double ry = sum_of(rest.y);
+    const double rz = sum_of(rest.z);
+    const std::array<double, 6> &p = f.inverse_position;
+    const double x = p[0] * rx + p[1] * ry + p[2] * rz;
+    const double y = p[1] * rx + p[3] * ry + p[4] * rz;
+    const double z = p[2] * rx + p[4] * ry + p[5] * rz;
 
     CrossedStep step;
     step.position_m = {both(x), both(y), both(z)};
-    const Lanes v = wv - f.inverse_v * dot(f.couple_v, step.position_m);
-    const Lanes u = wu - f.inverse_u * dot(f.couple_u, step.position_m) - f.ratio * v;
+    // What the poles would do alone, less what the position takes.
+    const Lanes u =
+        f.inverse_uu * gradient_u + f.inverse_uv * gradient_v - dot(f.carry_u, step.position_m);
+    const Lanes v =
+        f.inverse_uv * gradient_u + f.inverse_vv * gradient_v - dot(f.carry_v, step.position_m);
     step.poles_m = u * f.u + v * f.v;
     step.size_m2 = x * x + y * y + z * z + sum_of(u * u + v * v);
     step.decrease_m2 = x * sum_of(g.sum.x) + y * sum_of(g.sum.y) + z * sum_of(g.sum.z) +
-                       sum_of(u * gradient_u + v * full_v);
+                       sum_of(u * gradient_u + v * gradient_v);
     return step;
 }
 
@@ -150,12 +221,14 @@ struct Gradients {
     const std::array<LaneVec, 2> ends{pose.position_m + pose.poles_m,
                                       pose.position_m - pose.poles_m};
     Lanes squares{};
+#pragma GCC unroll 4 // by hand: at -O2 the compiler keeps the loop, and a fifth of the time with it
     for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
         const LaneVec string = ends[slot / 2] - layout.motors_m[slot];
         const Lanes length = square_root(dot(string, string));
         const Lanes measured{lengths_m[layout.strings[slot][0]],
                              lengths_m[layout.strings[slot][1]]};
-        errors.direction[slot] = (both(1.0) / length) * string;
+        errors.per_length[slot] = both(1.0) / length;
+        errors.direction[slot] = errors.per_length[slot] * string;
         errors.residual_m[slot] = measured - length;
         squares += errors.residual_m[slot] * errors.residual_m[slot];
     }
@@ -166,59 +239,32 @@ struct Gradients {
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
 factorise(const CrossedErrors &errors, const CrossedPose &pose,
           double pole_half_length_m) noexcept {
-    CrossedFactor f;
-    const crossed_detail::LaneMatrix plus =
-        crossed_detail::outer_sum(errors.direction[0], errors.direction[1]);
-    const crossed_detail::LaneMatrix minus =
-        crossed_detail::outer_sum(errors.direction[2], errors.direction[3]);
-    crossed_detail::LaneMatrix sum;
-    crossed_detail::LaneMatrix difference;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        sum[i] = plus[i] + minus[i];
-        difference[i] = plus[i] - minus[i];
-    }
-    crossed_detail::tangents(pose.poles_m, pole_half_length_m, f.u, f.v);
-    const LaneVec sum_u = crossed_detail::product(sum, f.u);
-    const Lanes uu = dot(f.u, sum_u);
-    const Lanes uv = dot(f.v, sum_u);
-    const Lanes vv = dot(f.v, crossed_detail::product(sum, f.v));
-    f.inverse_u = both(1.0) / uu;
-    f.ratio = uv * f.inverse_u;
-    const Lanes pivot_v = vv - f.ratio * uv;
-    f.inverse_v = both(1.0) / pivot_v;
-    f.couple_u = crossed_detail::product(difference, f.u);
-    f.couple_v = crossed_detail::product(difference, f.v) - f.ratio * f.couple_u;
+    return crossed_detail::eliminate(
+        crossed_detail::outer_sum(errors.direction[0], errors.direction[1]),
+        crossed_detail::outer_sum(errors.direction[2], errors.direction[3]), both(0.0), pose,
+        pole_half_length_m);
+}
 
-    const LaneVec a = f.inverse_u * f.couple_u;
-    const LaneVec b = f.inverse_v * f.couple_v;
-    const double xx = sum_of(sum[0]);
-    const double yy = sum_of(sum[3]);
-    const double zz = sum_of(sum[5]);
-    const double s0 = sum_of(sum[0] - a.x * f.couple_u.x - b.x * f.couple_v.x);
-    const double s1 = sum_of(sum[1] - a.x * f.couple_u.y - b.x * f.couple_v.y);
-    const double s2 = sum_of(sum[2] - a.x * f.couple_u.z - b.x * f.couple_v.z);
-    const double s3 = sum_of(sum[3] - a.y * f.couple_u.y - b.y * f.couple_v.y);
-    const double s4 = sum_of(sum[4] - a.y * f.couple_u.z - b.y * f.couple_v.z);
-    const double s5 = sum_of(sum[5] - a.z * f.couple_u.z - b.z * f.couple_v.z);
-    f.inverse_0 = 1.0 / s0;
-    f.l10 = s1 * f.inverse_0;
-    f.l20 = s2 * f.inverse_0;
-    const double d1 = s3 - f.l10 * s1;
-    const double t21 = s4 - f.l10 * s2;
-    f.inverse_1 = 1.0 / d1;
-    f.l21 = t21 * f.inverse_1;
-    const double d2 = s5 - f.l20 * s2 - f.l21 * t21;
-    f.inverse_2 = 1.0 / d2;
-
-    // Of the poles the determinant over the squared mean of the diagonal: the same in every basis.
-    const Lanes mean = both(0.5) * (uu + vv);
-    const Lanes pole = uu * pivot_v / (mean * mean);
-    f.min_pivot = crossed_detail::smaller(
-        crossed_detail::smaller(crossed_detail::smaller(pole[0], pole[1]), s0 / xx),
-        crossed_detail::smaller(d1 / yy, d2 / zz));
-    f.solvable = uu[0] > 0.0 && uu[1] > 0.0 && pivot_v[0] > 0.0 && pivot_v[1] > 0.0 && s0 > 0.0 &&
-                 d1 > 0.0 && d2 > 0.0;
-    return f;
+// The same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically where lengths err.
+// Its pivots are those of the normal equations as far as the residual is small against the poles.
+[[nodiscard, gnu::always_inline]] inline CrossedFactor
+factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
+                 double pole_half_length_m) noexcept {
+    // A length l with residual f bends by -(f / l) (I - e e') ...
+    const auto end = [&errors](std::size_t slot) {
+        const Lanes w0 = errors.residual_m[slot] * errors.per_length[slot];
+        const Lanes w1 = errors.residual_m[slot + 1] * errors.per_length[slot + 1];
+        crossed_detail::LaneMatrix sum = crossed_detail::outer_sum(
+            errors.direction[slot], errors.direction[slot + 1], both(1.0) + w0, both(1.0) + w1);
+        for (const std::size_t diagonal : {0U, 3U, 5U}) {
+            sum[diagonal] -= w0 + w1;
+        }
+        return sum;
+    };
+    // ... and a displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
+    const Lanes fall = dot(crossed_detail::gradients(errors).difference, pose.poles_m) *
+                       both(1.0 / (pole_half_length_m * pole_half_length_m));
+    return crossed_detail::eliminate(end(0), end(2), fall, pose, pole_half_length_m);
 }
 
 // The step that `errors` ask for, by the factorisation made there.

@@ -22,11 +22,15 @@
 #include "core/simd_four_avx2.h"
 
 #include "core/fast_tension_kernel.h"
+#include "core/translation_tension.h"
 
 namespace spidar {
 
 bool solve_fast_avx2(const TensionProblem &problem, const ActiveSet *warm,
                      TensionSolution &solution) noexcept {
+    if (is_translation_only(problem) && TranslationTension<FourAvx2>(problem).run(warm, solution)) {
+        return true;
+    }
     return FastTension<FourAvx2>(problem).run(warm, solution);
 }
 

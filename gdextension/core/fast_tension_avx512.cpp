@@ -26,13 +26,21 @@
 #endif
 
 #include "core/simd_eight_avx512.h"
+#include "core/simd_four_avx2.h"
 
 #include "core/fast_tension_wide.h"
+#include "core/translation_tension.h"
 
 namespace spidar {
 
 bool solve_fast_avx512(const TensionProblem &problem, const ActiveSet *warm,
                        TensionSolution &solution) noexcept {
+    if (is_translation_only(problem) && TranslationTension<FourAvx2>(problem).run(warm, solution)) {
+        return true;
+    }
+    if (problem.weights[6] == 0.0) {
+        return WideTension<EightAvx512, kFastDofs - 1>(problem).run(warm, solution);
+    }
     return WideTension<EightAvx512, kFastDofs>(problem).run(warm, solution);
 }
 

@@ -117,7 +117,7 @@ private:
         read_half(0);
         read_half(4);
         stiffness_ = table_.trace(rows_, p_.proximal_weight);
-        return true;
+        return stiffness_ <= kWorstCondition * p_.proximal_weight;
     }
 
     void read_half(std::size_t first) noexcept {

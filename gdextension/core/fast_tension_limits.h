@@ -12,6 +12,8 @@ inline constexpr std::size_t kFastDofs = 7;
 // than the corrections can make good: they would contract too slowly to tell convergence from standstill.
 inline constexpr double kCancelled = 1e-10;
 inline constexpr double kLargest = 1e12;
+// Trace of H over its smallest eigenvalue, at most: beyond, doubles do not tell H from a singular matrix.
+inline constexpr double kWorstCondition = 1e15;
 
 // A correction shorter than this ends them. Longer ones do when the contraction seen, correction over first step,
 // leaves less than kLeft_n for the next.

@@ -9,11 +9,16 @@
 #include "core/simd_level.h"
 
 #include "core/fast_tension_kernel.h"
+#include "core/translation_tension.h"
 
 namespace spidar {
 
 bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
                       TensionSolution &solution) noexcept {
+    if (is_translation_only(problem) &&
+        TranslationTension<FourPlain>(problem).run(warm, solution)) {
+        return true;
+    }
     return FastTension<FourPlain>(problem).run(warm, solution);
 }
 

@@ -204,7 +204,7 @@ private:
             rows_[k] = columns[k];
         }
         stiffness_ = trace.sum() + 8.0 * p_.proximal_weight;
-        return true;
+        return stiffness_ <= kWorstCondition * p_.proximal_weight;
     }
 
     bool invert_and_step(unsigned strings) noexcept {

@@ -8,10 +8,15 @@
 #include "core/constants.h"
 #include "core/gauss_newton.h"
 #include "core/pose_search.h"
+#include "core/rigid_step.h"
+#include "core/string_exit.h"
 
 namespace spidar {
 
 namespace {
+
+// Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
+constexpr double kFaceMargin_m = 1e-6;
 
 bool all_finite(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
@@ -65,7 +70,8 @@ Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeomet
     const std::optional<Vec3> box = box_half_extents(frame);
     is_box_ = box.has_value();
     half_extents_m_ = box.value_or(Vec3(0.0));
-    crossed_ = make_layout(frame, grip, layout_);
+    has_layout_ = make_layout(frame, grip, layout_);
+    crossed_ = has_layout_ && !(frame.pulley_radius_m > 0.0);
     closed_form_ = is_box_ && has_paper_attachments(grip);
     last_pose_ = rest_pose(grip);
     reset();
@@ -96,7 +102,8 @@ KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
     if (!(result.residual_rms_m <= kImpossibleResidual_m)) {
         return hold(result, Status::impossible_lengths);
     }
-    if (is_box_ && !(std::fabs(result.pose.position_m.z) < half_extents_m_.z)) {
+    if (is_box_ && grip_.kind == GripKind::crossed &&
+        !(std::fabs(result.pose.position_m.z) < half_extents_m_.z - kFaceMargin_m)) {
         return hold(result, Status::outside_frame);
     }
     if (!(result.conditioning >= kRankDeficientPivot)) {
@@ -162,7 +169,22 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
     result.pose = pose_of(pose);
     result.conditioning = factor.min_pivot;
+    if (closed_form_ && --ticks_to_rivals_ <= 0) {
+        look_for_rivals(lengths_m, result);
+    }
+    if (ambiguous_) {
+        result.status = Status::ambiguous_pose;
+    }
     return accept(result);
+}
+
+void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
+                                        const KinematicsResult &found) noexcept {
+    PolishResult known;
+    known.pose = found.pose;
+    known.residual_rms_m = found.residual_rms_m;
+    ambiguous_ = has_rival({frame_, grip_, lengths_m}, search_tools(), known);
+    ticks_to_rivals_ = kRivalPeriod;
 }
 
 // The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
@@ -182,7 +204,7 @@ void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
     }
 }
 
-// Grips with other than two strings to a pole end.
+// Rigid grips, strings that leave over pulleys, and grips with other than two strings to a pole end.
 KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
     GripPose pose = last_pose_;
@@ -192,16 +214,23 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
         return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
     const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    GaussNewtonStep last = second;
+    int steps = 2;
+    if (second.solvable && second.step_m <= kMaxSecondStep_m &&
+        kLengthCurvature * second.step_m * second.step_m > kTrackingFloor_m) {
+        last = gauss_newton_step(problem, length_errors(problem, pose), pose);
+        ++steps;
+    }
     const double residual_rms_m = length_errors(problem, pose).rms_m();
-    if (!second.solvable || !(second.step_m <= kMaxSecondStep_m) ||
+    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) ||
         !(residual_rms_m <= kWarmResidualGate_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
     KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
-    result.conditioning = second.min_pivot;
-    result.steps = 2;
+    result.conditioning = last.min_pivot;
+    result.steps = steps;
     return accept(result);
 }
 
@@ -214,18 +243,38 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
     return search(lengths_m, nullptr, 0.0);
 }
 
+std::optional<Twist> ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
+    const LengthProblem problem{frame_, grip_, rates_m_s};
+    LengthErrors rates = length_errors(problem, last_pose_);
+    rates.residual_m = rates_m_s;
+    const RigidSolution solution = solve_rigid(problem, rates, last_pose_);
+    if (!solution.solvable || !(solution.min_pivot >= kRankDeficientPivot)) {
+        return std::nullopt;
+    }
+    const RigidStep &x = solution.step;
+    Twist twist;
+    twist.linear_m_s = Vec3(x[0], x[1], x[2]);
+    twist.angular_rad_s = Vec3(x[3], x[4], x[5]) * (1.0 / grip_.pole_half_length_m);
+    return twist;
+}
+
 std::optional<Twist>
 ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
+    if (grip_.kind == GripKind::rigid) {
+        return rigid_twist(rates_m_s);
+    }
     const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
     const double size = glm::length(area);
     const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
-    if (!crossed_ || !(size > kParallelAngle_rad * d2)) {
+    if (!has_layout_ || !(size > kParallelAngle_rad * d2)) {
         return std::nullopt;
     }
     const CrossedPose pose = lanes_of(last_pose_);
-    CrossedErrors rates = errors_at(layout_, rates_m_s, pose);
+    const LengthErrors paths = length_errors({frame_, grip_, rates_m_s}, last_pose_);
+    CrossedErrors rates;
     for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
         const auto &strings = layout_.strings[slot];
+        rates.direction[slot] = lanes_of(paths.direction[strings[0]], paths.direction[strings[1]]);
         rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
     }
     const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
@@ -253,13 +302,27 @@ ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noe
     return twist;
 }
 
-KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,
-                                           double content_m) noexcept {
-    const LengthProblem problem{frame_, grip_, lengths_m};
+SearchTools ForwardKinematics::search_tools() const noexcept {
     SearchTools tools;
     tools.layout = crossed_ ? &layout_ : nullptr;
     if (closed_form_) {
         tools.closed_form_half_extents_m = half_extents_m_;
+    }
+    return tools;
+}
+
+KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,
+                                           double content_m) noexcept {
+    const LengthProblem problem{frame_, grip_, lengths_m};
+    SearchTools tools = search_tools();
+    StringArray eyelets_m = lengths_m;
+    if (frame_.pulley_radius_m > 0.0) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            const Vec3 end = attachment_point(grip_, last_pose_, static_cast<int>(i));
+            eyelets_m[i] +=
+                glm::distance(end, frame_.motors_m[i]) - string_path(frame_, i, end).length_m;
+        }
+        tools.eyelet_lengths_m = &eyelets_m;
     }
     const SearchResult found = search_pose(problem, tools, remembered, content_m);
     KinematicsResult result;
@@ -274,7 +337,9 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     if (!found.best.converged && found.best.residual_rms_m <= kImpossibleResidual_m) {
         return hold(result, Status::not_converged);
     }
-    if (found.ambiguous) {
+    ambiguous_ = found.ambiguous;
+    ticks_to_rivals_ = kRivalPeriod;
+    if (ambiguous_) {
         result.status = Status::ambiguous_pose;
     }
     forget_motion();

@@ -1,6 +1,7 @@
 // String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
 // step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
-// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md).
+// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md). Rigid grips, exit
+// pulleys and other frames take the same way with general steps: gauss_newton.h, and seven starts without closed form.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include "core/types.h"
 
 namespace spidar {
+
+struct SearchTools; // core/pose_search.h
 
 struct KinematicsResult {
     GripPose pose;
@@ -30,8 +33,9 @@ public:
     // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
-    // One servo tick: one or two steps; falls back to cold() when the residual or the step size
+    // One servo tick: one or two steps; falls back to a search when the residual or the step size
     // says so; holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
+    // ambiguous_pose, where there is a closed form: looked for every kRivalPeriod ticks, stands in between.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
     // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
@@ -39,7 +43,7 @@ public:
 
     // Velocity of the grip at the last pose from the rates of the string lengths (growing is positive; unit: m/s), by
     // least squares as the pose itself. Empty where the poles are parallel or the lengths leave it open, and for
-    // grips with other than two strings to a pole end.
+    // crossed grips with other than two strings to a pole end.
     [[nodiscard]] std::optional<Twist>
     twist_of_length_rates(const StringArray &rates_m_s) const noexcept;
 
@@ -49,6 +53,8 @@ public:
     // Forget the last pose: the next update() is cold.
     void reset() noexcept {
         warm_ = false;
+        ambiguous_ = false;
+        ticks_to_rivals_ = 0;
         forget_motion();
     }
 
@@ -57,6 +63,9 @@ private:
     KinematicsResult track_any(const StringArray &lengths_m) noexcept;
     KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered,
                             double content_m) noexcept;
+    [[nodiscard]] SearchTools search_tools() const noexcept;
+    void look_for_rivals(const StringArray &lengths_m, const KinematicsResult &found) noexcept;
+    [[nodiscard]] std::optional<Twist> rigid_twist(const StringArray &rates_m_s) const noexcept;
     void foresee(const CrossedPose &change) noexcept;
     void forget_motion() noexcept {
         last_change_ = CrossedPose();
@@ -72,7 +81,8 @@ private:
     FrameGeometry frame_{};
     GripGeometry grip_{};
     CrossedLayout layout_;
-    bool crossed_ = false;     // layout_ is valid: the fast steps serve
+    bool has_layout_ = false;  // layout_ is valid
+    bool crossed_ = false;     // and the strings leave from eyelets: the fast steps serve
     Vec3 half_extents_m_{0.0}; // valid when is_box_
     bool is_box_ = false;
     bool closed_form_ = false;
@@ -82,6 +92,8 @@ private:
     CrossedPose last_turn_{};   // change of that change
     CrossedPose foreseen_change_{};
     bool foreseeing_ = false;
+    bool ambiguous_ = false;  // at the last look
+    int ticks_to_rivals_ = 0; // warm ticks until the next one
 };
 
 } // namespace spidar

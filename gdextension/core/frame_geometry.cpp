@@ -18,6 +18,9 @@ constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),   Vec3(-1, 1, 1),  Vec3(1, -
 // Motors that lie in one plane or line leave a direction to which no string pulls. Smallest
 // thickness accepted, against the largest extent of the frame.
 constexpr double kMinRelativeThickness = 1e-3;
+// A pulley larger than this is millimetres typed as metres.
+constexpr double kMaxPulleyRadius_m = 0.05;
+constexpr double kUnitTolerance = 1e-9;
 
 double largest_extent(const FrameGeometry &frame) {
     double extent = 0.0;
@@ -27,6 +30,10 @@ double largest_extent(const FrameGeometry &frame) {
         }
     }
     return extent;
+}
+
+bool is_unit(const Vec3 &v) noexcept {
+    return std::fabs(glm::dot(v, v) - 1.0) <= kUnitTolerance;
 }
 
 // Thickness of the thinnest slab around all motors whose normal is one of those through three motors.
@@ -92,7 +99,9 @@ bool is_usable(const FrameGeometry &frame) noexcept {
         }
     }
     const double extent = largest_extent(frame);
-    return extent > 0.0 && thickness(frame) >= kMinRelativeThickness * extent;
+    return extent > 0.0 && thickness(frame) >= kMinRelativeThickness * extent &&
+           frame.pulley_radius_m >= 0.0 && frame.pulley_radius_m <= kMaxPulleyRadius_m &&
+           is_unit(frame.pulley_axis);
 }
 
 std::string validate(const FrameGeometry &frame) {
@@ -118,6 +127,16 @@ std::string validate(const FrameGeometry &frame) {
         return "motors_m lies in a slab " + with_unit(thin, "m") +
                " thick; spread the motors over three dimensions, at least " +
                with_unit(kMinRelativeThickness * extent, "m") + " in each.";
+    }
+    if (!(frame.pulley_radius_m >= 0.0 && frame.pulley_radius_m <= kMaxPulleyRadius_m)) {
+        return "pulley_radius_m is " + with_unit(frame.pulley_radius_m, "m") +
+               "; give the radius of the exit pulleys in metres, up to " +
+               with_unit(kMaxPulleyRadius_m, "m") + ", or 0 for eyelets.";
+    }
+    if (!is_unit(frame.pulley_axis)) {
+        return "pulley_axis has the length " +
+               with_unit(glm::length(frame.pulley_axis), "(unit vector)") +
+               "; give a vector of length 1.";
     }
     return {};
 }

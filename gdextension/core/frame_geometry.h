@@ -14,6 +14,10 @@ inline constexpr double kPaperHalfExtent_m = 0.24;
 struct FrameGeometry {
     // String exit points Q1..Q8, device frame (unit: m). Eyelets: the string leaves from the point.
     StringVectors motors_m{};
+    // Above 0: the strings leave over swivelling pulleys of this radius (unit: m), which they reach at motors_m from
+    // outside along pulley_axis (unit vector). See string_exit.h.
+    double pulley_radius_m = 0.0;
+    Vec3 pulley_axis{0.0, 0.0, 1.0};
 };
 
 // Corners of a box of half sizes (a, b, c), in the paper's order:

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/pose_tangents.h"
+#include "core/rigid_step.h"
+#include "core/string_exit.h"
 
 namespace spidar {
 
@@ -142,15 +144,11 @@ double LengthErrors::rms_m() const noexcept {
 LengthErrors length_errors(const LengthProblem &problem, const GripPose &pose) noexcept {
     LengthErrors errors;
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        const Attachment &attachment = problem.grip.attachments[i];
-        const Vec3 &r = attachment.pole == 0 ? pose.r1_m : pose.r2_m;
-        const Vec3 string = (pose.position_m - problem.frame.motors_m[i]) + attachment.sign * r;
-        const double length = glm::length(string);
-        errors.computed_m[i] = length;
-        errors.residual_m[i] = problem.lengths_m[i] - length;
-        if (length > 0.0) {
-            errors.direction[i] = string * (1.0 / length);
-        }
+        const StringPath path = string_path(
+            problem.frame, i, pose.position_m + attachment_lever(problem.grip, pose, i));
+        errors.computed_m[i] = path.length_m;
+        errors.residual_m[i] = problem.lengths_m[i] - path.length_m;
+        errors.direction[i] = path.direction;
         errors.sum_of_squares_m2 += errors.residual_m[i] * errors.residual_m[i];
     }
     return errors;
@@ -158,9 +156,19 @@ LengthErrors length_errors(const LengthProblem &problem, const GripPose &pose) n
 
 GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErrors &errors,
                                   GripPose &pose) noexcept {
+    GaussNewtonStep step;
+    if (problem.grip.kind == GripKind::rigid) {
+        const RigidSolution rigid = solve_rigid(problem, errors, pose);
+        step.min_pivot = rigid.min_pivot;
+        step.solvable = rigid.solvable;
+        if (step.solvable) {
+            step.step_m = norm(rigid.step);
+            move_rigid(pose, rigid.step, problem.grip.pole_half_length_m);
+        }
+        return step;
+    }
     const PoseTangents tangents = tangents_of(pose);
     const ArrowSolution solution = solve_arrow(arrow_equations(problem, errors, tangents));
-    GaussNewtonStep step;
     step.min_pivot = solution.min_pivot;
     step.solvable = solution.solvable;
     if (step.solvable) {

@@ -1,5 +1,6 @@
 // Least-squares fit of a grip pose to eight string lengths, on the manifold R3 x S2 x S2:
-//   minimise sum_i (l_i - |Q_i - P0 - s_i r_k(i)|)^2.
+//   minimise sum_i (l_i - |Q_i - P0 - s_i r_k(i)|)^2,
+// and likewise on SE(3) for a rigid grip (rigid_step.h) and around exit pulleys (string_exit.h).
 // Unknowns of a step: displacement of P0 and two tangent displacements of each pole's end, all in metres,
 // so that singular values compare. This is the plain step of the servo tick: its normal equations are an
 // arrow (two 2x2 pole blocks, a 3x3 position). They square the conditioning, but each step starts
@@ -23,7 +24,7 @@ struct LengthProblem {
 struct LengthErrors {
     StringArray residual_m{}; // measured - computed
     StringArray computed_m{};
-    StringVectors direction{}; // unit, from the motor to the attachment; zero when they coincide
+    StringVectors direction{}; // unit, in which the length grows; zero when the ends meet
     double sum_of_squares_m2 = 0.0;
     [[nodiscard]] double rms_m() const noexcept;
 };

@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/describe_value.h"
+#include "core/string_exit.h"
 
 namespace spidar {
 
@@ -15,6 +16,36 @@ namespace {
 constexpr double kHalfPi = 1.5707963267948966;
 constexpr double kPi = 3.1415926535897932;
 constexpr double kInvSqrt2 = 0.70710678118654752;
+// Joints count as on one line when the largest triangle of them is smaller than this part of its longest side squared.
+constexpr double kMinTriangle = 1e-3;
+
+// Half the longest side of the box around the motors (unit: m).
+double room_of(const FrameGeometry &frame) noexcept {
+    Vec3 low = frame.motors_m[0];
+    Vec3 high = frame.motors_m[0];
+    for (const Vec3 &motor : frame.motors_m) {
+        low = glm::min(low, motor);
+        high = glm::max(high, motor);
+    }
+    const Vec3 size = high - low;
+    return 0.5 * std::fmax(size.x, std::fmax(size.y, size.z));
+}
+
+bool joint_fits(const GripGeometry &grip, const FrameGeometry &frame, std::size_t i) noexcept {
+    return glm::length(grip.joints_m[i]) < room_of(frame); // false for NaN
+}
+
+bool joints_span(const StringVectors &joints_m) noexcept {
+    double longest = 0.0;
+    double largest = 0.0;
+    for (const Vec3 &a : joints_m) {
+        for (const Vec3 &b : joints_m) {
+            longest = std::fmax(longest, glm::distance(a, b));
+            largest = std::fmax(largest, glm::length(glm::cross(a - joints_m[0], b - joints_m[0])));
+        }
+    }
+    return longest > 0.0 && largest > kMinTriangle * longest * longest;
+}
 
 } // namespace
 
@@ -61,9 +92,32 @@ GripFrame frame_of(const GripPose &pose, const Mat3 &previous_rotation) noexcept
     return frame;
 }
 
+GripGeometry make_rigid_grip(const StringVectors &joints_m) noexcept {
+    GripGeometry grip;
+    grip.kind = GripKind::rigid;
+    grip.joints_m = joints_m;
+    double sum = 0.0;
+    for (const Vec3 &joint : joints_m) {
+        sum += glm::dot(joint, joint);
+    }
+    grip.pole_half_length_m = std::sqrt(sum / kStringCount);
+    return grip;
+}
+
+Vec3 attachment_lever(const GripGeometry &grip, const GripPose &pose, std::size_t string) noexcept {
+    if (grip.kind == GripKind::rigid) {
+        const Vec3 &joint = grip.joints_m[string];
+        const double per_d = 1.0 / grip.pole_half_length_m;
+        const Vec3 x = per_d * pose.r2_m;
+        const Vec3 y = per_d * pose.r1_m;
+        return joint.x * x + joint.y * y + joint.z * glm::cross(x, y);
+    }
+    const Attachment &attachment = grip.attachments[string];
+    return attachment.sign * (attachment.pole == 0 ? pose.r1_m : pose.r2_m);
+}
+
 Vec3 attachment_point(const GripGeometry &grip, const GripPose &pose, int string) noexcept {
-    const Attachment &attachment = grip.attachments[static_cast<std::size_t>(string)];
-    return pose.position_m + attachment.sign * (attachment.pole == 0 ? pose.r1_m : pose.r2_m);
+    return pose.position_m + attachment_lever(grip, pose, static_cast<std::size_t>(string));
 }
 
 StringArray string_lengths(const FrameGeometry &frame, const GripGeometry &grip,
@@ -71,30 +125,27 @@ StringArray string_lengths(const FrameGeometry &frame, const GripGeometry &grip,
     StringArray lengths{};
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Vec3 end = attachment_point(grip, pose, static_cast<int>(i));
-        lengths[i] = glm::distance(frame.motors_m[i], end);
+        lengths[i] = string_path(frame, i, end).length_m;
     }
     return lengths;
 }
 
 bool is_usable(const GripGeometry &grip, const FrameGeometry &frame) noexcept {
-    if (!(grip.pole_half_length_m >= kMinPoleHalfLength_m)) {
+    if (!(grip.pole_half_length_m >= kMinPoleHalfLength_m) ||
+        !(grip.pole_half_length_m < room_of(frame))) {
         return false;
     }
-    Vec3 low = frame.motors_m[0];
-    Vec3 high = frame.motors_m[0];
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        low = glm::min(low, frame.motors_m[i]);
-        high = glm::max(high, frame.motors_m[i]);
         const Attachment &attachment = grip.attachments[i];
         const bool pole_ok = attachment.pole == 0 || attachment.pole == 1;
         const bool sign_ok = attachment.sign == 1.0 || attachment.sign == -1.0;
-        if (!pole_ok || !sign_ok) {
+        const bool tied =
+            grip.kind == GripKind::rigid ? joint_fits(grip, frame, i) : pole_ok && sign_ok;
+        if (!tied) {
             return false;
         }
     }
-    const Vec3 size = high - low;
-    const double room = 0.5 * std::fmax(size.x, std::fmax(size.y, size.z));
-    return grip.pole_half_length_m < room;
+    return grip.kind == GripKind::crossed || joints_span(grip.joints_m);
 }
 
 std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
@@ -106,6 +157,15 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
     }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Attachment &attachment = grip.attachments[i];
+        if (grip.kind == GripKind::rigid) {
+            if (!joint_fits(grip, frame, i)) {
+                return element_name("joints_m", i) + " lies " +
+                       with_unit(glm::length(grip.joints_m[i]), "m") +
+                       " from the grip's centre; give a point of the grip in metres, nearer than "
+                       "half the frame.";
+            }
+            continue;
+        }
         if (attachment.pole != 0 && attachment.pole != 1) {
             return element_name("attachments", i) + ".pole is " + std::to_string(attachment.pole) +
                    " (index); use 0 for pole 1 or 1 for pole 2.";
@@ -115,6 +175,10 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
                    with_unit(attachment.sign, "(end)") +
                    "; use +1 or -1 for the two ends of the pole.";
         }
+    }
+    if (grip.kind == GripKind::rigid && !joints_span(grip.joints_m)) {
+        return "joints_m lie on one line; tie the strings to at least three points that are not in "
+               "line, or the turn about that line stays open.";
     }
     if (!is_usable(grip, frame)) {
         return "pole_half_length_m is " + with_unit(d, "m") +

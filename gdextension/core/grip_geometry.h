@@ -1,6 +1,8 @@
-// The grip: two crossing poles hinged at P0, and which string is tied to which pole end.
+// The grip: two crossing poles hinged at P0 and which string is tied to which pole end, or one rigid body.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "core/frame_geometry.h"
@@ -17,12 +19,23 @@ struct Attachment {
     double sign = 1.0; // +1 or -1: which end
 };
 
+// crossed: two poles with a hinge, 7 degrees of freedom. rigid: one body, 6; a pose then has r1 and r2 at right angles and
+// its grasp angle is 0.
+enum class GripKind : std::uint8_t { crossed = 0, rigid = 1 };
+
 struct GripGeometry {
-    double pole_half_length_m = kPaperPoleHalfLength_m; // d, |r1| = |r2|
+    // crossed: d, |r1| = |r2|. rigid: the lever by which turns count as metres, and how far the poles reach that
+    // are drawn and touched with; make_rigid_grip() takes the root mean square of the joints.
+    double pole_half_length_m = kPaperPoleHalfLength_m;
     // Paper: strings 1,2 -> P0+r1; 3,4 -> P0-r1; 5,7 -> P0+r2; 6,8 -> P0-r2.
     std::array<Attachment, kStringCount> attachments{
         {{0, 1.0}, {0, 1.0}, {0, -1.0}, {0, -1.0}, {1, 1.0}, {1, -1.0}, {1, 1.0}, {1, -1.0}}};
+    GripKind kind = GripKind::crossed;
+    // rigid: where string i is tied, from P0, in the grip's frame (x along r2, y along r1; unit: m).
+    StringVectors joints_m{};
 };
+
+[[nodiscard]] GripGeometry make_rigid_grip(const StringVectors &joints_m) noexcept;
 
 // Where the grip is: a point of R3 x S2 x S2. Everything else is derived from it.
 struct GripPose {
@@ -50,11 +63,15 @@ struct GripFrame {
 // previous_rotation stands in when the poles are parallel (psi within kParallelAngle_rad of 0 or pi).
 [[nodiscard]] GripFrame frame_of(const GripPose &pose, const Mat3 &previous_rotation) noexcept;
 
+// From P0 to where string i is tied, device frame (unit: m).
+[[nodiscard]] Vec3 attachment_lever(const GripGeometry &grip, const GripPose &pose,
+                                    std::size_t string) noexcept;
+
 // Where string i is tied, device frame (unit: m).
 [[nodiscard]] Vec3 attachment_point(const GripGeometry &grip, const GripPose &pose,
                                     int string) noexcept;
 
-// Inverse kinematics: the eight string lengths of a pose, eq. (1)-(11) (unit: m).
+// Inverse kinematics: the eight string lengths of a pose, eq. (1)-(11) (unit: m), around the exit pulleys if any.
 [[nodiscard]] StringArray string_lengths(const FrameGeometry &frame, const GripGeometry &grip,
                                          const GripPose &pose) noexcept;
 

@@ -19,7 +19,7 @@ using Lanes = double __attribute__((vector_size(16)));
 }
 
 [[nodiscard]] inline Lanes square_root(Lanes a) noexcept {
-#if defined(__SSE2__) // by name: not every compiler joins two scalar roots
+#if __has_builtin(__builtin_ia32_sqrtpd) // by name: not every compiler joins two scalar roots
     return __builtin_ia32_sqrtpd(a);
 #else
     return Lanes{std::sqrt(a[0]), std::sqrt(a[1])};

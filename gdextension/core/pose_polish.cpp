@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "core/pose_tangents.h"
+#include "core/rigid_step.h"
 
 namespace spidar {
 
@@ -28,6 +29,36 @@ struct NewtonEquations {
     PoseStep gradient{}; // J^T residual
 };
 
+// How an attachment moves with each of the unknowns that reach it.
+template <std::size_t Count>
+struct Motions {
+    std::array<Vec3, Count> of_attachment{};
+    std::array<std::size_t, Count> unknown{};
+};
+
+template <std::size_t Count>
+void add_string(NewtonEquations &eq, const LengthErrors &errors, std::size_t i,
+                const Motions<Count> &motions) noexcept {
+    const Vec3 &e = errors.direction[i];
+    const double f = errors.residual_m[i];
+    std::array<double, Count> slope{};
+    for (std::size_t a = 0; a < Count; ++a) {
+        slope[a] = glm::dot(e, motions.of_attachment[a]);
+    }
+    const double per_length = errors.computed_m[i] > 0.0 ? f / errors.computed_m[i] : 0.0;
+    for (std::size_t a = 0; a < Count; ++a) {
+        const std::size_t row = motions.unknown[a];
+        eq.gradient[row] += f * slope[a];
+        for (std::size_t b = 0; b <= a; ++b) {
+            const std::size_t column = motions.unknown[b];
+            eq.gauss[row][column] += slope[a] * slope[b];
+            eq.curvature[row][column] -=
+                per_length * (glm::dot(motions.of_attachment[a], motions.of_attachment[b]) -
+                              slope[a] * slope[b]);
+        }
+    }
+}
+
 NewtonEquations newton_equations(const LengthProblem &problem, const LengthErrors &errors,
                                  const GripPose &pose, const PoseTangents &tangents) noexcept {
     NewtonEquations eq;
@@ -37,30 +68,46 @@ NewtonEquations newton_equations(const LengthProblem &problem, const LengthError
         const auto pole = static_cast<std::size_t>(attachment.pole);
         const Tangents &t = tangents.poles[pole];
         const Vec3 &r = pole == 0 ? pose.r1_m : pose.r2_m;
-        const Vec3 &e = errors.direction[i];
-        const double f = errors.residual_m[i];
-        // How the attachment moves with each of the five unknowns that reach it.
-        const std::array<Vec3, 5> motion{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
-                                         attachment.sign * t.u, attachment.sign * t.v};
-        const std::array<std::size_t, 5> index{0, 1, 2, 3 + 2 * pole, 4 + 2 * pole};
-        std::array<double, 5> slope{};
-        for (std::size_t a = 0; a < 5; ++a) {
-            slope[a] = glm::dot(e, motion[a]);
+        const Motions<5> motions{{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
+                                  attachment.sign * t.u, attachment.sign * t.v},
+                                 {0, 1, 2, 3 + 2 * pole, 4 + 2 * pole}};
+        add_string(eq, errors, i, motions);
+        // A displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
+        const double fall =
+            errors.residual_m[i] * attachment.sign * glm::dot(errors.direction[i], r) / (d * d);
+        eq.curvature[3 + 2 * pole][3 + 2 * pole] += fall;
+        eq.curvature[4 + 2 * pole][4 + 2 * pole] += fall;
+    }
+    return eq;
+}
+
+// The same for a rigid grip: displacement, then the turn times d. The seventh unknown stays where it is.
+NewtonEquations rigid_newton_equations(const LengthProblem &problem, const LengthErrors &errors,
+                                       const GripPose &pose) noexcept {
+    NewtonEquations eq;
+    const double per_d = 1.0 / problem.grip.pole_half_length_m;
+    const std::array<Vec3, 3> axes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        const Vec3 lever = attachment_lever(problem.grip, pose, i);
+        Motions<6> motions;
+        for (std::size_t a = 0; a < 3; ++a) {
+            motions.of_attachment[a] = axes[a];
+            motions.of_attachment[3 + a] = per_d * glm::cross(axes[a], lever);
         }
-        const double per_length = errors.computed_m[i] > 0.0 ? f / errors.computed_m[i] : 0.0;
-        for (std::size_t a = 0; a < 5; ++a) {
-            eq.gradient[index[a]] += f * slope[a];
+        motions.unknown = {0, 1, 2, 3, 4, 5};
+        add_string(eq, errors, i, motions);
+        // A turn bends the path of the attachment: 1/2 (a x (b x lever) + b x (a x lever)).
+        const Vec3 &e = errors.direction[i];
+        for (std::size_t a = 0; a < 3; ++a) {
             for (std::size_t b = 0; b <= a; ++b) {
-                eq.gauss[index[a]][index[b]] += slope[a] * slope[b];
-                eq.curvature[index[a]][index[b]] -=
-                    per_length * (glm::dot(motion[a], motion[b]) - slope[a] * slope[b]);
+                const Vec3 bend = glm::cross(axes[a], glm::cross(axes[b], lever)) +
+                                  glm::cross(axes[b], glm::cross(axes[a], lever));
+                eq.curvature[3 + a][3 + b] -=
+                    0.5 * per_d * per_d * errors.residual_m[i] * glm::dot(e, bend);
             }
         }
-        // A displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
-        const double fall = f * attachment.sign * glm::dot(e, r) / (d * d);
-        eq.curvature[index[3]][index[3]] += fall;
-        eq.curvature[index[4]][index[4]] += fall;
     }
+    eq.gauss[kSize - 1][kSize - 1] = 1.0;
     return eq;
 }
 
@@ -119,12 +166,14 @@ PolishResult polish_pose(const LengthProblem &problem, const GripPose &start) no
     PolishResult result;
     result.pose = start;
     LengthErrors errors = length_errors(problem, start);
+    const bool rigid = problem.grip.kind == GripKind::rigid;
     double damping = 0.0;
     double last_step_m = HUGE_VAL;
     while (result.steps < kMaxPolishSteps && !result.converged) {
         ++result.steps;
         const PoseTangents tangents = tangents_of(result.pose);
-        const NewtonEquations eq = newton_equations(problem, errors, result.pose, tangents);
+        const NewtonEquations eq = rigid ? rigid_newton_equations(problem, errors, result.pose)
+                                         : newton_equations(problem, errors, result.pose, tangents);
         PoseStep step{};
         if (!descent_step(eq, damping, step)) {
             break;
@@ -137,7 +186,12 @@ PolishResult polish_pose(const LengthProblem &problem, const GripPose &start) no
             step_m = kMaxTrialStep_m;
         }
         GripPose trial = result.pose;
-        move_pose(trial, tangents, step, problem.grip.pole_half_length_m);
+        if (rigid) {
+            move_rigid(trial, {step[0], step[1], step[2], step[3], step[4], step[5]},
+                       problem.grip.pole_half_length_m);
+        } else {
+            move_pose(trial, tangents, step, problem.grip.pole_half_length_m);
+        }
         const LengthErrors trial_errors = length_errors(problem, trial);
         // Steps this small are below what the sum of squares resolves: taken without asking it.
         const bool tiny = step_m < kStagnantStep_m;

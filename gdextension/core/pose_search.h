@@ -12,9 +12,11 @@ namespace spidar {
 
 // What a search may use besides the problem itself.
 struct SearchTools {
-    const CrossedLayout *layout = nullptr; // two strings to each pole end: the fast steps
+    const CrossedLayout *layout = nullptr; // eyelets, two strings to each pole end: the fast steps
     std::optional<Vec3>
         closed_form_half_extents_m; // a box and the paper's strings: the closed form
+    // The lengths that it takes where strings leave over pulleys: about those from eyelets. Null: the problem's.
+    const StringArray *eyelet_lengths_m = nullptr;
 };
 
 struct SearchResult {
@@ -28,5 +30,10 @@ struct SearchResult {
 // the remembered pose leads to a residual of at most `content_m`.
 [[nodiscard]] SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
                                        const GripPose *remembered, double content_m) noexcept;
+
+// Whether another pose than `known`, which a warm tick found, fits these lengths as well. False where there is no
+// closed form: nothing else is fast enough for a tick.
+[[nodiscard]] bool has_rival(const LengthProblem &problem, const SearchTools &tools,
+                             const PolishResult &known) noexcept;
 
 } // namespace spidar

@@ -51,7 +51,8 @@ inline void move_pose(GripPose &pose, const PoseTangents &tangents, const PoseSt
         retract(pose.r2_m, step[5] * tangents.poles[1].u + step[6] * tangents.poles[1].v, d);
 }
 
-[[nodiscard]] inline double norm(const PoseStep &v) noexcept {
+template <std::size_t Size>
+[[nodiscard]] double norm(const std::array<double, Size> &v) noexcept {
     double sum = 0.0;
     for (const double x : v) {
         sum += x * x;

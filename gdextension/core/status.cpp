@@ -23,6 +23,8 @@ const char *describe(Status status) noexcept {
     case Status::weakly_observed:
         return "The motion leaves some combination of the calibration open; move and turn the grip "
                "more widely.";
+    case Status::grasp_unavailable:
+        return "The grip is rigid and has no hinge: the grasp torque of the request was left out.";
     case Status::not_finite:
         return "An input is NaN or infinite; nothing was changed.";
     case Status::invalid_geometry:

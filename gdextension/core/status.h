@@ -15,6 +15,7 @@ enum class Status : std::int32_t {
     request_clamped = 5, // a finite request was brought down to its limit, direction kept
     request_expired = 6, // the game stopped asking; the request faded out
     weakly_observed = 7, // calibration: the motion leaves some combination of values open
+    grasp_unavailable = 8, // a grasp torque was asked of a rigid grip, which cannot give one
     // Bad input: nothing moved, state unchanged.
     not_finite = -1,          // NaN or infinity in an input
     invalid_geometry = -2,    // frame or grip impossible (zero, negative, not finite)

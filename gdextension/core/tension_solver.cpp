@@ -27,8 +27,8 @@ constexpr double kTermReach = 4.0;
 constexpr double kVanishingWeight = 1e-12;
 
 // Tensions nearer to the last ones than this are the last ones: rounding of the solver is 1e-14 N, and the change
-// term lets them creep by a tenth of their distance a tick, so that they end 1e-12 N from where they were going.
-constexpr double kSettled_n = 1e-13;
+// term lets them creep by a 200th of their distance a tick, so that they end 2e-10 N from where they were going.
+constexpr double kSettled_n = 1e-12;
 
 // Above this a setting is a slip of units, and squares of it lose the digits of the rest.
 constexpr double kLargestSetting = 1e6;

@@ -60,7 +60,7 @@ struct TensionSettings {
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // uniqueness only
     double reference_weight = 1e-3;    // pull towards tau_ref
-    double change_weight = 1e-2;       // against jumps from tick to tick
+    double change_weight = 0.2;        // against jumps from tick to tick
     // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). What is left out weighs nothing: the strings give there
     // whatever suits the rest.
     std::uint8_t dof_mask = kAllDofs;

@@ -14,7 +14,7 @@ namespace spidar {
 struct WrenchMatrix {
     // columns[i][k]: k-th DOF of string i.
     std::array<DofArray, kStringCount> columns{};
-    // Poles parallel: n is undefined and the seventh row is zero.
+    // Poles parallel: n is undefined and the seventh row is zero. So it is for a rigid grip: 6 x 8.
     bool grasp_row_vanishes = false;
 };
 

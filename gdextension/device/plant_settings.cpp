@@ -34,6 +34,9 @@ std::string validate(const PlantSettings &settings) {
             return problem;
         }
     }
+    if (settings.frame.pulley_radius_m > 0.0) {
+        return "pulley_radius_m is above 0; the simulated device has eyelets, give 0.";
+    }
     constexpr double kRightAngle_rad = 1.5707963267948966;
     const Range ranges[] = {
         {"metres_per_count", settings.metres_per_count, 1e-9, 1e-2, "m"},

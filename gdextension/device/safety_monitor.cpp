@@ -41,7 +41,8 @@ void SafetyMonitor::restart() noexcept {
 SafetyMonitor::Verdict SafetyMonitor::watch_strings(const Sample &sample, EventLog &events,
                                                     double dt_s) noexcept {
     if (sample.fresh) {
-        strings_.update(sample.counts, sample.lengths_m, sample.grip, sample.moved, dt_s);
+        strings_.update(sample.counts, sample.lengths_m, sample.grip, sample.moved,
+                        sample.strongest_n, dt_s);
     }
     if (strings_.suspicious()) {
         events.tell(DeviceEventKind::string_suspected, strings_.string(), strings_.parity_m());

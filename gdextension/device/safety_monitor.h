@@ -25,8 +25,9 @@ public:
         const CountArray &counts;
         const StringArray &lengths_m;
         double fastest_m_s = 0.0;
-        bool fresh = false; // a good sample came in this cycle
-        bool moved = false; // with another pose
+        double strongest_n = 0.0; // largest tension commanded
+        bool fresh = false;       // a good sample came in this cycle
+        bool moved = false;       // with another pose
         bool motors_on = false;
         bool rendering = false; // a wrench is asked for
     };

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "device/event_queue.h"
+#include "device/nonblocking.h"
 #include "device/real_time_thread.h"
+#include "device/recording/recorder.h"
 #include "device/recording/replay_transport.h"
 #include "device/triple_buffer.h"
 #include "device/writer_thread.h"
@@ -87,7 +89,7 @@ struct ServoLoop::Impl {
     std::atomic<bool> real_time_priority{false};
 
     // Read, compute, write in one cycle; then simulated time moves on.
-    void cycle(double dt_s) noexcept {
+    void cycle(double dt_s) noexcept SPIDAR_NONBLOCKING {
         Recorder *const recording = recorder.load(std::memory_order_acquire);
         bool may_arm_itself = transport->simulated();
         bool command_is_new = commands.read(command);

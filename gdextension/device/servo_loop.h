@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "device/loop_histogram.h"
-#include "device/recording/recorder.h"
+#include "device/recording/recorder_statistics.h"
 #include "device/servo_step.h"
 #include "device/transport.h"
 

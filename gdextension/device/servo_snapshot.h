@@ -82,6 +82,7 @@ struct ServoSnapshot {
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
     double force_scale = 0.0;    // arming ramp, 0..1
+    double tension_scale = 0.0;  // the part of it that scales all tensions, pretension too
     double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
     double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
     double parity_error_m = 0.0; // what no pose explains of the eight lengths

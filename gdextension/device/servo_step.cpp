@@ -183,7 +183,12 @@ void ServoStep::add_rotor_compensation(StringArray &tensions_n) const noexcept {
 DriveCommand ServoStep::drive(double dt_s) noexcept {
     const bool trusted = tracking_ && monitor_.velocity_trusted();
     const Wrench rendered = renderer_.render(tracker_.grip(), tracker_.moved(), trusted, dt_s);
-    const Wrench asked = rendered + monitor_.wall(tracker_.grip());
+    Wrench asked = rendered + monitor_.wall(tracker_.grip());
+    // A rigid grip has no hinge to turn: what was asked of it is left out, and said.
+    const bool no_grasp = settings_.grip.kind == GripKind::rigid && asked.grasp_torque_nm != 0.0;
+    if (no_grasp) {
+        asked.grasp_torque_nm = 0.0;
+    }
     const double factor = limit_factor(asked, settings_.safety);
     if (factor < 1.0 && !limiting_) {
         ++snapshot_.counters.clamped_requests;
@@ -239,10 +244,11 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
-    snapshot_.achieved = from_paper(apply(matrix_, gate.tensions_n));
+    snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
-    snapshot_.tension_status = result.status;
+    snapshot_.tension_status =
+        no_grasp && result.status == Status::ok ? Status::grasp_unavailable : result.status;
 
     return command_for(gate.tensions_n);
 }
@@ -252,6 +258,7 @@ void ServoStep::publish_state() noexcept {
     snapshot_.fault = machine_.fault();
     snapshot_.fault_string = static_cast<std::int8_t>(machine_.fault_string());
     snapshot_.force_scale = machine_.scale();
+    snapshot_.tension_scale = machine_.tension_scale();
     snapshot_.zero_known = machine_.zero_known();
     snapshot_.safety_scale = monitor_.wrench_scale();
     snapshot_.thermal_share = monitor_.heat().spent();

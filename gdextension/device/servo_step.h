@@ -36,6 +36,9 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
+    // The next step skips no solve of tensions. It changes no output, only counters().tension_skipped.
+    void forget_settled() noexcept { solver_.forget_settled(); }
+
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }

@@ -118,9 +118,17 @@ bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
 }
 
 void ServoStep::watch(double dt_s) noexcept {
-    const SafetyMonitor::Sample sample{
-        tracker_.grip(), snapshot_.counts, snapshot_.lengths_m,  tracker_.fastest_point_m_s(),
-        fresh_,          moved_,           machine_.motors_on(), rendering_};
+    const double strongest_n =
+        *std::max_element(snapshot_.tensions_n.begin(), snapshot_.tensions_n.end());
+    const SafetyMonitor::Sample sample{tracker_.grip(),
+                                       snapshot_.counts,
+                                       snapshot_.lengths_m,
+                                       tracker_.fastest_point_m_s(),
+                                       strongest_n,
+                                       fresh_,
+                                       moved_,
+                                       machine_.motors_on(),
+                                       rendering_};
     const SafetyMonitor::Verdict verdict = monitor_.watch(sample, events_, dt_s);
     switch (verdict.action) {
     case SafetyMonitor::Action::none:

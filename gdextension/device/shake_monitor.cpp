@@ -12,12 +12,12 @@ constexpr double kSwing_m_s = 0.06;
 // Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
 constexpr double kRotationArm_m = 0.04;
 constexpr double kGraspArm_m = 0.02;
-// Half a period of 20 Hz.
-constexpr double kLongestHalfPeriod_s = 0.025;
+// Half a period of 12.5 Hz: the lightest hand swings so slowly; no hand shakes of itself above 10 Hz.
+constexpr double kLongestHalfPeriod_s = 0.040;
 // Three whole periods in a row: no tap swings so often.
 constexpr int kSwings = 6;
-// Time constant of what counts as the hand's own motion: 8 ms, a corner of 20 Hz.
-constexpr double kHandMotion_s = 0.008;
+// Time constant of what counts as the hand's own motion: a corner of 13 Hz.
+constexpr double kHandMotion_s = 0.012;
 // The forces come back to full within this, once the grip is calm.
 constexpr double kRecovery_s = 1.0;
 constexpr double kLeastScale = 0.25;

@@ -1,6 +1,6 @@
-// Do the forces shake the grip? A rendering that is too stiff for its latency swings to and fro at 20 to 200 Hz;
+// Do the forces shake the grip? A rendering that is too stiff for its latency swings to and fro at 12 to 200 Hz;
 // a hand does not, and a tap swings once or twice. Counted are the swings of the grip's velocity, in each DOF,
-// that follow each other within half a period of 20 Hz.
+// that follow each other within half a period.
 #pragma once
 
 #include "device/servo_snapshot.h"
@@ -24,7 +24,7 @@ public:
 
 private:
     struct Channel {
-        double slow = 0.0;    // what the hand does, below 20 Hz
+        double slow = 0.0;    // what the hand does, slowly
         double since_s = 0.0; // since the last swing
         double largest = 0.0; // of this row of swings
         std::int8_t side = 0; // of the last swing

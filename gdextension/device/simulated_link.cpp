@@ -65,9 +65,7 @@ StringArray SimulatedLink::receive() noexcept {
 
 bool SimulatedLink::deliver(DeviceReading &report, const ActiveFaults &faults) noexcept {
     ++made_;
-    if (has_held_) { // the one that was overtaken
-        has_held_ = false;
-        before_ = report;
+    if (held_for_ > 0 && --held_for_ == 0) { // the one that was overtaken, in place of this one
         report = held_;
         return true;
     }
@@ -83,7 +81,7 @@ bool SimulatedLink::deliver(DeviceReading &report, const ActiveFaults &faults) n
     }
     if (faults.reports_swapped && made_ % kSwappedEvery == 0) {
         held_ = report;
-        has_held_ = true;
+        held_for_ = 2;
         return false;
     }
     before_ = report;

@@ -46,7 +46,7 @@ private:
     std::uint64_t state_ = 1;
     DeviceReading held_;   // kept back to be delivered late
     DeviceReading before_; // delivered last
-    bool has_held_ = false;
+    int held_for_ = 0;     // reports until it is delivered; 0: none is held
     std::uint32_t made_ = 0;
 };
 

@@ -68,6 +68,10 @@ Vec3 clamped_to_reach(const PlantSettings &settings, const Vec3 &position_m) noe
 }
 
 SimulatedPlant::SimulatedPlant(const PlantSettings &settings) noexcept : settings_(settings) {
+    if (settings.grip.kind == GripKind::rigid) { // no hinge: both stops at rest
+        settings_.hinge_open_rad = 0.0;
+        settings_.hinge_closed_rad = 0.0;
+    }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         newtons_per_ampere_[i] = settings.motors.tension_gain[i] *
                                  settings.motors.torque_constant_nm_a[i] /
@@ -239,6 +243,8 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
         end_velocity[pole] =
             glm::cross(twist_.angular_rad_s, r[pole]) + twist_.grasp_rate_rad_s * dr[pole];
     }
+    const bool rigid = settings_.grip.kind == GripKind::rigid;
+    const Mat3 axes = glm::mat3_cast(rotation_);
     StringForces out;
     out.r1_m = poles.r1;
     out.r2_m = poles.r2;
@@ -246,11 +252,14 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Attachment &tie = settings_.grip.attachments[i];
         const auto pole = static_cast<std::size_t>(tie.pole);
-        const Vec3 to_motor = settings_.frame.motors_m[i] - (position_m_ + tie.sign * r[pole]);
+        const Vec3 lever = rigid ? axes * settings_.grip.joints_m[i] : tie.sign * r[pole];
+        const Vec3 velocity =
+            rigid ? glm::cross(twist_.angular_rad_s, lever) : tie.sign * end_velocity[pole];
+        const Vec3 to_motor = settings_.frame.motors_m[i] - (position_m_ + lever);
         const double length = std::max(kShortestString_m, std::sqrt(glm::dot(to_motor, to_motor)));
         const double inverse = 1.0 / length;
         const Vec3 direction = inverse * to_motor;
-        const double rate = -glm::dot(direction, twist_.linear_m_s + tie.sign * end_velocity[pole]);
+        const double rate = -glm::dot(direction, twist_.linear_m_s + velocity);
         double tension = 0.0;
         if (has_bit(broken_, i)) {
             // Nothing to pull with.
@@ -273,7 +282,11 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
         out.tensions_n[i] = tension;
         const Vec3 pull = tension * direction;
         out.wrench.force_n += pull;
-        end_force[pole] += tie.sign * pull;
+        if (rigid) {
+            out.wrench.moment_nm += glm::cross(lever, pull);
+        } else {
+            end_force[pole] += tie.sign * pull;
+        }
     }
     for (std::size_t pole = 0; pole < 2; ++pole) {
         out.wrench.moment_nm += glm::cross(r[pole], end_force[pole]);

@@ -17,6 +17,7 @@ struct Orders {
     std::uint32_t target_number = 0;
     HandFirmness firmness = HandFirmness::normal;
     std::uint32_t firmness_number = 0;
+    std::uint8_t buttons = 0;
     FaultList faults{};
 };
 
@@ -129,6 +130,7 @@ void SimulatedTransport::Impl::make_report() noexcept {
     made.device_time_us =
         static_cast<std::uint64_t>(std::llround((plant.time_s() - clock_base_s) * 1e6));
     ++made.sequence;
+    made.buttons = received.buttons;
     report = made;
     report_is_new = link.deliver(report, faults);
 }
@@ -248,6 +250,11 @@ void SimulatedTransport::set_hand_target(const HandTarget &target) noexcept {
     }
     impl_->orders.target = target;
     ++impl_->orders.target_number;
+    impl_->orders_mailbox.write(impl_->orders);
+}
+
+void SimulatedTransport::set_buttons(std::uint8_t buttons) noexcept {
+    impl_->orders.buttons = buttons;
     impl_->orders_mailbox.write(impl_->orders);
 }
 

@@ -31,6 +31,7 @@ public:
     // From the controlling thread.
     void set_hand_target(const HandTarget &target) noexcept; // not finite: ignored
     void set_hand_firmness(HandFirmness firmness) noexcept;
+    void set_buttons(std::uint8_t buttons) noexcept; // bit i: button i is held down
     // False, and nothing happens: not usable, or kMaxFaults are pending or active already. Its time starts at
     // the next advance(), open() or read().
     bool inject(const FaultInjection &fault) noexcept;

@@ -11,6 +11,8 @@ constexpr double kUsual_s = 0.15;
 // A disagreement that stays this long is no disturbance.
 constexpr double kSuspicion_s = 0.100;
 constexpr double kLarge_s = 0.050;
+// An error that grew too slowly to be noticed as new: where one string is hardly redundant, a slip shows late.
+constexpr double kAbove_s = 0.250;
 // A suspicion ends when the parity error is back to this part of what raised it.
 constexpr double kBack = 0.5;
 // A count within this of where it was has not moved (flicker of the encoder).
@@ -20,6 +22,11 @@ constexpr double kStill_s = 0.030;
 constexpr double kStuckParity_m = 1.0e-3;
 // Errors that the observer names are acted upon from here: below, the fade of the parity error decides.
 constexpr double kNamedError_m = 4.0e-3;
+// What a newton of tension may add to the parity error: a braid of EA = 3 kN stretches by 0.14 mm/N at 0.4 m, and the
+// eight add up by their weights. 0.25 mm/N is the most that simulated play shows in the range of a hand.
+constexpr double kStretch_m_n = 0.3e-3;
+// The observer knows nothing of stretch: it is asked while there is little.
+constexpr double kNamingMost_n = 3.0;
 
 } // namespace
 
@@ -27,13 +34,17 @@ Status StringMonitor::configure(const ServoSettings &settings) noexcept {
     FaultObserverSettings observed;
     observed.tick_s = 1.0 / settings.rate_hz;
     StringFaultObserver observer;
+    // The observer knows crossed grips. Of a rigid one the parity error tells that, not what and where.
+    const bool names = settings.grip.kind == GripKind::crossed;
     const Status status =
-        observer.configure(settings.frame, settings.grip, settings.strings, observed);
+        names ? observer.configure(settings.frame, settings.grip, settings.strings, observed)
+              : Status::ok;
     if (!usable(status)) {
         return status;
     }
     *this = StringMonitor();
     observer_ = observer;
+    names_ = names;
     fade_m_ = settings.safety.string_error_fade_m;
     fault_m_ = settings.safety.string_error_fault_m;
     return Status::ok;
@@ -47,17 +58,20 @@ void StringMonitor::reset() noexcept {
     usual_m_ = 0.0;
     suspicious_s_ = 0.0;
     large_s_ = 0.0;
+    above_s_ = 0.0;
     string_ = -1;
     faulty_ = false;
 }
 
 void StringMonitor::update(const CountArray &counts, const StringArray &lengths_m,
-                           const GripState &grip, bool moved, double dt_s) noexcept {
+                           const GripState &grip, bool moved, double strongest_n,
+                           double dt_s) noexcept {
     const double parity_m = grip.residual_rms_m * std::sqrt(double{kStringCount});
     if (!std::isfinite(parity_m)) {
         return;
     }
-    if (moved) {
+    const double stretch_m = kStretch_m_n * strongest_n;
+    if (moved && names_ && strongest_n <= kNamingMost_n) {
         KinematicsResult solved;
         solved.residual_rms_m = grip.residual_rms_m;
         solved.status = grip.status;
@@ -89,7 +103,8 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
             continue;
         }
         still.still_s += dt_s;
-        if (still.still_s >= kStill_s && std::abs(parity_m - still.parity_m) > kStuckParity_m) {
+        if (still.still_s >= kStill_s &&
+            std::abs(parity_m - still.parity_m) > kStuckParity_m + stretch_m) {
             stuck = static_cast<int>(i);
         }
     }
@@ -97,18 +112,20 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
     if (suspicious_s_ > 0.0) {
         // The usual error stands still meanwhile: a fault must not become the usual.
         suspicious_s_ += dt_s;
-        if (!(rise_m > kBack * (stuck >= 0 ? kStuckParity_m : fade_m_)) && stuck < 0) {
+        if (!(rise_m > kBack * (fade_m_ + stretch_m)) && stuck < 0) {
             suspicious_s_ = 0.0;
         }
-    } else if (rise_m > fade_m_ || stuck >= 0) {
+    } else if (rise_m > fade_m_ + stretch_m || stuck >= 0) {
         suspicious_s_ = dt_s;
         string_ = stuck;
     }
     if (!(suspicious_s_ > 0.0)) {
         usual_m_ = rise_m < 0.0 ? parity_m : usual_m_ + rise_m * (dt_s / (dt_s + kUsual_s));
     }
-    large_s_ = parity_m > fault_m_ ? large_s_ + dt_s : 0.0;
-    faulty_ = faulty_ || suspicious_s_ >= kSuspicion_s || large_s_ >= kLarge_s;
+    large_s_ = parity_m > fault_m_ + stretch_m ? large_s_ + dt_s : 0.0;
+    above_s_ = parity_m > fade_m_ + stretch_m ? above_s_ + dt_s : 0.0;
+    faulty_ =
+        faulty_ || above_s_ >= kAbove_s || suspicious_s_ >= kSuspicion_s || large_s_ >= kLarge_s;
 }
 
 } // namespace spidar

@@ -15,9 +15,10 @@ public:
     // The strings were given another zero, or a fault was cleared.
     void reset() noexcept;
 
-    // One good sample, `moved`: the pose is new.
+    // One good sample, `moved`: the pose is new. strongest_n: largest tension commanded; it stretches strings, which
+    // makes the lengths disagree too.
     void update(const CountArray &counts, const StringArray &lengths_m, const GripState &grip,
-                bool moved, double dt_s) noexcept;
+                bool moved, double strongest_n, double dt_s) noexcept;
 
     // The lengths began to disagree: the wrench has to fade.
     [[nodiscard]] bool suspicious() const noexcept { return suspicious_s_ > 0.0; }
@@ -39,6 +40,7 @@ private:
     double fade_m_ = 0.0;
     double fault_m_ = 0.0;
     StringFaultObserver observer_;
+    bool names_ = false; // observer_ is configured
     FaultEvidence named_;
     std::array<Still, kStringCount> still_{};
     bool started_ = false;
@@ -46,6 +48,7 @@ private:
     double usual_m_ = 0.0; // the parity error of the last tenths of a second
     double suspicious_s_ = 0.0;
     double large_s_ = 0.0; // parity above fault_m_ for this long
+    double above_s_ = 0.0; // and above fade_m_
     int string_ = -1;
     bool faulty_ = false;
 };

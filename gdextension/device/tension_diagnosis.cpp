@@ -9,12 +9,15 @@ TensionSettings solver_settings(const ServoSettings &settings) noexcept {
     for (const double strongest_n : max_tensions(settings.motors)) {
         tension.max_tension_n = std::min(tension.max_tension_n, strongest_n);
     }
+    if (settings.grip.kind == GripKind::rigid) {
+        tension.dof_mask &= kNoGrasp;
+    }
     return tension;
 }
 
 TensionReport tension_report(const ServoSettings &settings,
                              const ServoSnapshot &snapshot) noexcept {
-    const double ramp = snapshot.force_scale;
+    const double ramp = snapshot.tension_scale;
     const bool on = std::any_of(snapshot.tensions_n.begin(), snapshot.tensions_n.end(),
                                 [](double tension_n) { return tension_n != 0.0; });
     if (!on || !(ramp > 0.0)) {

@@ -12,7 +12,7 @@ namespace spidar {
 // never cut behind the solver's back.
 [[nodiscard]] TensionSettings solver_settings(const ServoSettings &settings) noexcept;
 
-// In the ramp of arming all is scaled alike. While the motors are off: zeros, status ok.
+// In the ramps of arming and fading all is scaled alike. While the motors are off: zeros, status ok.
 [[nodiscard]] TensionReport tension_report(const ServoSettings &settings,
                                            const ServoSnapshot &snapshot) noexcept;
 

@@ -87,10 +87,8 @@ void SpidarG::set_enabled(bool enabled) {
 }
 
 void SpidarG::set_forces_enabled(bool enabled) {
-    command_.forces_enabled = enabled;
-    if (loop_) {
-        loop_->publish(command_);
-    }
+    forces_wanted_ = enabled;
+    publish_forces();
 }
 
 void SpidarG::set_drive_mode(DriveMode mode) {
@@ -180,23 +178,13 @@ void SpidarG::open_device() {
         refuse_to_open(Status::invalid_settings, problem_);
         return;
     }
-    const std::string device_name = config_or_default().get_device_name().utf8().get_data();
-    if (!claim_.take(device_name, name_for_messages())) {
-        refuse_to_open(Status::device_in_use,
-                       "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
-                           spidar::DeviceClaim::owner_of(device_name) +
-                           "\". Free that node, or give this one another device_name.");
+    Status chosen = Status::ok;
+    std::string problem;
+    auto transport = choose_transport(chosen, problem);
+    if (!transport) {
+        refuse_to_open(chosen, problem);
         return;
     }
-    auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    if (calibration_.is_null()) {
-        // The ideal calibration of a device that starts at its home pose.
-        settings_.strings =
-            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
-                                                             spidar::rest_pose(settings_.grip)),
-                                      transport->home_counts(), plant_.metres_per_count);
-    }
-    simulated_ = transport.get();
     loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
     // Counters of an earlier run say nothing to the new loop.
     command_.wrench_sequence = 0;
@@ -208,11 +196,34 @@ void SpidarG::open_device() {
     if (!spidar::usable(status)) {
         loop_.reset();
         simulated_ = nullptr;
+        hid_ = nullptr;
         claim_.release();
         refuse_to_open(status, spidar::describe(status));
         return;
     }
     set_process_internal(true);
+}
+
+std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(Status &status,
+                                                                std::string &problem) {
+    const std::string device_name = config_or_default().get_device_name().utf8().get_data();
+    if (!claim_.take(device_name, name_for_messages())) {
+        status = Status::device_in_use;
+        problem = "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
+                  spidar::DeviceClaim::owner_of(device_name) +
+                  "\". Free that node, or give this one another device_name.";
+        return nullptr;
+    }
+    auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
+    if (calibration_.is_null()) {
+        // The ideal calibration of a device that starts at its home pose.
+        settings_.strings =
+            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
+                                                             spidar::rest_pose(settings_.grip)),
+                                      transport->home_counts(), plant_.metres_per_count);
+    }
+    simulated_ = transport.get();
+    return transport;
 }
 
 void SpidarG::refuse_to_open(Status status, const std::string &message) {
@@ -228,6 +239,7 @@ void SpidarG::close_device() {
         loop_->stop(); // motors off, thread joined, then the handle
         loop_.reset();
         simulated_ = nullptr;
+        hid_ = nullptr;
         replay_ = nullptr;
     }
     claim_.release();
@@ -252,6 +264,14 @@ void SpidarG::_notification(int what) {
     case NOTIFICATION_INTERNAL_PHYSICS_PROCESS:
         physics_tick();
         break;
+    case NOTIFICATION_APPLICATION_FOCUS_OUT:
+    case NOTIFICATION_APPLICATION_PAUSED:
+        set_away(release_on_focus_loss_);
+        break;
+    case NOTIFICATION_APPLICATION_FOCUS_IN:
+    case NOTIFICATION_APPLICATION_RESUMED:
+        set_away(false);
+        break;
     case NOTIFICATION_INTERNAL_PROCESS:
         pull_snapshot();
         break;
@@ -267,6 +287,7 @@ void SpidarG::physics_tick() {
     if (!loop_) {
         return;
     }
+    beat();
     if (drive_mode_ == DRIVE_STEPPED) {
         const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
@@ -296,6 +317,11 @@ void SpidarG::pull_snapshot() {
     const spidar::ServoSnapshot before = snapshot_;
     if (loop_->latest(snapshot_)) {
         emit_edges(before);
+        emit_buttons(before.buttons);
+    }
+    emit_events();
+    if (loop_) {
+        watch_loop();
     }
     watch_recordings();
 }

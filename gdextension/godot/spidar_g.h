@@ -13,12 +13,16 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 
 #include "device/device_claims.h"
-#include "device/recording/replay_transport.h"
+#include "device/hid/hid_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_config.h"
 #include "godot/world_frame.h"
+
+namespace spidar {
+class ReplayTransport;
+}
 
 class SpidarG : public godot::Node3D {
     GDCLASS(SpidarG, godot::Node3D)
@@ -31,8 +35,11 @@ public:
         STATE_ARMING,
         STATE_ACTIVE,
         STATE_FADING,
-        STATE_FAULT
+        STATE_FAULT,
+        STATE_TAUT,
+        STATE_CALIBRATED
     };
+    enum EventLevel { EVENT_INFO, EVENT_WARNING, EVENT_FAULT };
     enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
     enum ContactTarget {
         CONTACT_CENTRE,
@@ -90,7 +97,9 @@ public:
     void set_enabled(bool enabled);
     [[nodiscard]] bool is_enabled() const { return enabled_; }
     void set_forces_enabled(bool enabled);
-    [[nodiscard]] bool are_forces_enabled() const { return command_.forces_enabled; }
+    [[nodiscard]] bool are_forces_enabled() const { return forces_wanted_; }
+    void set_release_on_focus_loss(bool release);
+    [[nodiscard]] bool is_release_on_focus_loss() const { return release_on_focus_loss_; }
     void set_drive_mode(DriveMode mode);
     [[nodiscard]] DriveMode get_drive_mode() const { return drive_mode_; }
     void set_workspace_scale(double scale);
@@ -102,6 +111,14 @@ public:
     void disarm();
     void clear_fault();
     int advance_cycles(int cycles);
+
+    // Real device (spidar_g_device.cpp).
+    bool zero_device();
+    [[nodiscard]] godot::Dictionary get_device_info() const;
+
+    // Safety (spidar_g_safety.cpp).
+    void panic_stop();
+    bool zero_at_home();
 
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
@@ -177,6 +194,7 @@ public:
     bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
+    bool simulated_buttons(int mask);
 
     void _notification(int what);
 
@@ -190,6 +208,7 @@ private:
     static void bind_effects();
     static void bind_recording();
     static void bind_simulated();
+    static void bind_device();
     static void bind_enums();
 
     void resource_changed();
@@ -200,11 +219,26 @@ private:
     void open_device();
     void open_replay();
     void close_device();
+    // Null, with the reason: none.
+    std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
+                                                        std::string &problem);
+    std::unique_ptr<spidar::HidTransport> open_hid(spidar::Status &status, std::string &problem);
+    std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
+                                                           std::string &problem);
+    [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
+    void use_hid_calibration();
+    void emit_buttons(std::uint8_t before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before);
+    void emit_events();
+    void tell(const spidar::DeviceEvent &event);
+    void beat();
+    void watch_loop();
+    void set_away(bool away);
+    void publish_forces();
     // A recording that cannot go on, a replay that has ended.
     void watch_recordings();
     void tell_recording_failed();
@@ -225,8 +259,14 @@ private:
     spidar::PlantSettings plant_;
     std::string problem_; // why the device is not open
     bool restart_pending_ = false;
+    bool forces_wanted_ = false;
+    bool release_on_focus_loss_ = true;
+    bool away_ = false;       // the application has lost the focus, or was put aside
+    bool stall_told_ = false; // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
+    spidar::HidTransport *hid_ = nullptr; // owned by loop_
+    std::string fallback_;                // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
@@ -239,6 +279,7 @@ private:
 
 VARIANT_ENUM_CAST(SpidarG::DriveMode);
 VARIANT_ENUM_CAST(SpidarG::State);
+VARIANT_ENUM_CAST(SpidarG::EventLevel);
 VARIANT_ENUM_CAST(SpidarG::GraspPhase);
 VARIANT_ENUM_CAST(SpidarG::ContactTarget);
 VARIANT_ENUM_CAST(SpidarG::DofMask);

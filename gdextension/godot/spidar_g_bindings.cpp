@@ -8,7 +8,7 @@ using godot::PropertyInfo;
 using godot::Variant;
 
 // Godot's enums are the core's, number for number.
-static_assert(static_cast<int>(spidar::DeviceState::fault) == SpidarG::STATE_FAULT);
+static_assert(static_cast<int>(spidar::DeviceState::calibrated) == SpidarG::STATE_CALIBRATED);
 static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRASP_OVER_CLOSED);
 static_assert(static_cast<int>(spidar::ContactTarget::turn_stop) == SpidarG::CONTACT_TURN_STOP);
 static_assert(static_cast<int>(spidar::kAllDof) == SpidarG::DOF_ALL);
@@ -24,6 +24,7 @@ void SpidarG::_bind_methods() {
     bind_effects();
     bind_recording();
     bind_simulated();
+    bind_device();
 }
 
 void SpidarG::bind_setup() {
@@ -58,6 +59,13 @@ void SpidarG::bind_setup() {
 
     ClassDB::bind_method(D_METHOD("arm"), &SpidarG::arm);
     ClassDB::bind_method(D_METHOD("disarm"), &SpidarG::disarm);
+    ClassDB::bind_method(D_METHOD("panic_stop"), &SpidarG::panic_stop);
+    ClassDB::bind_method(D_METHOD("zero_at_home"), &SpidarG::zero_at_home);
+    ClassDB::bind_method(D_METHOD("set_release_on_focus_loss", "release"),
+                         &SpidarG::set_release_on_focus_loss);
+    ClassDB::bind_method(D_METHOD("is_release_on_focus_loss"), &SpidarG::is_release_on_focus_loss);
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "release_on_focus_loss"), "set_release_on_focus_loss",
+                 "is_release_on_focus_loss");
     ClassDB::bind_method(D_METHOD("clear_fault"), &SpidarG::clear_fault);
     ClassDB::bind_method(D_METHOD("advance_cycles", "cycles"), &SpidarG::advance_cycles);
 
@@ -65,6 +73,7 @@ void SpidarG::bind_setup() {
     ADD_SIGNAL(MethodInfo("device_lost", PropertyInfo(Variant::STRING, "reason")));
     ADD_SIGNAL(MethodInfo("armed"));
     ADD_SIGNAL(MethodInfo("disarmed"));
+    ADD_SIGNAL(MethodInfo("device_event", PropertyInfo(Variant::DICTIONARY, "event")));
     ADD_SIGNAL(MethodInfo("fault_raised", PropertyInfo(Variant::INT, "status"),
                           PropertyInfo(Variant::STRING, "message")));
     ADD_SIGNAL(MethodInfo("grasped"));
@@ -148,6 +157,11 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(STATE_ACTIVE);
     BIND_ENUM_CONSTANT(STATE_FADING);
     BIND_ENUM_CONSTANT(STATE_FAULT);
+    BIND_ENUM_CONSTANT(STATE_TAUT);
+    BIND_ENUM_CONSTANT(STATE_CALIBRATED);
+    BIND_ENUM_CONSTANT(EVENT_INFO);
+    BIND_ENUM_CONSTANT(EVENT_WARNING);
+    BIND_ENUM_CONSTANT(EVENT_FAULT);
     BIND_ENUM_CONSTANT(GRASP_OPEN);
     BIND_ENUM_CONSTANT(GRASP_GRASPED);
     BIND_ENUM_CONSTANT(GRASP_OVER_CLOSED);
@@ -190,4 +204,12 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(FAULT_LATE_OUTPUT);
     BIND_ENUM_CONSTANT(FAULT_BLOCKED_OUTPUT);
     BIND_CONSTANT(CONTACT_STRIDE);
+}
+
+void SpidarG::bind_device() {
+    ClassDB::bind_method(D_METHOD("zero_device"), &SpidarG::zero_device);
+    ClassDB::bind_method(D_METHOD("get_device_info"), &SpidarG::get_device_info);
+    ClassDB::bind_method(D_METHOD("simulated_buttons", "mask"), &SpidarG::simulated_buttons);
+    ADD_SIGNAL(MethodInfo("button_changed", PropertyInfo(Variant::INT, "button"),
+                          PropertyInfo(Variant::BOOL, "pressed")));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/presets.h"
 #include "godot/type_conversions.h"
 
 using godot::PROPERTY_HINT_NONE;
@@ -17,6 +18,10 @@ std::string complaint(const char *field, double value, const char *unit, const c
            ": " + remedy;
 }
 
+spidar::DevicePreset preset_of(int value) {
+    return spidar::device_preset(static_cast<spidar::Preset>(value - 1));
+}
+
 } // namespace
 
 std::string SpidarGConfig::own_problem() const {
@@ -27,6 +32,20 @@ std::string SpidarGConfig::own_problem() const {
             return complaint(fields[axis], size, "m",
                              "give the frame's outer size along this axis, above zero.");
         }
+    }
+    if (transport_ < TRANSPORT_AUTOMATIC || transport_ > TRANSPORT_DEVICE) {
+        return complaint("transport", transport_, "",
+                         "choose Automatic (0), Simulated (1) or Device (2).");
+    }
+    constexpr int kLargestUsbNumber = 0xFFFF;
+    if (device_vendor_id_ < 0 || device_vendor_id_ > kLargestUsbNumber) {
+        return complaint("device_vendor_id", device_vendor_id_, "", "choose 0 (any) to 65535.");
+    }
+    if (device_product_id_ < 0 || device_product_id_ > kLargestUsbNumber) {
+        return complaint("device_product_id", device_product_id_, "", "choose 0 (any) to 65535.");
+    }
+    if (preset_ < kPresetCustom || preset_ > spidar::kPresetCount) {
+        return complaint("preset", preset_, "(index)", "choose one of the list, 0 to 3.");
     }
     if (rate_hz_ < 100 || rate_hz_ > 4000) {
         return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000.");
@@ -59,9 +78,16 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     settings.velocity_cutoff_hz = velocity_cutoff_hz_;
     settings.frame = spidar::make_box_frame(0.5 * spidar::to_core(frame_size_));
     settings.grip.pole_half_length_m = pole_half_length_;
+    double metres_per_count = spidar::kPaperMetresPerCount;
+    if (preset_ != kPresetCustom) {
+        const spidar::DevicePreset device = preset_of(preset_);
+        settings.frame = device.frame;
+        settings.grip = device.grip;
+        metres_per_count = device.metres_per_count;
+    }
     settings.strings = spidar::calibrate_at_home(
         spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},
-        spidar::kPaperMetresPerCount);
+        metres_per_count);
     settings.render.string_resonance_hz = string_resonance_hz_;
     settings.render.delay_compensation_s = delay_compensation_;
     settings.render.latency_s = link_latency_;
@@ -97,6 +123,7 @@ spidar::PlantSettings SpidarGConfig::plant_settings() const {
     spidar::PlantSettings plant;
     plant.frame = servo.frame;
     plant.grip = servo.grip;
+    plant.metres_per_count = servo.strings.scale_m_per_count[0];
     plant.elastic = simulated_elastic_;
     plant.string_stiffness_ea_n = simulated_string_stiffness_;
     plant.coulomb_friction_n = simulated_friction_;
@@ -124,9 +151,18 @@ void SpidarGConfig::_bind_methods() {
 
     ADD_GROUP("Device", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_name, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, preset, godot::PROPERTY_HINT_ENUM,
+                        "Custom,Paper,SpidarG6X3R,SpidarG6X3L");
     SPIDAR_G_BIND_FIELD(Self, Variant::VECTOR3, frame_size, PROPERTY_HINT_NONE, "suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
                         "0.005,0.2,0.0001,or_greater,suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, transport, godot::PROPERTY_HINT_ENUM,
+                        "Automatic,Simulated,Device");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_product, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_serial, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_vendor_id, PROPERTY_HINT_RANGE, "0,65535,1");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_product_id, PROPERTY_HINT_RANGE, "0,65535,1");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, button_device, PROPERTY_HINT_RANGE, "0,31,1");
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
     SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "5,500,1,suffix:Hz");
@@ -182,4 +218,7 @@ void SpidarGConfig::_bind_methods() {
                         "Light,Normal,Firm");
 
     godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
+    BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
+    BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);
+    BIND_ENUM_CONSTANT(TRANSPORT_DEVICE);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
@@ -12,13 +13,29 @@
 #include "device/simulated_plant.h"
 #include "godot/resource_field.h"
 
+// Values of SpidarGConfig.preset: a crossed grip in a box of one's own sizes, then the devices of core/presets.h.
+inline constexpr int kPresetCustom = 0;
+
 class SpidarGConfig : public godot::Resource {
     GDCLASS(SpidarGConfig, godot::Resource)
 
+public:
+    enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE };
+
+private:
     // Frame and grip.
+    SPIDAR_G_FIELD(int, preset, kPresetCustom);
     SPIDAR_G_FIELD(godot::Vector3, frame_size, godot::Vector3(0.48F, 0.48F, 0.48F));
     SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
     SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
+
+    // Which device: numbers of 0 and an empty serial fit any.
+    SPIDAR_G_FIELD(int, transport, TRANSPORT_AUTOMATIC);
+    SPIDAR_G_FIELD(godot::String, device_product, "SPIDAR-G");
+    SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
+    SPIDAR_G_FIELD(int, device_vendor_id, 0);
+    SPIDAR_G_FIELD(int, device_product_id, 0);
+    SPIDAR_G_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
 
     // Servo loop.
     SPIDAR_G_FIELD(int, rate_hz, 1000);
@@ -85,3 +102,5 @@ public:
 protected:
     static void _bind_methods();
 };
+
+VARIANT_ENUM_CAST(SpidarGConfig::Transport);

@@ -188,6 +188,14 @@ godot::Dictionary SpidarG::get_statistics() const {
     statistics["lateness_p99_us"] = loop.lateness_p99_us;
     statistics["lateness_max_us"] = loop.lateness_max_us;
     statistics["missed_deadlines"] = whole(loop.missed_deadlines);
+    statistics["late_cycles"] = whole(loop.late_cycles);
+    statistics["reports_missed"] = whole(count.reports_missed);
+    statistics["old_reports"] = whole(count.old_reports);
+    statistics["faded_ticks"] = whole(count.faded_ticks);
+    statistics["safety_scale"] = snapshot_.safety_scale;
+    statistics["thermal_share"] = snapshot_.thermal_share;
+    statistics["parity_error_m"] = snapshot_.parity_error_m;
+    statistics["zero_known"] = snapshot_.zero_known;
     statistics["real_time_priority"] = loop.real_time_priority;
     statistics["ticks"] = whole(count.ticks);
     statistics["kinematics_skipped"] = whole(count.kinematics_skipped);

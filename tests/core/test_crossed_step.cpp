@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "core/constants.h"
 #include "core/crossed_step.h"
 #include "core/gauss_newton.h"
 #include "core/pose_helpers.h"
+#include "core/pose_polish.h"
 
 using namespace spidar;
 using test::kDeg;
@@ -109,6 +111,52 @@ TEST_CASE("crossed step: a factorisation from nearby ends at the same least-squa
         CAPTURE(i);
         CHECK(std::sqrt(solve_nearby(factor, errors, best).size_m2) < 1e-15 / factor.min_pivot);
     }
+}
+
+TEST_CASE(
+    "crossed step: with the curvature of the lengths steps converge quadratically, errors or not") {
+    const FrameGeometry frame = test::paper_frame();
+    const GripGeometry grip;
+    const double d = grip.pole_half_length_m;
+    const CrossedLayout layout = layout_of(grip);
+    test::Random random(68);
+    int plain_unfinished = 0;
+    for (int i = 0; i < 300; ++i) {
+        const GripPose truth = random.pose(grip, 0.15, 30.0 * kDeg);
+        StringArray lengths = string_lengths(frame, grip, truth);
+        for (double &length : lengths) {
+            length += random.between(-1e-3, 1e-3);
+        }
+        const PolishResult best = polish_pose({frame, grip, lengths}, truth);
+        REQUIRE(best.converged);
+        const CrossedPose start = lanes_of(nearby(best.pose, random, 1e-4, d));
+        const CrossedErrors errors = errors_at(layout, lengths, start);
+        const CrossedFactor curved = factorise_curved(errors, start, d);
+        REQUIRE(curved.solvable);
+        const CrossedStep newton = solve(curved, errors);
+        const double before = test::distance(pose_of(start), best.pose);
+        const double left = test::distance(pose_of(moved(start, newton, d)), best.pose);
+        CAPTURE(i);
+        CHECK(left < 4.0 * kLengthCurvature * before * before / curved.min_pivot);
+        // Three steps end where plain Gauss-Newton, bent by the residual, still has some way to go.
+        CrossedPose three = moved(start, newton, d);
+        CrossedPose plain = moved(start, solve(factorise(errors, start, d), errors), d);
+        for (int k = 0; k < 2; ++k) {
+            const CrossedErrors at_three = errors_at(layout, lengths, three);
+            three = moved(three, solve(factorise_curved(at_three, three, d), at_three), d);
+            const CrossedErrors at_plain = errors_at(layout, lengths, plain);
+            plain = moved(plain, solve(factorise(at_plain, plain, d), at_plain), d);
+        }
+        CHECK(test::distance(pose_of(three), best.pose) < 1e-13 / curved.min_pivot);
+        plain_unfinished += test::distance(pose_of(plain), best.pose) > 1e-11 ? 1 : 0;
+    }
+    CHECK(plain_unfinished > 100);
+    // Exact lengths have no residual to bend anything: the same matrix.
+    const GripPose rest = rest_pose(grip);
+    const StringArray lengths = string_lengths(frame, grip, rest);
+    const CrossedErrors none = errors_at(layout, lengths, lanes_of(rest));
+    CHECK(factorise_curved(none, lanes_of(rest), d).min_pivot ==
+          doctest::Approx(factorise(none, lanes_of(rest), d).min_pivot).epsilon(1e-12));
 }
 
 TEST_CASE("crossed step: three strings at an end are left to the general method") {

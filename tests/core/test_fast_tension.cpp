@@ -156,3 +156,33 @@ TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
     nothing.dof_mask = 0x80;
     CHECK(TensionSolver{}.configure(nothing) == Status::invalid_settings);
 }
+
+TEST_CASE("DOF mask: a string that crosses from one bound to the other is no convergence (found by "
+          "stress_tension_quick)") {
+    // All strings saturate: none is free before or after, and only their sides change.
+    test::Random random(77);
+    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
+    for (const SimdLevel level : kLevels) {
+        const LevelInUse in_use(level);
+        for (int round = 0; round < 300; ++round) {
+            TensionProblem problem;
+            problem.matrix = wrench_matrix(
+                frame, GripGeometry{}, test::random_pose(random, 0.2, random.uniform(0.5, 2.5)));
+            problem.weights = {1, 1, 1, 0, 0, 0, 0};
+            const double size = random.chance(0.5) ? 300.0 : 10.0;
+            problem.wrench = {random.uniform(-size, size), random.uniform(-size, size),
+                              random.uniform(-size, size)};
+            problem.proximal_weight = random.chance(0.5) ? 1e-3 : 0.2;
+            problem.lower_n.fill(0.3);
+            problem.upper_n.fill(random.uniform(1.5, 10.0));
+            problem.proximal_target_n.fill(0.5);
+            ActiveSet guess{};
+            for (StringBound &bound : guess) {
+                bound = static_cast<StringBound>(random.below(3));
+            }
+            const StringArray given = solve_tension_problem(problem, &guess).tensions_n;
+            CAPTURE(round);
+            CHECK(test::certify(problem, given).tension_error_n < 1e-11);
+        }
+    }
+}

@@ -282,6 +282,90 @@ TEST_CASE("kinematics: cold, a root pair that fits as well is never dropped unse
     CHECK(rivals > 0);
 }
 
+TEST_CASE("kinematics: a pose that two root pairs explain is flagged, cold and warm, and memory "
+          "keeps its branch") {
+    Rig rig;
+    // A pole seen edge on: upright and flipped root of its cubic nearly meet, and 0.1 mm in the lengths decide.
+    test::Random random(31);
+    int flagged = 0;
+    int plain = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const GripPose truth = random.pose(rig.grip, 0.2, 60.0 * kDeg);
+        StringArray lengths = rig.lengths(truth);
+        for (double &length : lengths) {
+            length += random.between(-2e-4, 2e-4);
+        }
+        const PolishResult branch = polish_pose({rig.frame, rig.grip, lengths}, truth);
+        if (!branch.converged) {
+            continue;
+        }
+        // Every pose that fits, by the slow way.
+        bool rival = false;
+        for (int pair = 0; pair < kRootPairCount; ++pair) {
+            const PolishResult other =
+                polish_pose({rig.frame, rig.grip, lengths},
+                            closed_form_pose(Vec3(kPaperHalfExtent_m), rig.grip.pole_half_length_m,
+                                             lengths, pair));
+            rival = rival || (other.converged && test::distance(other.pose, branch.pose) > 0.01 &&
+                              other.residual_rms_m < 2.0 * branch.residual_rms_m);
+        }
+        rig.kinematics.set_last_pose(branch.pose);
+        const KinematicsResult warm = rig.kinematics.update(lengths);
+        CAPTURE(i);
+        REQUIRE(usable(warm.status));
+        REQUIRE_FALSE(warm.cold_start);
+        REQUIRE(test::distance(warm.pose, branch.pose) < 1e-4); // memory decides
+        if (rival) {
+            CHECK(warm.status == Status::ambiguous_pose);
+            // Between two looks the flag stands.
+            CHECK(rig.kinematics.update(lengths).status == Status::ambiguous_pose);
+            CHECK(rig.kinematics.solve_cold(lengths).status == Status::ambiguous_pose);
+            ++flagged;
+        } else {
+            plain += warm.status == Status::ok ? 1 : 0;
+        }
+    }
+    CHECK(flagged > 10);
+    CHECK(plain > 2000);
+    // Back at rest it falls within a period.
+    const StringArray rest = rig.lengths(rest_pose(rig.grip));
+    KinematicsResult last = rig.kinematics.solve_cold(rest);
+    for (int tick = 0; tick < kRivalPeriod; ++tick) {
+        last = rig.kinematics.update(rest);
+    }
+    CHECK(last.status == Status::ok);
+}
+
+TEST_CASE("kinematics: warm, the flag rises and falls within a period as the hand passes an "
+          "ambiguous pose") {
+    // Noise-free lengths of one pose, from memory of it: no rival. Then lengths on which two pairs agree.
+    Rig rig;
+    test::Random random(32);
+    for (int i = 0, seen = 0; i < 20000 && seen < 20; ++i) {
+        const GripPose truth = random.pose(rig.grip, 0.2, 60.0 * kDeg);
+        StringArray noisy = rig.lengths(truth);
+        for (double &length : noisy) {
+            length += random.between(-2e-4, 2e-4);
+        }
+        if (rig.kinematics.solve_cold(noisy).status != Status::ambiguous_pose) {
+            continue;
+        }
+        const StringArray exact = rig.lengths(rig.kinematics.last_pose());
+        rig.kinematics.set_last_pose(rig.kinematics.last_pose());
+        CAPTURE(i);
+        Status status = Status::ok;
+        for (int tick = 0; tick <= kRivalPeriod; ++tick) {
+            status = rig.kinematics.update(exact).status;
+        }
+        CHECK(status != Status::ambiguous_pose);
+        for (int tick = 0; tick <= kRivalPeriod; ++tick) {
+            status = rig.kinematics.update(noisy).status;
+        }
+        CHECK(status == Status::ambiguous_pose);
+        ++seen;
+    }
+}
+
 TEST_CASE(
     "kinematics: rates of the lengths give the twist back, the transpose of the wrench matrix") {
     Rig rig;

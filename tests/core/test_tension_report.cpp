@@ -31,7 +31,7 @@ StringArray settled(const TensionSettings &settings, const WrenchMatrix &matrix,
     TensionSolver solver;
     REQUIRE(solver.configure(settings) == Status::ok);
     TensionResult result;
-    for (int tick = 0; tick < 3000 && !result.skipped; ++tick) {
+    for (int tick = 0; tick < 12000 && !result.skipped; ++tick) {
         result = solver.update(matrix, wrench);
     }
     return result.tensions_n;

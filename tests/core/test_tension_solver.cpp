@@ -54,7 +54,7 @@ bool within(const TensionSettings &settings, const StringArray &tensions_n) {
 // Ticks until the change term has died out.
 TensionResult settled(TensionSolver &solver, const WrenchMatrix &matrix, const DofArray &wrench) {
     TensionResult result;
-    for (int tick = 0; tick < 2000; ++tick) {
+    for (int tick = 0; tick < 12000 && !result.skipped; ++tick) {
         result = solver.update(matrix, wrench);
     }
     return result;

@@ -4,10 +4,30 @@
 
 #include <cstdlib>
 #include <new>
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 namespace {
 
 thread_local std::size_t allocations = 0;
+
+// Windows has no std::aligned_alloc, and its aligned memory has a free() of its own.
+void *take_aligned(std::size_t size, std::size_t step) {
+#ifdef _WIN32
+    return _aligned_malloc(size, step);
+#else
+    return std::aligned_alloc(step, (size + step - 1) / step * step);
+#endif
+}
+
+void give_aligned(void *memory) {
+#ifdef _WIN32
+    _aligned_free(memory);
+#else
+    std::free(memory);
+#endif
+}
 
 } // namespace
 
@@ -23,8 +43,7 @@ void *operator new(std::size_t size) {
 }
 void *operator new(std::size_t size, std::align_val_t alignment) {
     ++allocations;
-    const auto step = static_cast<std::size_t>(alignment);
-    if (void *const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) {
+    if (void *const memory = take_aligned(size, static_cast<std::size_t>(alignment))) {
         return memory;
     }
     throw std::bad_alloc();
@@ -36,10 +55,10 @@ void operator delete(void *memory, std::size_t) noexcept {
     std::free(memory);
 }
 void operator delete(void *memory, std::align_val_t) noexcept {
-    std::free(memory);
+    give_aligned(memory);
 }
 void operator delete(void *memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
+    give_aligned(memory);
 }
 
 std::size_t spidar::test::allocations_of_this_thread() noexcept {

@@ -56,7 +56,7 @@ Answer contacts_not_renewed(HandFirmness hand) {
     const Answer answer = rig.answer(gone_ms);
     rig.game_runs = true; // it comes back by itself
     rig.run_ms(150);
-    CHECK(force_of(rig.now) > 0.5);
+    CHECK(force_of(rig.now) > 0.6 * before_n);
     return answer;
 }
 
@@ -70,11 +70,12 @@ Answer game_stalled(HandFirmness hand) {
     CHECK(rig.now.state == DeviceState::connected);
     CHECK(rig.events_of(DeviceEventKind::game_stalled) == 1);
     rig.run_ms(1000);
-    CHECK(rig.motors_off()); // for as long as it sleeps
-    rig.game_runs = true;    // a simulated device arms itself again, a real one would wait
+    CHECK(rig.motors_off());                  // for as long as it sleeps
+    const Answer answer = rig.answer(off_ms); // what comes after is asked for again
+    rig.game_runs = true; // a simulated device arms itself again, a real one would wait
     rig.run_ms(300);
     CHECK(rig.now.state == DeviceState::active);
-    return rig.answer(off_ms);
+    return answer;
 }
 
 // None of these may change what is felt, nor last.
@@ -164,7 +165,8 @@ Answer wrench_step(HandFirmness hand) {
     }
     CHECK(risen_ms >= 3.0);
     rig.ask({});
-    return rig.answer(risen_ms);
+    return {risen_ms, rig.tension_n, 0.0,
+            rig.peak_speed_m_s}; // 8 N are asked for: no fault's energy
 }
 
 Answer stiff_contact(HandFirmness hand) {
@@ -212,7 +214,7 @@ constexpr FaultRow kRows[] = {
     {9, "NaN in a wrench", 1.0, 0.0, nan_wrench},
     {10, "infinity or 1e308 in a wrench", 1.0, 0.0, infinite_wrench},
     {11, "huge finite wrench", 17.0, 0.0, huge_wrench},
-    {12, "wrench step", 16.0, 0.0, wrench_step},
+    {12, "wrench step", 25.0, 0.0, wrench_step},
     {14, "stiffness and damping over their caps", 1.0, 0.0, stiff_contact},
     {38, "wrenches that strings cannot give", 1.0, 0.0, impossible_wrenches},
 };

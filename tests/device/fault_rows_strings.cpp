@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/calibration/length_jacobian.h"
 #include "device/fault_table.h"
 
 namespace spidar::test {
@@ -19,27 +20,47 @@ FaultRig in_play(HandFirmness hand) {
     return rig;
 }
 
-// Motors off by a string fault, whichever string it is; the worst answer of all eight.
+// Disagreement of the lengths that a fault has to show before it can be told from stretch and calibration.
+constexpr double kVisible_m = 0.0035;
+
+// How much of what string i is read wrong by shows in the one equation that eight lengths leave. Where that equation
+// hardly holds the string, nothing shows, and the pose is hardly wrong in what matters to it.
+double visible_error_m(const FaultRig &rig, std::size_t i) {
+    const StringArray read_m = lengths_from_counts(rig.settings.strings, rig.now.counts);
+    const PlantTruth truth = rig.device->truth();
+    const LengthJacobian jacobian(rig.settings.frame, rig.settings.grip, truth.pose);
+    return std::abs(jacobian.null_vector()[i] * (read_m[i] - truth.lengths_m[i]));
+}
+
+// Motors off by a string fault, whichever string it is; the worst answer of all eight, from when the fault shows.
+// One that does not show does no harm either: the energy given to the hand stays within the same bound.
 Answer of_each_string(HandFirmness hand, SimulatedFault fault) {
     Answer worst{0.0, 0.0, 0.0, 0.0};
+    int shown = 0;
     for (int string = 0; string < kStringCount; ++string) {
         CAPTURE(string);
         FaultRig rig = in_play(hand);
         REQUIRE(rig.inject(fault, string));
         rig.mark();
-        const double off_ms = rig.until([&](const auto &) { return rig.motors_off(); }, 1500);
-        CHECK(off_ms >= 0.0);
-        CHECK(rig.now.state != DeviceState::active);
-        rig.run_ms(300);
-        const Answer answer = rig.answer(off_ms);
-        worst.response_ms = off_ms < 0.0 ? off_ms : std::max(worst.response_ms, off_ms);
+        const auto at = static_cast<std::size_t>(string);
+        const double shows_ms = rig.until(
+            [&](const auto &) { return rig.motors_off() || visible_error_m(rig, at) > kVisible_m; },
+            1500);
+        if (shows_ms >= 0.0) {
+            ++shown;
+            const double off_ms = rig.until([&](const auto &) { return rig.motors_off(); }, 1500);
+            if (off_ms < 0.0) {
+                return rig.answer(off_ms);
+            }
+            worst.response_ms = std::max(worst.response_ms, off_ms - shows_ms);
+            rig.run_ms(300);
+        }
+        const Answer answer = rig.answer(0.0);
         worst.tension_n = std::max(worst.tension_n, answer.tension_n);
         worst.energy_j = std::max(worst.energy_j, answer.energy_j);
         worst.peak_speed_m_s = std::max(worst.peak_speed_m_s, answer.peak_speed_m_s);
-        if (off_ms < 0.0) {
-            break;
-        }
     }
+    CHECK(shown >= 4);
     return worst;
 }
 
@@ -53,6 +74,7 @@ Answer jammed_drum(HandFirmness hand) {
 
 Answer broken_string(HandFirmness hand) {
     Answer worst = of_each_string(hand, SimulatedFault::broken_string);
+    CHECK(worst.response_ms <= 150.0);
     const Answer slipped = of_each_string(hand, SimulatedFault::slipped_string);
     worst.response_ms = slipped.response_ms < 0.0
                             ? slipped.response_ms
@@ -166,9 +188,9 @@ Answer impossible_lengths(HandFirmness) {
 }
 
 constexpr FaultRow kRows[] = {
-    {18, "stuck encoder", 400.0, 0.0, stuck_encoder},
+    {18, "stuck encoder", 250.0, 0.0, stuck_encoder},
     {19, "reversed or swapped strings", 2500.0, 0.0, wrong_wiring},
-    {20, "jammed drum: slack or caught string", 400.0, 0.0, jammed_drum},
+    {20, "jammed drum: slack or caught string", 250.0, 0.0, jammed_drum},
     {21, "broken or slipped string", 250.0, 0.0, broken_string},
     {22, "lengths that no pose has", 5.0, 0.0, impossible_lengths},
     {36, "zero taken 30 mm beside home", 2500.0, 0.0, not_at_home},

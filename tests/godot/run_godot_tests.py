@@ -43,6 +43,22 @@ def quits_cleanly(godot):
     return good
 
 
+def project_opens_and_closes(godot, times=20):
+    """The project opened in the editor and closed again, `times` times: no error of ours, no thread left behind."""
+    for round_number in range(1, times + 1):
+        command = [godot, "--headless", "--editor", "--quit-after", "2", "--path", PROJECT]
+        done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace",
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        ours = [line for line in done.stdout.splitlines()
+                if "spidar" in line.lower() and re.search(r"error|leak|crash", line, re.I)]
+        if done.returncode != 0 or ours:
+            print("FAIL", f"project opened and closed, round {round_number}: exit code "
+                  f"{done.returncode}, {ours}\n{done.stdout[-2000:]}")
+            return False
+    print("PASS", f"project opened and closed {times} times")
+    return True
+
+
 def main(arguments):
     godot, *names = arguments
     prepare_project(PROJECT, godot)
@@ -58,8 +74,8 @@ def main(arguments):
     for problem in problems:
         print("FAIL", problem)
     if not names:
-        good = quits_cleanly(godot)
-        passed, failed = passed + good, failed + (not good)
+        for good in (quits_cleanly(godot), project_opens_and_closes(godot)):
+            passed, failed = passed + good, failed + (not good)
     print(f"{passed} passed, {failed + len(problems)} failed")
     return 0 if passed and not failed and not problems else 1
 

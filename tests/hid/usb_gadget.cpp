@@ -50,7 +50,9 @@ class GadgetHandle final : public HidHandle {
 public:
     GadgetHandle(std::unique_ptr<HidHandle> real, VirtualDevice &device)
         : real_(std::move(real)), device_(device) {}
-    int read(std::span<std::uint8_t> bytes) noexcept override { return real_->read(bytes); }
+    int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept override {
+        return real_->read(bytes, timeout_ms);
+    }
     int write(std::span<const std::uint8_t> bytes) noexcept override { return real_->write(bytes); }
     int get_feature(std::span<std::uint8_t> bytes) noexcept override {
         std::array<std::uint8_t, kLargestReport> report{};

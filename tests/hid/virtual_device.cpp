@@ -1,9 +1,12 @@
 #include "hid/virtual_device.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <sys/timerfd.h>
 #include <time.h>
+
+#include "core/string_calibration.h"
 
 namespace spidar::test {
 
@@ -12,6 +15,8 @@ namespace {
 constexpr std::uint32_t kTick_us = 1000;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::size_t kShortReport = 40;
+constexpr double kMotion_m = 0.005;
+constexpr double kMotion_rad_ms = 2.0 * 3.14159265358979 / 1000.0; // once a second
 
 bool take_one(std::atomic<int> &count) {
     if (count.load() <= 0) {
@@ -51,9 +56,23 @@ void VirtualDevice::clear_observations() {
     seen_.motors.reserve(20'000);
 }
 
+void VirtualDevice::move_grip() {
+    const bool zeroed = (firmware_.flags() & state_flag::kZeroed) != 0;
+    moving_ms_ = zeroed ? moving_ms_ + 1 : 0;
+    GripPose pose = rest_pose(grip_);
+    const StringArray home_m = string_lengths(frame_, grip_, pose);
+    pose.position_m.y += kMotion_m * std::sin(kMotion_rad_ms * moving_ms_);
+    const StringArray lengths_m = string_lengths(frame_, grip_, pose);
+    for (std::size_t i = 0; i < lengths_m.size(); ++i) {
+        firmware_.inputs.raw_counts[i] = static_cast<std::int32_t>(
+            std::lround((lengths_m[i] - home_m[i]) / kPaperMetresPerCount));
+    }
+}
+
 std::vector<std::vector<std::uint8_t>> VirtualDevice::tick(std::uint64_t expirations) {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (std::uint64_t i = 0; i < expirations; ++i) {
+        move_grip();
         firmware_.advance(kTick_us);
     }
     ++seen_.ticks;

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <vector>
 
+#include "core/frame_geometry.h"
+#include "core/grip_geometry.h"
 #include "hid/firmware_model.h"
 
 namespace spidar::test {
@@ -65,6 +67,12 @@ protected:
     DeviceObservations seen_;
 
 private:
+    // The grip rests at home until the device is zeroed; then a hand moves it up and down.
+    void move_grip();
+
+    FrameGeometry frame_ = make_box_frame(Vec3(kPaperHalfExtent_m));
+    GripGeometry grip_;
+    int moving_ms_ = 0;
     ReportArray last_{};
     ReportArray older_{};
 };

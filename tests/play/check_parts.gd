@@ -13,6 +13,8 @@ func _initialize() -> void:
 	_check_catalogue()
 	_check_match_shapes()
 	_check_robot()
+	_check_plan()
+	_check_store()
 	_check_minimum_jerk()
 	_check_csv()
 	print("%d passed, %d failed" % [_passed, _failed])
@@ -150,6 +152,59 @@ func _check_robot() -> void:
 		part.free()
 	_check(plugs == 6 and cups.size() == 6, "%d plugs, %d cups" % [plugs, cups.size()])
 	stand.free()
+
+
+## Each condition once in each place, and once right after each other one; the same layouts for all.
+func _check_plan() -> void:
+	var places: Dictionary[String, bool] = {}
+	var pairs: Dictionary[String, bool] = {}
+	for participant in range(1, 5):
+		var order: PackedStringArray = []
+		var seeds: Dictionary[String, Array] = {}
+		for step in ExperimentPlan.make(participant, 3):
+			if step.kind != ExperimentPlan.Kind.TRIAL:
+				continue
+			if not order.has(step.condition):
+				order.append(step.condition)
+			var key := "%s/%s" % [step.task, step.condition]
+			if not seeds.has(key):
+				seeds[key] = []
+			seeds[key].append(step.seed_number)
+		_check(seeds.size() == 12 and order.size() == 4, "participant %d: %s" % [participant, seeds.keys()])
+		for key in seeds:
+			_check(seeds[key] == [1, 2, 3], "%s: layouts %s" % [key, seeds[key]])
+		for place in order.size():
+			places["%d %s" % [place, order[place]]] = true
+			if place > 0:
+				pairs["%s %s" % [order[place - 1], order[place]]] = true
+	_check(places.size() == 16, "%d of 16 places and conditions" % places.size())
+	_check(pairs.size() == 12, "%d of 12 neighbours" % pairs.size())
+
+
+## A torn last line and the trace of an unfinished trial go; what is finished stays as it was.
+func _check_store() -> void:
+	var folder := ProjectSettings.globalize_path("user://check_store")
+	for name: String in ["summary.csv", "ratings.csv", "trace.csv"]:
+		DirAccess.remove_absolute(folder.path_join(name))
+	var store := ExperimentStore.new()
+	_check(store.open(folder, "s") == "", "a new folder is refused")
+	var head := {"session_id": "s", "task": "t", "condition": "c", "trial": 1}
+	store.append("trace.csv", [head.merged({"time_s": 0.5})])
+	store.append("summary.csv", [head.merged({"completed": true})])
+	var before := FileAccess.get_file_as_string(folder.path_join("trace.csv"))
+	store.append("trace.csv", [head.merged({"trial": 2, "time_s": 0.5}, true)])
+	var torn := FileAccess.open(folder.path_join("summary.csv"), FileAccess.READ_WRITE)
+	torn.seek_end()
+	torn.store_string("1,s,3,t")
+	torn.close()
+	var again := ExperimentStore.new()
+	_check(again.open(folder, "s") == "", "a folder with a torn line is refused")
+	_check(again.rows_of("summary.csv").size() == 1, "rows after mending: %s" % [again.rows_of("summary.csv")])
+	_check(again.done("summary.csv").keys() == ["t/c/1"], "done: %s" % [again.done("summary.csv")])
+	var after := FileAccess.get_file_as_string(folder.path_join("trace.csv"))
+	_check(after == before, "the trace of an unfinished trial: " + after)
+	again.append("summary.csv", [head.merged({"trial": 2, "abort_reason": "x"}, true)])
+	_check(not again.done("summary.csv").has("t/c/2"), "an aborted trial counts as done")
 
 
 func _check_minimum_jerk() -> void:

@@ -24,7 +24,7 @@ from godot_project import prepare_project  # noqa: E402
 DEMO = os.path.join(ROOT, "demo_project")
 SETTINGS = "godot/app_userdata/spidar_g demo/settings.cfg"
 START_LIMIT_S = 90
-STEP_LIMIT_S = 60
+STEP_LIMIT_S = 120  # a loaded machine without a GPU draws few frames a second, and the game waits for them
 WHEEL_STEP_M = 0.006  # the demo's own
 SCENES = {"pick_and_place": "PickAndPlace", "robot_linking": "RobotLinking", "match_linking": "MatchLinking"}
 
@@ -210,6 +210,7 @@ def main():
     parser.add_argument("godot")
     parser.add_argument("--display", default=os.environ.get("DISPLAY", ""))
     parser.add_argument("--only", default="", help="a part of the name of what to run")
+    parser.add_argument("--quick", action="store_true", help="one task by clicks, not all three")
     arguments = parser.parse_args()
     if not arguments.display:
         parser.error("no display: run under Xvfb, or give --display")
@@ -222,7 +223,7 @@ def main():
             print(f"FAIL {message}")
 
     parts = {"hub_by_grip": hub_by_grip, "object_by_mouse": object_by_mouse}
-    for task in SCENES:
+    for task in list(SCENES)[2:] if arguments.quick else SCENES:
         parts[task] = lambda godot, display, check, task=task: task_by_clicks(godot, display, task, check)
     for name, part in parts.items():
         if arguments.only not in name:

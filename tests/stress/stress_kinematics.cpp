@@ -1,73 +1,151 @@
-// stress_kinematics --cases N --seed S: random poses of many kinds, solved cold and warm. Two defining equations:
-// exact lengths must be reproduced to rounding (and the pose with them); with length errors the residual must
-// be orthogonal to every motion of the grip. Prints the worst case so that it replays; exit code 1 on a failure.
+// stress_kinematics --cases N --seed S: poses of many kinds, several devices and input that no device sends, solved cold
+// and warm. Defining equations: exact lengths must be reproduced to rounding (and the pose with them); with length
+// errors the residual must be orthogonal to every motion of the grip; a refusal must hold the last pose, bit for
+// bit, and be called for. Prints the worst case of each kind so that it replays; exit code 1 on a failure.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <random>
+#include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "core/forward_kinematics.h"
+#include "core/presets.h"
+#include "core/rigid_step.h"
+#include "core/string_exit.h"
+#include "support/case_random.h"
 
 namespace {
 
 using namespace spidar;
+using test::CaseRandom;
 
 constexpr double kDegree = 0.017453292519943295;
-// Rounding of eight lengths of up to 0.9 m, with a factor of ten.
-constexpr double kLengthTolerance_m = 2e-15;
+// Rounding of eight lengths, relative to the longest, with a factor of ten for metre-long ones.
+constexpr double kLengthTolerance = 4e-15;
 // The bar of the reference data, with the square root of the smallest pivot in the place of sigma7.
 constexpr double kPoseFloor_m = 1e-14;
 constexpr double kPoseOverPivot_m = 2e-14;
 // Forces of the residuals (in metres) must balance to rounding of residuals times eight strings.
 constexpr double kBalanceTolerance_m = 2e-14;
+// A warm tick of the general steps ends here at the latest after the movements below; one of the fast steps too.
+constexpr double kTrackedError_m = 2e-9;
+// The first sample after lost ones is further away: two steps from 3 mm.
+constexpr double kAfterLoss_m = 1e-5;
+// Along the direction that a singular pose leaves open poses 1e-5 m apart have the same lengths to this.
+constexpr double kOpenResidual_m = 1e-9;
+constexpr int kLoopTicks = 16;
 
-enum class Kind { nominal, wide, near_parallel, z_face, outside_xy, noisy, garbage, count };
-constexpr const char *kKindNames[] = {"nominal",    "wide",  "near_parallel", "z_face",
-                                      "outside_xy", "noisy", "garbage"};
+enum class Kind {
+    nominal,
+    wide,
+    near_parallel,
+    z_face,
+    outside_xy,
+    singular,
+    noisy,
+    random_lengths,
+    nasty,
+    other_box,
+    bent_frame,
+    pulleys,
+    rigid,
+    loop,
+    count
+};
+constexpr const char *kKindNames[] = {
+    "nominal",        "wide",  "near_parallel", "z_face",     "outside_xy", "singular", "noisy",
+    "random_lengths", "nasty", "other_box",     "bent_frame", "pulleys",    "rigid",    "loop"};
 constexpr int kKindCount = static_cast<int>(Kind::count);
 
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    double between(double low, double high) {
-        // By hand: std::uniform_real_distribution differs from library to library.
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-    double normal() { // sum of 12 uniforms: enough for noise, the same everywhere
-        double sum = -6.0;
-        for (int i = 0; i < 12; ++i) {
-            sum += between(0.0, 1.0);
+struct Device {
+    FrameGeometry frame;
+    GripGeometry grip;
+    ForwardKinematics kinematics;
+    double scale = 1.0; // of the paper's device
+    Device(const FrameGeometry &f, const GripGeometry &g, double s) : frame(f), grip(g), scale(s) {
+        if (!usable(kinematics.configure(frame, grip))) {
+            std::fprintf(stderr, "a device of this program is no device.\n");
+            std::exit(1);
         }
-        return sum;
     }
-
-private:
-    std::mt19937_64 engine_;
 };
 
-GripPose random_pose(Random &random, Kind kind, const GripGeometry &grip) {
-    const bool wide = kind == Kind::wide;
-    const double tilt = (wide ? 60.0 : 30.0) * kDegree;
-    double crossing = 90.0 + random.between(-1.0, 1.0) * (wide ? 45.0 : 30.0);
-    Vec3 position(random.between(-0.2, 0.2), random.between(-0.2, 0.2), random.between(-0.2, 0.2));
-    if (kind == Kind::near_parallel) {
-        const double off = std::exp(random.between(std::log(0.1), std::log(10.0)));
-        crossing = random.between(0.0, 1.0) < 0.5 ? off : 180.0 - off;
-    } else if (kind == Kind::z_face) {
-        position.z = std::copysign(random.between(0.2, 0.2399), random.between(-1.0, 1.0));
-    } else if (kind == Kind::outside_xy) {
-        const int axis = random.between(0.0, 1.0) < 0.5 ? 0 : 1;
-        position[axis] = std::copysign(random.between(0.25, 0.36), random.between(-1.0, 1.0));
+// [0] the paper's; then groups by kind.
+struct Devices {
+    std::vector<Device> paper, boxes, bent, pulleys, rigid;
+
+    Devices() {
+        CaseRandom random(7, 7);
+        const FrameGeometry cube = make_box_frame(Vec3(kPaperHalfExtent_m));
+        paper.emplace_back(cube, GripGeometry(), 1.0);
+        for (int i = 0; i < 32; ++i) {
+            // From a grip of 1 cm in a frame of 12 cm to one of half a metre in one of 6 m.
+            const double scale = random.spread(0.25, 12.0);
+            GripGeometry grip;
+            grip.pole_half_length_m *= scale;
+            const Vec3 sides = Vec3(1.0) + random.vector(0.4);
+            boxes.emplace_back(make_box_frame(kPaperHalfExtent_m * scale * sides), grip, scale);
+            FrameGeometry frame = cube;
+            for (Vec3 &motor : frame.motors_m) {
+                motor += random.vector(0.03);
+            }
+            bent.emplace_back(frame, GripGeometry(), 1.0);
+            frame = cube;
+            frame.pulley_radius_m = random.between(0.001, 0.01);
+            pulleys.emplace_back(frame, GripGeometry(), 1.0);
+            const DevicePreset x3 =
+                device_preset(i % 2 == 0 ? Preset::spidar_g6_x3r : Preset::spidar_g6_x3l);
+            StringVectors joints = x3.grip.joints_m;
+            frame = x3.frame;
+            for (std::size_t s = 0; s < kStringCount && i > 1; ++s) {
+                joints[s] += random.vector(0.004);
+                frame.motors_m[s] += random.vector(0.015);
+            }
+            rigid.emplace_back(frame, make_rigid_grip(joints), 1.0);
+        }
     }
-    const glm::dquat rotation = glm::angleAxis(random.between(-tilt, tilt), Vec3(0, 0, 1)) *
-                                glm::angleAxis(random.between(-tilt, tilt), Vec3(0, 1, 0)) *
-                                glm::angleAxis(random.between(-tilt, tilt), Vec3(1, 0, 0));
-    return make_pose(grip, position, glm::mat3_cast(rotation), (90.0 - crossing) * kDegree);
+    Device &of(Kind kind, CaseRandom &random) {
+        std::vector<Device> &list = kind == Kind::other_box    ? boxes
+                                    : kind == Kind::bent_frame ? bent
+                                    : kind == Kind::pulleys    ? pulleys
+                                    : kind == Kind::rigid      ? rigid
+                                                               : paper;
+        return list[random.below(list.size())];
+    }
+};
+
+GripPose random_pose(CaseRandom &random, Kind kind, const Device &device) {
+    const bool wide = kind == Kind::wide;
+    double grasp = random.between(-1.0, 1.0) * (wide ? 45.0 : 30.0) * kDegree;
+    Mat3 rotation = random.rotation((wide ? 60.0 : 30.0) * kDegree);
+    Vec3 position = random.vector(0.2);
+    if (kind == Kind::near_parallel) {
+        grasp = std::copysign(90.0 * kDegree - random.spread(0.1, 10.0) * kDegree, grasp);
+    } else if (kind == Kind::z_face) {
+        position.z = std::copysign(random.between(0.2, 0.2399), position.z);
+    } else if (kind == Kind::outside_xy) {
+        double &side = position[static_cast<int>(random.below(2))];
+        side = std::copysign(random.between(0.25, 0.36), side);
+    } else if (kind == Kind::singular) {
+        // A quarter turn about z at a right angle, or next to it, leaves a direction open; a face does too.
+        const double off = random.below(2) == 0 ? 0.0 : random.spread(1e-16, 1e-2);
+        if (random.below(3) == 0) {
+            position.z = kPaperHalfExtent_m - off;
+        } else {
+            rotation = glm::mat3_cast(
+                glm::angleAxis(std::copysign(90.0 * kDegree + off, grasp), Vec3(0, 0, 1)));
+            grasp = random.below(2) == 0 ? 0.0 : off;
+        }
+    } else if (kind == Kind::other_box || kind == Kind::bent_frame || kind == Kind::pulleys) {
+        position *= 0.5;
+    } else if (kind == Kind::rigid) {
+        position *= 0.1;
+        grasp = 0.0;
+    }
+    return make_pose(device.grip, device.scale * position, rotation, grasp);
 }
 
 double pose_error(const GripPose &a, const GripPose &b) {
@@ -77,26 +155,136 @@ double pose_error(const GripPose &a, const GripPose &b) {
 
 bool finite_on_spheres(const GripPose &pose, double d) {
     return std::isfinite(glm::dot(pose.position_m, pose.position_m)) &&
-           std::fabs(glm::length(pose.r1_m) - d) < 1e-15 &&
-           std::fabs(glm::length(pose.r2_m) - d) < 1e-15;
+           std::fabs(glm::length(pose.r1_m) - d) < 1e-14 * d &&
+           std::fabs(glm::length(pose.r2_m) - d) < 1e-14 * d;
 }
 
 // Largest of: sum of residual forces, and the part of their sum on each pole that could turn it.
-double imbalance(const FrameGeometry &frame, const GripGeometry &grip, const GripPose &pose,
-                 const StringArray &lengths_m) {
+double imbalance(const Device &device, const GripPose &pose, const StringArray &lengths_m) {
     Vec3 force(0.0);
     Vec3 couples[2] = {Vec3(0.0), Vec3(0.0)};
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        const Vec3 string = attachment_point(grip, pose, static_cast<int>(i)) - frame.motors_m[i];
+        const Vec3 string =
+            attachment_point(device.grip, pose, static_cast<int>(i)) - device.frame.motors_m[i];
         const double length = glm::length(string);
         const Vec3 pull = string * ((lengths_m[i] - length) / length);
         force += pull;
-        couples[grip.attachments[i].pole] += pull * grip.attachments[i].sign;
+        couples[device.grip.attachments[i].pole] += pull * device.grip.attachments[i].sign;
     }
-    const double d = grip.pole_half_length_m;
+    const double d = device.grip.pole_half_length_m;
     return std::fmax(glm::length(force),
                      std::fmax(glm::length(glm::cross(pose.r1_m / d, couples[0])),
                                glm::length(glm::cross(pose.r2_m / d, couples[1]))));
+}
+
+struct Verdict {
+    double ratio = 0.0; // to the tolerance; above 1: a failure
+    Status status = Status::ok;
+};
+
+// A pose found for exact lengths against the true one.
+double exact_ratio(const Device &device, const KinematicsResult &result, const GripPose &truth) {
+    const double tolerance = kPoseFloor_m + kPoseOverPivot_m / std::sqrt(result.conditioning);
+    const double scale = std::fmax(device.scale, 1.0);
+    return std::fmax(result.residual_rms_m / kLengthTolerance,
+                     pose_error(result.pose, truth) / tolerance) /
+           scale;
+}
+
+Verdict judge(Device &device, CaseRandom &random, Kind kind) {
+    ForwardKinematics &kinematics = device.kinematics;
+    const GripPose truth = random_pose(random, kind, device);
+    StringArray lengths = string_lengths(device.frame, device.grip, truth);
+    bool exact = true;
+    if (kind == Kind::noisy) {
+        const double sigma = random.spread(1e-5, 1e-3);
+        for (double &length : lengths) {
+            length += sigma * random.normal();
+        }
+        exact = false;
+    } else if (kind == Kind::random_lengths) {
+        for (double &length : lengths) {
+            length = random.between(0.0, 1.0);
+        }
+        exact = false;
+    } else if (kind == Kind::nasty) {
+        const std::size_t bad = 1 + random.below(kStringCount);
+        for (std::size_t i = 0; i < bad; ++i) {
+            lengths[random.below(kStringCount)] = random.nasty();
+        }
+        exact = false;
+    }
+    // Frames without a closed form are searched from seven starts: cold, near rest; else from memory close by.
+    const bool general = kind == Kind::bent_frame || kind == Kind::rigid || kind == Kind::pulleys;
+    GripPose memory = random_pose(random, general ? kind : Kind::nominal, device);
+    if (general) {
+        memory = truth;
+        memory.position_m += random.vector(1e-3);
+    }
+    kinematics.set_last_pose(memory);
+    const bool cold = !general && random.below(2) == 0;
+    const KinematicsResult result =
+        cold ? kinematics.solve_cold(lengths) : kinematics.update(lengths);
+    Verdict verdict;
+    verdict.status = result.status;
+    if (!finite_on_spheres(result.pose, device.grip.pole_half_length_m)) {
+        verdict.ratio = HUGE_VAL;
+    } else if (!usable(result.status)) {
+        const bool held = pose_error(memory, result.pose) == 0.0;
+        verdict.ratio = held && (!exact || kind == Kind::singular) ? 0.0 : HUGE_VAL;
+    } else if (!exact) {
+        verdict.ratio = imbalance(device, result.pose, lengths) / kBalanceTolerance_m;
+    } else if (kind == Kind::singular) {
+        // The lengths hold; the pose along the open direction is anybody's.
+        verdict.ratio = result.residual_rms_m / kOpenResidual_m;
+        if (result.status == Status::ok) {
+            verdict.ratio = std::fmax(verdict.ratio, exact_ratio(device, result, truth));
+        }
+    } else if (general) {
+        verdict.ratio = pose_error(result.pose, truth) / (kTrackedError_m / result.conditioning);
+    } else {
+        verdict.ratio = exact_ratio(device, result, truth);
+    }
+    return verdict;
+}
+
+// A hand that moves on for some ticks, with a refused sample now and then: warm to the end, on the true branch.
+Verdict follow(Device &device, CaseRandom &random) {
+    ForwardKinematics &kinematics = device.kinematics;
+    GripPose truth = random_pose(random, Kind::nominal, device);
+    truth.position_m *= 0.7;
+    kinematics.set_last_pose(truth);
+    const GripFrame start = frame_of(truth, Mat3(1.0));
+    const Vec3 velocity = random.vector(7e-4); // a tick
+    const Vec3 turn = random.vector(2.5e-3);
+    const double closing = random.between(-2.5e-3, 2.5e-3);
+    Verdict verdict;
+    bool lost = false;
+    for (int tick = 1; tick <= kLoopTicks; ++tick) {
+        const Mat3 turned = glm::mat3_cast(glm::dquat(static_cast<double>(tick) * turn));
+        const GripPose next =
+            make_pose(device.grip, truth.position_m + static_cast<double>(tick) * velocity,
+                      turned * start.rotation, start.grasp_angle_rad + tick * closing);
+        StringArray lengths = string_lengths(device.frame, device.grip, next);
+        const bool spoilt = random.below(8) == 0;
+        if (spoilt) {
+            lengths[random.below(kStringCount)] = random.below(2) == 0 ? -1.0 : std::nan("");
+        }
+        const GripPose before = kinematics.last_pose();
+        const KinematicsResult result = kinematics.update(lengths);
+        verdict.status = result.status;
+        double wrong = 0.0;
+        if (spoilt) {
+            const bool held = pose_error(before, result.pose) == 0.0;
+            wrong = held && !usable(result.status) ? 0.0 : HUGE_VAL;
+        } else {
+            const double allowed = lost ? kAfterLoss_m : kTrackedError_m;
+            wrong = pose_error(result.pose, next) / (allowed / result.conditioning);
+        }
+        lost = spoilt;
+        verdict.ratio = wrong <= verdict.ratio ? verdict.ratio : wrong;
+    }
+    return verdict;
 }
 
 struct Worst {
@@ -104,55 +292,9 @@ struct Worst {
     long refused = 0;
     long flagged = 0;
     long failed = 0;
-    double value = -1.0; // largest ratio to the tolerance
+    double ratio = -1.0;
     long at = -1;
-    GripPose pose;
 };
-
-struct Verdict {
-    double ratio = 0.0;
-    Status status = Status::ok;
-};
-
-Verdict judge(ForwardKinematics &kinematics, const FrameGeometry &frame, const GripGeometry &grip,
-              Random &random, Kind kind, const GripPose &truth) {
-    StringArray lengths = string_lengths(frame, grip, truth);
-    if (kind == Kind::noisy) {
-        const double sigma = std::exp(random.between(std::log(1e-5), std::log(1e-3)));
-        for (double &length : lengths) {
-            length += sigma * random.normal();
-        }
-    } else if (kind == Kind::garbage) {
-        for (double &length : lengths) {
-            length = random.between(0.0, 1.0);
-        }
-    }
-    Verdict verdict;
-    const GripPose before = kinematics.last_pose();
-    const bool cold = random.between(0.0, 1.0) < 0.5;
-    const KinematicsResult result =
-        cold ? kinematics.solve_cold(lengths) : kinematics.update(lengths);
-    verdict.status = result.status;
-    if (!finite_on_spheres(result.pose, grip.pole_half_length_m)) {
-        verdict.ratio = HUGE_VAL;
-        return verdict;
-    }
-    if (!usable(result.status)) {
-        // A refusal holds the last pose, bit for bit, and is right only where there may be no pose.
-        const bool held = pose_error(before, result.pose) == 0.0;
-        const bool excused = kind == Kind::garbage || kind == Kind::noisy;
-        verdict.ratio = held && excused ? 0.0 : HUGE_VAL;
-        return verdict;
-    }
-    if (kind == Kind::noisy || kind == Kind::garbage) {
-        verdict.ratio = imbalance(frame, grip, result.pose, lengths) / kBalanceTolerance_m;
-        return verdict;
-    }
-    const double tolerance = kPoseFloor_m + kPoseOverPivot_m / std::sqrt(result.conditioning);
-    verdict.ratio = std::fmax(result.residual_rms_m / kLengthTolerance_m,
-                              pose_error(result.pose, truth) / tolerance);
-    return verdict;
-}
 
 long option(int argc, char **argv, const char *name, long otherwise) {
     for (int i = 1; i + 1 < argc; ++i) {
@@ -168,45 +310,37 @@ long option(int argc, char **argv, const char *name, long otherwise) {
 int main(int argc, char **argv) {
     const long cases = option(argc, argv, "--cases", 20000);
     const long seed = option(argc, argv, "--seed", 1);
-    if (cases <= 0) {
-        std::fprintf(stderr, "--cases is %ld; give a positive number of cases.\n", cases);
+    const long first = option(argc, argv, "--first", 0); // replay: --first CASE --cases 1
+    if (cases <= 0 || first < 0) {
+        std::fprintf(stderr, "--cases is %ld, --first is %ld; give a positive number of cases.\n",
+                     cases, first);
         return 2;
     }
-    const GripGeometry grip;
-    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-    ForwardKinematics kinematics;
-    if (!usable(kinematics.configure(frame, grip))) {
-        return 1;
-    }
+    Devices devices;
     Worst worst[kKindCount];
-    for (long i = 0; i < cases; ++i) {
-        // Each case has its own generator and memory, so that one case replays alone.
-        Random random(static_cast<std::uint64_t>(seed) * 1000003ULL +
-                      static_cast<std::uint64_t>(i));
+    for (long i = first; i < first + cases; ++i) {
+        CaseRandom random(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(i));
         const auto kind = static_cast<Kind>(i % kKindCount);
-        const GripPose truth = random_pose(random, kind, grip);
-        kinematics.set_last_pose(random_pose(random, Kind::nominal, grip));
-        const Verdict verdict = judge(kinematics, frame, grip, random, kind, truth);
+        Device &device = devices.of(kind, random);
+        const Verdict verdict =
+            kind == Kind::loop ? follow(device, random) : judge(device, random, kind);
         Worst &w = worst[static_cast<int>(kind)];
         ++w.cases;
         w.refused += usable(verdict.status) ? 0 : 1;
         w.flagged += verdict.status == Status::ok ? 0 : 1;
         w.failed += verdict.ratio <= 1.0 ? 0 : 1;
-        if (!(verdict.ratio <= w.value)) {
-            w.value = verdict.ratio;
+        if (!(verdict.ratio <= w.ratio)) {
+            w.ratio = verdict.ratio;
             w.at = i;
-            w.pose = truth;
         }
     }
     long failed = 0;
     for (int k = 0; k < kKindCount; ++k) {
         const Worst &w = worst[k];
         failed += w.failed;
-        std::printf("%-14s cases %ld, refused %ld, flagged %ld, failed %ld, worst ratio %.3g: case "
-                    "%ld, P0 %.17g %.17g %.17g, r1 %.17g %.17g %.17g, r2 %.17g %.17g %.17g\n",
-                    kKindNames[k], w.cases, w.refused, w.flagged, w.failed, w.value, w.at,
-                    w.pose.position_m.x, w.pose.position_m.y, w.pose.position_m.z, w.pose.r1_m.x,
-                    w.pose.r1_m.y, w.pose.r1_m.z, w.pose.r2_m.x, w.pose.r2_m.y, w.pose.r2_m.z);
+        std::printf("%-14s cases %ld, refused %ld, flagged %ld, failed %ld, worst ratio to "
+                    "tolerance %.3g: --first %ld --cases 1\n",
+                    kKindNames[k], w.cases, w.refused, w.flagged, w.failed, w.ratio, w.at);
     }
     std::printf("seed %ld, cases %ld, failures %ld\n", seed, cases, failed);
     return failed == 0 ? 0 : 1;

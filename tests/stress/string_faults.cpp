@@ -1,8 +1,8 @@
 // string_faults --cases N --seed S [--healthy_s T]: N motions of 5 s, T1-like, each with a random
 // fault of one string (slipped or slack by 5 to 25 mm, stuck, swapped, reversed); then T seconds of
-// healthy motion (default 5 N). Prints, for each fault, how often the right string and the right
+// healthy motion (default 5 N) of devices calibrated within 0.1 mm. Prints, for each fault, how often the right string and the right
 // fault were named, and each miss so that it replays alone (--first CASE --cases 1). Exit code 1
-// when the right string is named in less than 99 % of the cases or a healthy device is accused.
+// when the right string is named in less than 99 % of the cases, or healthy devices are accused once an hour or more often.
 // Named without stress_: a case is 5,000 servo ticks, not one.
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +20,9 @@ constexpr StringFault kFaults[] = {StringFault::slipped, StringFault::slack, Str
                                    StringFault::swapped, StringFault::reversed};
 constexpr long kFaultCount = 5;
 constexpr double kBar = 0.99;
+constexpr double kAlarmsAnHour = 1.0; // fewer than this
+// A healthy device is calibrated as the self-calibration leaves it with 100 poses, and a little worse.
+constexpr double kCalibrationError_m = 1e-4;
 
 double option(int argc, char **argv, const char *name, double otherwise) {
     for (int i = 1; i + 1 < argc; ++i) {
@@ -37,7 +40,7 @@ long false_alarms(std::uint64_t seed, double healthy_s) {
     long part = 0;
     for (double done = 0.0; done < healthy_s; done += kStretch_s, ++part) {
         Draw draw(seed * 7919U + static_cast<std::uint64_t>(part));
-        FaultyDevice device(FaultCase{}, draw);
+        FaultyDevice device(FaultCase{}, draw, kCalibrationError_m);
         const int ticks = static_cast<int>(std::fmin(kStretch_s, healthy_s - done) / kTick_s);
         for (int k = 0; k < ticks; ++k) {
             if (device.step(k * kTick_s).fault != StringFault::none) {
@@ -97,5 +100,7 @@ int main(int argc, char **argv) {
     const double share = static_cast<double>(right) / static_cast<double>(cases);
     std::printf("seed %lu, cases %ld, right string %.2f %%; %ld false alarms in %.2f h of motion\n",
                 static_cast<unsigned long>(seed), cases, 100.0 * share, alarms, healthy_s / 3600.0);
-    return share >= kBar && alarms == 0 ? 0 : 1;
+    const bool quiet =
+        alarms == 0 || static_cast<double>(alarms) * 3600.0 < kAlarmsAnHour * healthy_s;
+    return share >= kBar && quiet ? 0 : 1;
 }

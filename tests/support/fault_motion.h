@@ -63,14 +63,21 @@ inline FaultCase random_fault(Draw &draw, StringFault fault) {
 
 class FaultyDevice {
 public:
-    FaultyDevice(const FaultCase &fault, Draw &draw)
-        : fault_(fault), draw_(draw), motion_(draw), device_(paper_device()) {
+    // calibration_error_m: standard deviation of the offsets that the observer's calibration has wrong.
+    FaultyDevice(const FaultCase &fault, Draw &draw, double calibration_error_m = 0.0)
+        : fault_(fault), draw_(draw), motion_(draw), device_(paper_device()),
+          believed_(device_.strings) {
+        if (calibration_error_m > 0.0) {
+            for (double &offset_m : believed_.offset_m) {
+                offset_m += calibration_error_m * draw.normal();
+            }
+        }
         kinematics_.configure(device_.frame, device_.grip);
-        observer_.configure(device_.frame, device_.grip, device_.strings, FaultObserverSettings{});
+        observer_.configure(device_.frame, device_.grip, believed_, FaultObserverSettings{});
     }
     const FaultEvidence &step(double t) {
         CountArray counts = counts_at_time(t);
-        const StringArray lengths = lengths_from_counts(device_.strings, counts);
+        const StringArray lengths = lengths_from_counts(believed_, counts);
         return observer_.update(counts, lengths, kinematics_.update(lengths));
     }
 
@@ -105,6 +112,7 @@ private:
     Draw &draw_;
     MotionLikeT1 motion_;
     DeviceModel device_;
+    StringCalibration believed_;
     ForwardKinematics kinematics_;
     StringFaultObserver observer_;
     bool stuck_ = false;

@@ -86,6 +86,16 @@ func push_bodies(most_n_s: float) -> void:
 			plane.pushed_body.apply_impulse(impulse.limit_length(most_n_s), arm)
 
 
+## The shortest way out of all planes that a held body stands in; marks them as met through it.
+static func way_out(met: Array[ContactPlane]) -> Vector3:
+	var shift: Vector3 = Vector3.ZERO
+	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
+		for plane: ContactPlane in met:
+			plane.through_held_body = true
+			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
+	return shift
+
+
 func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:
 	for other: ContactPlane in nearer:
 		if plane.normal.dot(other.normal) > MERGE_COSINE:

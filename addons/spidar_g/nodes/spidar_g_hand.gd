@@ -305,12 +305,7 @@ func _carry(
 	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
 	_finder.find_round_body(_space(), body, at, exclude, found)
-	var shift: Vector3 = Vector3.ZERO
-	for _pass: int in 3:  # Enough for a corner of three planes at right angles.
-		for plane: ContactPlane in found:
-			plane.through_held_body = true
-			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
-	_hold.follow(grip, shift)
+	_hold.follow(grip, ContactSet.way_out(found))
 
 
 func _find_tool_planes(

@@ -15,6 +15,10 @@ const YAW_RAD: PackedFloat64Array = [0.0, deg_to_rad(8.0), deg_to_rad(15.0)]
 const POSITION_TOLERANCE_M: PackedFloat64Array = [0.005, 0.004, 0.004]
 const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(8.0), deg_to_rad(6.0), deg_to_rad(6.0)]
 
+## Nearer than in pick and place: the things are smaller.
+const VIEW_DEG := 22.0
+const VIEW_DOWN_M := 0.005
+
 var linker := Linker.new()
 var shape: MatchShape
 
@@ -31,6 +35,7 @@ func _ready() -> void:
 	add_child(linker)
 	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
+	($CameraRig as CameraRig).see(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:

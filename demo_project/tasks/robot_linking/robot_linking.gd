@@ -19,6 +19,10 @@ const LATCH_RAD: PackedFloat64Array = [deg_to_rad(5.0), deg_to_rad(5.0), deg_to_
 const POSITION_TOLERANCE_M: PackedFloat64Array = [0.004, 0.004, 0.003]
 const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(6.0), deg_to_rad(6.0), deg_to_rad(4.0)]
 
+## Nearer than in pick and place: the things are smaller.
+const VIEW_DEG := 27.0
+const VIEW_DOWN_M := 0.000
+
 var linker := Linker.new()
 
 
@@ -34,6 +38,7 @@ func _ready() -> void:
 	add_child(linker)
 	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
+	($CameraRig as CameraRig).see(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:

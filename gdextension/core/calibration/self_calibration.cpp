@@ -297,7 +297,9 @@ SelfCalibrationResult self_calibrate(const DeviceModel &start,
     if (!validate(settings).empty()) {
         return refusal(start, Status::invalid_settings);
     }
-    if (!is_usable(start.frame) || !is_usable(start.grip, start.frame)) {
+    if (!is_usable(start.frame) || !is_usable(start.grip, start.frame) ||
+        start.grip.kind !=
+            GripKind::crossed) { // the parity equation is that of one redundant length
         return refusal(start, Status::invalid_geometry);
     }
     if (!validate(start.strings).empty() || !validate(start.corrections).empty()) {

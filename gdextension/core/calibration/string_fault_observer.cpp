@@ -12,19 +12,21 @@ namespace {
 
 // A squared misfit counts no more than this: one wild sample is not the whole evidence.
 constexpr double kMisfitCap = 60.0;
-// Starting variance of a string's error: a slip of 30 mm is large.
+// Starting variance of a string's error: a slip of 30 mm is large. A guess stays within twice that: where a string hardly
+// weighs in the equation, one sample could throw it anywhere.
 constexpr double kStartError_m = 0.03;
+constexpr double kLargestError_m = 0.06;
 // An innovation of more than five standard deviations reopens a filter to errors of this size.
 constexpr double kSurprise = 25.0;
 constexpr double kRelearn_m = 0.01;
-// A slipped string stays where it slipped to: the drift (standard deviation in one second) only
-// lets the filter recover from its first linear guess. A slack one moves by a centimetre in a
-// second.
-constexpr double kSlipDrift_m = 2e-3;
+// A slipped string stays where it slipped to (drift: standard deviation in one second); a slack one moves by a centimetre
+// in a second. The ten times and more between them tell the two apart.
+constexpr double kSlipDrift_m = 2e-4;
 constexpr double kSlackDrift_m = 0.008;
-// The parity weights are those of a pose that the error itself displaced: error of the linear
-// equation.
-constexpr double kLinearError = 0.05;
+// The parity weights are those of a pose that an error of the guess displaces: what the linear equation misses is this
+// times the square of that error (unit: 1/m; a pose moves by up to four times the error of a length, and a weight turns
+// over by one in the quarter metre or so of a string's length).
+constexpr double kBend_1_m = 5.0;
 // An explanation must fit to this mean squared misfit, and others fit worse by this factor and
 // difference.
 constexpr double kFits = 3.0;
@@ -39,6 +41,8 @@ constexpr std::int32_t kStillCounts = 2;
 constexpr double kOthersTravel_m = 0.3;
 // Wrong wiring errs by centimetres once the grip moves; below this it need not be tried.
 constexpr double kWiringParity_m = 3e-3;
+// Lengths that no pose has cost a cold search. They are tried again only after this many turns.
+constexpr int kTurnsToWait = 8;
 // Parity residual given to lengths that no pose has.
 constexpr double kUnsolved_m = 3.0 * kImpossibleResidual_m;
 
@@ -95,6 +99,9 @@ Status StringFaultObserver::configure(const FrameGeometry &frame, const GripGeom
             strings.scale_m_per_count[i] == 0.0) {
             return Status::invalid_calibration;
         }
+    }
+    if (grip.kind != GripKind::crossed) {
+        return Status::invalid_geometry; // a rigid grip has two redundant lengths; this knows one
     }
     const Status status = kinematics_.configure(frame, grip);
     if (!usable(status)) {
@@ -167,6 +174,10 @@ const FaultEvidence &StringFaultObserver::update(const CountArray &counts,
 
 StringFaultObserver::Parity StringFaultObserver::parity(const StringArray &lengths_m,
                                                         Pose &pose) noexcept {
+    if (pose.turns_to_wait > 0) {
+        --pose.turns_to_wait;
+        return Parity();
+    }
     KinematicsResult solved;
     if (pose.known) {
         kinematics_.set_last_pose(pose.pose);
@@ -176,6 +187,7 @@ StringFaultObserver::Parity StringFaultObserver::parity(const StringArray &lengt
     }
     Parity parity;
     pose.known = usable(solved.status);
+    pose.turns_to_wait = pose.known ? 0 : kTurnsToWait;
     if (pose.known) {
         pose.pose = solved.pose;
         const LengthJacobian jacobian(frame_, grip_, solved.pose);
@@ -186,55 +198,50 @@ StringFaultObserver::Parity StringFaultObserver::parity(const StringArray &lengt
     return parity;
 }
 
-// parity is that of lengths with corrected_m taken off this string: what is left is w (error -
-// corrected).
-void StringFaultObserver::advance(Filter &filter, const Parity &parity, std::size_t string,
-                                  double corrected_m, double drift_m2,
-                                  bool positive_only) noexcept {
+// Solved about the filter's own guess: the parity residual is then w (error - guess), and a bend.
+void StringFaultObserver::advance(Filter &filter, const StringArray &lengths_m, std::size_t string,
+                                  double drift_m2, bool positive_only) noexcept {
     const double period = kStringCount * settings_.tick_s;
     const double gain = std::fmin(1.0, period / settings_.window_s);
-    if (!parity.solved) {
+    StringArray lengths = lengths_m;
+    lengths[string] -= filter.error_m;
+    const Parity found = parity(lengths, filter.pose);
+    if (!found.solved) {
+        // No pose has these lengths: the guess, or the whole suspicion, is wrong. Start again.
         filter.misfit.add(kMisfitCap, gain);
+        filter.error_m = 0.0;
+        filter.variance_m2 = kStartError_m * kStartError_m;
         return;
     }
-    const double weight = parity.weights[string];
-    const double off = weight * (corrected_m - filter.error_m);
-    const double innovation = parity.error_m + off;
-    const double linear = kLinearError * off;
-    const double noise = settings_.parity_noise_m * settings_.parity_noise_m + linear * linear;
+    const double weight = found.weights[string];
+    const double sensor = settings_.parity_noise_m * settings_.parity_noise_m;
+    const double square = found.error_m * found.error_m;
+    const auto noise = [&] {
+        const double bend = kBend_1_m * filter.variance_m2;
+        return sensor + bend * bend;
+    };
     filter.variance_m2 += drift_m2 * period;
-    const double expected = weight * weight * filter.variance_m2 + noise;
-    if (!positive_only && innovation * innovation > kSurprise * expected) {
-        // Its first, linear guess was wrong: learn again. The misfit below remembers the surprise.
+    const double expected = weight * weight * filter.variance_m2 + noise();
+    // Minus twice the logarithm of the likelihood, beside that of the sensor's noise alone: a filter
+    // that expects anything explains nothing.
+    filter.misfit.add(std::fmin(square / expected + std::log(expected / sensor), kMisfitCap), gain);
+    if (square > kSurprise * expected) {
+        // The guess was wrong: learn again. The misfit remembers the surprise.
         filter.variance_m2 = std::fmax(filter.variance_m2, kRelearn_m * kRelearn_m);
     }
-    const double spread = weight * weight * filter.variance_m2 + noise;
-    const double square = innovation * innovation;
-    // In units of the noise, not of the filter's own spread: a filter that expects anything
-    // explains nothing.
-    filter.misfit.add(
-        std::fmin(square / (settings_.parity_noise_m * settings_.parity_noise_m), kMisfitCap),
-        gain);
-    const double k = weight * filter.variance_m2 / spread;
-    filter.error_m += k * innovation;
-    filter.variance_m2 *= noise / spread;
-    if (positive_only && !(filter.error_m >= 0.0)) {
-        filter.error_m = 0.0;
-    }
+    const double rest = noise();
+    const double spread = weight * weight * filter.variance_m2 + rest;
+    filter.error_m += weight * filter.variance_m2 / spread * found.error_m;
+    filter.error_m =
+        std::clamp(filter.error_m, positive_only ? 0.0 : -kLargestError_m, kLargestError_m);
+    filter.variance_m2 *= rest / spread;
 }
 
 void StringFaultObserver::try_string(const StringArray &lengths_m) noexcept {
     const std::size_t i = next_string_;
     next_string_ = (next_string_ + 1) % kStringCount;
-    Suspect &suspect = suspects_[i];
-    // Solve about the better of the two guesses; the other one is not far in the end.
-    const bool slack = suspect.slack.misfit.value() < suspect.slipped.misfit.value();
-    const double corrected = slack ? suspect.slack.error_m : suspect.slipped.error_m;
-    StringArray lengths = lengths_m;
-    lengths[i] -= corrected;
-    const Parity found = parity(lengths, suspect.pose);
-    advance(suspect.slipped, found, i, corrected, kSlipDrift_m * kSlipDrift_m, false);
-    advance(suspect.slack, found, i, corrected, kSlackDrift_m * kSlackDrift_m, true);
+    advance(suspects_[i].slipped, lengths_m, i, kSlipDrift_m * kSlipDrift_m, false);
+    advance(suspects_[i].slack, lengths_m, i, kSlackDrift_m * kSlackDrift_m, true);
 }
 
 StringArray StringFaultObserver::rewired(const StringArray &lengths_m,

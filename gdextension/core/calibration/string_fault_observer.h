@@ -3,8 +3,8 @@
 // string explains all of them and the others do not.
 //
 // Servo-safe: update() allocates nothing and does bounded work. While the lengths fit, that is one
-// comparison. Once they do not, two suspicions a tick are tried in turn, each by solving the pose
-// from the lengths it would correct:
+// comparison. Once they do not, suspicions are tried in turn, two or three a tick, each by solving
+// the pose from the lengths it would correct:
 //   eight strings: one length off by an error that stays (slipped) or is positive and varies
 //   (slack), estimated by a scalar Kalman filter each; 28 pairs swapped; 8 strings wound the other
 //   way.
@@ -39,8 +39,8 @@ struct FaultEvidence {
     int string = -1;      // 0-7
     int other = -1;       // swapped: the second string, string < other
     double error_m = 0.0; // slipped, slack: how much too long the string reads
-    // Mean squared misfit, in units of parity_noise_m, of the best explanation and of the best one
-    // about another string. Far apart = sure.
+    // Of the best explanation and of the best one about another string, mean over window_s: minus twice the logarithm of
+    // the likelihood, in units of parity_noise_m, 0 where all fits exactly. Far apart = sure.
     double misfit = 0.0;
     double next_misfit = 0.0;
     double parity_rms_m = 0.0; // of the lengths as they are
@@ -75,17 +75,18 @@ private:
         }
         [[nodiscard]] double value() const noexcept { return weight > 0.0 ? sum / weight : 0.0; }
     };
+    struct Pose {
+        GripPose pose;
+        bool known = false;
+        int turns_to_wait = 0;
+    };
     struct Filter { // length error of one string (unit: m)
+        Pose pose;
         double error_m = 0.0;
         double variance_m2 = 0.0;
         Mean misfit;
     };
-    struct Pose {
-        GripPose pose;
-        bool known = false;
-    };
     struct Suspect {
-        Pose pose;
         Filter slipped;
         Filter slack;
     };
@@ -103,8 +104,8 @@ private:
     Parity parity(const StringArray &lengths_m, Pose &pose) noexcept;
     void try_string(const StringArray &lengths_m) noexcept;
     void try_wiring(const StringArray &lengths_m) noexcept;
-    void advance(Filter &filter, const Parity &parity, std::size_t string, double corrected_m,
-                 double drift_m2, bool positive) noexcept;
+    void advance(Filter &filter, const StringArray &lengths_m, std::size_t string, double drift_m2,
+                 bool positive_only) noexcept;
     void watch_counts(const CountArray &counts, const StringArray &lengths_m) noexcept;
     void decide() noexcept;
     [[nodiscard]] int stuck_string() const noexcept;

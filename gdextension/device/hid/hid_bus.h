@@ -29,8 +29,9 @@ public:
     HidHandle &operator=(const HidHandle &) = delete;
     virtual ~HidHandle() = default;
 
-    // The next input report with its id, without waiting: its length, 0 when there is none, -1 when the device is gone.
-    virtual int read(std::span<std::uint8_t> bytes) noexcept = 0;
+    // The next input report with its id: its length, 0 when none comes within the time (0: no waiting), -1 when the
+    // device is gone.
+    virtual int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept = 0;
     // An output report that begins with its id: its length, or -1. May block for seconds.
     virtual int write(std::span<const std::uint8_t> bytes) noexcept = 0;
     // A feature report whose id is bytes[0]: its length, or -1. May block.

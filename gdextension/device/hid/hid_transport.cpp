@@ -14,6 +14,7 @@
 #include "device/hid/hid_session.h"
 #include "device/hid/report_intake.h"
 #include "device/hid/report_sequence.h"
+#include "device/real_time_thread.h"
 
 namespace spidar {
 
@@ -25,6 +26,8 @@ constexpr auto kHangingWritePoll = std::chrono::milliseconds(1);
 constexpr int kMostReportsAtOnce = 128;
 // Commands without motors that clear what an earlier host left latched (its watchdog).
 constexpr int kClearingCommands = 20;
+// A silent device must not keep the loop from noticing: its own limits are shorter, this is the last one.
+constexpr std::int64_t kLongestWait_ms = 50;
 constexpr double kMillinewtonsPerNewton = 1000.0;
 constexpr double kHalf = 0.5;
 constexpr std::uint32_t kSequenceBits = 16;
@@ -82,6 +85,9 @@ struct HidTransport::Impl {
     Borrowed reader;
     std::uint32_t link_read = 0;
     std::uint32_t session_read = 0;
+    std::array<std::uint8_t, 2 * kLargestReport> bytes{}; // room enough to see that one is too long
+    int waiting = 0; // length of a report in `bytes` that wait_report() left for read()
+    void refresh_reader() noexcept;
 
     // Reader to writer: epoch of the intake above, sequence of the newest state below; 0 before any. And the sequence
     // that the device had accepted when that epoch began.
@@ -221,13 +227,35 @@ void HidTransport::close() noexcept {
     std::swap(dropped, m.session);
 }
 
+void HidTransport::Impl::refresh_reader() noexcept {
+    const std::uint32_t link = link_number.load();
+    if (link_read != link) {
+        link_read = link;
+        reader = borrow(&HidSession::reader);
+        waiting = 0;
+    }
+}
+
+bool HidTransport::wait_report(std::int64_t until_ns) noexcept {
+    Impl &m = *impl_;
+    m.refresh_reader();
+    if (!m.reader.handle) {
+        return false;
+    }
+    if (m.waiting == 0) {
+        constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+        // Rounded up: a wait of less than a millisecond would else be none, and the loop would spin.
+        const std::int64_t wait_ms = (until_ns - monotonic_ns() + kNanosecondsPerMillisecond - 1) /
+                                     kNanosecondsPerMillisecond;
+        m.waiting = m.reader.handle->read(
+            m.bytes, static_cast<int>(std::clamp<std::int64_t>(wait_ms, 0, kLongestWait_ms)));
+    }
+    return true;
+}
+
 Status HidTransport::read(DeviceReading &reading) noexcept {
     Impl &m = *impl_;
-    const std::uint32_t link = m.link_number.load();
-    if (m.link_read != link) {
-        m.link_read = link;
-        m.reader = m.borrow(&HidSession::reader);
-    }
+    m.refresh_reader();
     const Impl::Borrowed &reader = m.reader;
     if (!reader.handle) {
         return m.is_open.load() ? Status::read_failed : Status::not_open;
@@ -237,10 +265,10 @@ Status HidTransport::read(DeviceReading &reading) noexcept {
         m.intake.begin();
     }
     const std::uint32_t epoch_before = m.intake.epoch();
-    std::array<std::uint8_t, 2 * kLargestReport> bytes{}; // room enough to see that one is too long
     std::uint64_t good = 0;
     for (int i = 0; i < kMostReportsAtOnce; ++i) {
-        const int length = reader.handle->read(bytes);
+        const int length = m.waiting != 0 ? m.waiting : reader.handle->read(m.bytes, 0);
+        m.waiting = 0;
         if (length < 0) {
             m.lose(reader.session);
             return Status::read_failed;
@@ -249,7 +277,7 @@ Status HidTransport::read(DeviceReading &reading) noexcept {
             break;
         }
         const auto size = static_cast<std::size_t>(length);
-        good += m.intake.take(ReportBytes(bytes).first(size), m.bus->now_us()) ? 1U : 0U;
+        good += m.intake.take(ReportBytes(m.bytes).first(size), m.bus->now_us()) ? 1U : 0U;
     }
     if (m.intake.epoch() != epoch_before && m.intake.restarted()) {
         m.zero_required.store(true);

@@ -39,6 +39,7 @@ public:
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     [[nodiscard]] bool write_may_block() const noexcept override { return true; }
+    [[nodiscard]] bool wait_report(std::int64_t until_ns) noexcept override;
 
     // From the controlling thread.
     // The grip is at its home pose and its strings are taut: the encoders are to read `home_counts` here. Refused while

@@ -29,8 +29,8 @@ public:
     explicit HidapiHandle(hid_device *device) noexcept : device_(device) {}
     ~HidapiHandle() override { hid_close(device_); }
 
-    int read(std::span<std::uint8_t> bytes) noexcept override {
-        return hid_read_timeout(device_, bytes.data(), bytes.size(), 0);
+    int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept override {
+        return hid_read_timeout(device_, bytes.data(), bytes.size(), timeout_ms);
     }
     int write(std::span<const std::uint8_t> bytes) noexcept override {
         return hid_write(device_, bytes.data(), bytes.size());

@@ -1,5 +1,6 @@
 #include "device/recording/cycle_codec.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -22,6 +23,11 @@ constexpr std::uint64_t kWriteStatus = 128;
 constexpr std::uint64_t kMayArm = 256; // the flag itself, not a change of it
 constexpr std::uint64_t kSegment = 512;
 constexpr std::uint64_t kAllFlags = 1023;
+
+// Where clock and sequence number stand in the list of a reading.
+constexpr std::size_t kClockWord = 0;
+constexpr std::size_t kSequenceWord = 1;
+constexpr std::size_t kLeastReadingWords = 2;
 
 constexpr int kDigestBytes = 4;
 constexpr int kWordBytes = 8;
@@ -170,8 +176,42 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
     last_tensions_mn_ = tensions_mn;
 }
 
-CycleDecoder::CycleDecoder(std::size_t command_words) {
+CycleDecoder::CycleDecoder(std::size_t command_words, std::size_t reading_words)
+    : reading_(std::max(reading_words, kLeastReadingWords)) {
     last_.command_words.resize(command_words);
+}
+
+void CycleDecoder::decode_reading(bool told, ByteReader &from) {
+    const std::uint64_t clock_before_us = reading_[kClockWord];
+    reading_[kClockWord] += last_clock_step_us_;
+    reading_[kSequenceWord] = static_cast<std::uint16_t>(reading_[kSequenceWord] + 1);
+    if (told) {
+        for (std::uint64_t &word : reading_) {
+            word ^= from.sparse_word();
+        }
+    }
+    last_clock_step_us_ = reading_[kClockWord] - clock_before_us;
+    std::size_t next = 0;
+    for_each_field(last_.input.reading, [this, &next](std::string_view, int, auto &field) {
+        if (next < reading_.size()) {
+            from_word(reading_[next], field);
+        }
+        ++next;
+    });
+}
+
+void CycleDecoder::start_segment(ByteReader &from) {
+    RecordedCycle fresh;
+    fresh.command_words.assign(last_.command_words.size(), 0);
+    fresh.segment_start = true;
+    fresh.command_is_new = true;
+    fresh.tick = from.varint();
+    last_ = fresh;
+    last_clock_step_us_ = 0;
+    std::vector<std::uint64_t> words(count_fields(DeviceReading{}));
+    store_words(DeviceReading{}, words);
+    words.resize(reading_.size());
+    reading_ = words;
 }
 
 void CycleDecoder::decode_inputs(std::uint64_t flags, ByteReader &from) {
@@ -181,14 +221,7 @@ void CycleDecoder::decode_inputs(std::uint64_t flags, ByteReader &from) {
             count = sum(count, from.signed_varint());
         }
     }
-    const std::uint64_t clock_before_us = input.reading.device_time_us;
-    input.reading = expected_after(input.reading, last_clock_step_us_);
-    if ((flags & kReading) != 0) {
-        for_each_field(input.reading, [&from](std::string_view, int, auto &field) {
-            from_word(to_word(field) ^ from.sparse_word(), field);
-        });
-    }
-    last_clock_step_us_ = input.reading.device_time_us - clock_before_us;
+    decode_reading((flags & kReading) != 0, from);
     if ((flags & kTimeStep) != 0) {
         input.dt_s = decode_time_step(from);
     }
@@ -223,13 +256,7 @@ bool CycleDecoder::decode(ByteReader &from, RecordedCycle &cycle) {
     last_.segment_start = (flags & kSegment) != 0;
     last_.command_is_new = (flags & kCommand) != 0;
     if (last_.segment_start) {
-        RecordedCycle fresh;
-        fresh.command_words.assign(last_.command_words.size(), 0);
-        fresh.segment_start = true;
-        fresh.command_is_new = true;
-        fresh.tick = from.varint();
-        last_ = fresh;
-        last_clock_step_us_ = 0;
+        start_segment(from);
     } else {
         ++last_.tick;
     }

@@ -48,17 +48,21 @@ private:
 
 class CycleDecoder {
 public:
-    // command_words: how many words a command had when the recording was made.
-    explicit CycleDecoder(std::size_t command_words);
+    // How many words a command and the rest of a reading had when the recording was made. Of a reading with other
+    // fields than this build knows, the known ones are kept: new fields are added at the end of the list.
+    CycleDecoder(std::size_t command_words, std::size_t reading_words);
     // False: these bytes are no cycle; `cycle` then means nothing.
     bool decode(ByteReader &from, RecordedCycle &cycle);
 
 private:
+    void start_segment(ByteReader &from);
     void decode_inputs(std::uint64_t flags, ByteReader &from);
+    void decode_reading(bool told, ByteReader &from);
     void decode_command(ByteReader &from);
 
     RecordedCycle last_;
     std::uint64_t last_clock_step_us_ = 0;
+    std::vector<std::uint64_t> reading_; // the rest of the last reading
 };
 
 } // namespace spidar

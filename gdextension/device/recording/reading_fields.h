@@ -1,4 +1,5 @@
-// The one list of what a DeviceReading holds beside its counts.
+// The one list of what a DeviceReading holds beside its counts. Clock and sequence number stay the first two
+// (cycle_codec.cpp); new fields go to the end.
 #pragma once
 
 #include "device/recording/field_words.h"

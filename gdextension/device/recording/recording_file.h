@@ -95,7 +95,7 @@ private:
     std::vector<std::uint8_t> chunk_; // contents of the one being read
     std::vector<std::uint8_t> memory_;
     ByteReader cycles_left_;
-    CycleDecoder decoder_{0};
+    CycleDecoder decoder_{0, 0};
     std::uint64_t cycles_ = 0;
     std::uint64_t lost_ = 0;
     bool closed_ = false;

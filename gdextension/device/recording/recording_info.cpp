@@ -9,6 +9,7 @@
 
 #include "device/recording/build_identity.h"
 #include "device/recording/command_fields.h"
+#include "device/recording/reading_fields.h"
 #include "device/recording/settings_fields.h"
 #include "device/servo_step.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::string_view kTitle = "spidar_g recording";
 constexpr std::string_view kSettings = "settings.";
-constexpr std::uint64_t kMostCommandWords = 100'000;
+constexpr std::uint64_t kMostWords = 100'000;
 constexpr std::uint64_t kMostStateBytes = 1'000'000;
 
 std::string now_utc() {
@@ -101,7 +102,9 @@ bool read_field(std::string_view name, std::string_view value, RecordingInfo &in
     } else if (name == "command_schema") {
         return from_hex(value, info.command_schema);
     } else if (name == "command_words") {
-        return value_of(value, info.command_words) && info.command_words <= kMostCommandWords;
+        return value_of(value, info.command_words) && info.command_words <= kMostWords;
+    } else if (name == "reading_words") {
+        return value_of(value, info.reading_words) && info.reading_words <= kMostWords;
     } else if (name == "state_bytes") {
         return value_of(value, info.state_bytes) && info.state_bytes <= kMostStateBytes;
     } else if (name == "simd") {
@@ -125,6 +128,7 @@ RecordingInfo describe_recording(const ServoSettings &settings) {
     info.build = build_identity();
     info.command_schema = schema_of(HapticCommand{});
     info.command_words = count_fields(HapticCommand{});
+    info.reading_words = count_fields(DeviceReading{});
     info.state_bytes = sizeof(ServoStep);
     info.simd = simd_level();
     info.settings = settings;
@@ -141,6 +145,7 @@ std::string to_text(const RecordingInfo &info) {
     line(text, "simd", text_of(info.simd));
     line(text, "command_schema", hex(info.command_schema));
     line(text, "command_words", text_of(info.command_words));
+    line(text, "reading_words", text_of(info.reading_words));
     line(text, "state_bytes", text_of(info.state_bytes));
     for_each_field(info.settings, [&text](std::string_view name, int index, auto value) {
         line(text, std::string(kSettings).append(name) + "." + std::to_string(index),

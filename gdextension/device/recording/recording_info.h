@@ -20,7 +20,8 @@ struct RecordingInfo {
     std::uint64_t build = 0; // build_identity()
     std::uint64_t command_schema = 0;
     std::uint64_t command_words = 0;
-    std::uint64_t state_bytes = 0; // of the step's memory
+    std::uint64_t reading_words = 0; // reading_fields.h
+    std::uint64_t state_bytes = 0;   // of the step's memory
     SimdLevel simd = SimdLevel::plain;
     ServoSettings settings;
 };

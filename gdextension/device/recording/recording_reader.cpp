@@ -42,7 +42,8 @@ std::string RecordingReader::open(std::unique_ptr<std::istream> stream, const st
     const std::string text(chunk_.begin(), chunk_.end());
     std::string problem = read_text(text, info_);
     if (problem.empty()) {
-        decoder_ = CycleDecoder(static_cast<std::size_t>(info_.command_words));
+        decoder_ = CycleDecoder(static_cast<std::size_t>(info_.command_words),
+                                static_cast<std::size_t>(info_.reading_words));
     }
     return problem;
 }

@@ -9,8 +9,8 @@
 namespace spidar {
 
 // A field added to one of these structs: add it to the list below, then correct the number.
-static_assert(count_members<FrameGeometry>() == 1, "FrameGeometry changed: list its fields here");
-static_assert(count_members<GripGeometry>() == 2, "GripGeometry changed: list its fields here");
+static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list its fields here");
+static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
 static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
@@ -27,7 +27,11 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("device_clocked", 0, settings.device_clocked);
     visit("reopen_interval_s", 0, settings.reopen_interval_s);
     visit_vectors("frame.motors_m", settings.frame.motors_m, visit);
+    visit("frame.pulley_radius_m", 0, settings.frame.pulley_radius_m);
+    visit_vector("frame.pulley_axis", 0, settings.frame.pulley_axis, visit);
     visit("grip.pole_half_length_m", 0, settings.grip.pole_half_length_m);
+    visit("grip.kind", 0, settings.grip.kind);
+    visit_vectors("grip.joints_m", settings.grip.joints_m, visit);
     int i = 0;
     for (auto &attachment : settings.grip.attachments) {
         visit("grip.attachment.pole", i, attachment.pole);

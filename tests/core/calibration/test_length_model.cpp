@@ -26,7 +26,7 @@ TEST_CASE(
         }
         CHECK(square == doctest::Approx(1.0).epsilon(1e-14));
         // A nu = 0: strings pulled by nu give no wrench (moments in units of the pole).
-        const DofArray wrench = apply(wrench_matrix(device.frame, device.grip, pose), nu);
+        const DofArray wrench = spidar::apply(wrench_matrix(device.frame, device.grip, pose), nu);
         for (std::size_t row = 0; row < kDofCount; ++row) {
             CHECK(std::fabs(wrench[row]) < 1e-14);
         }

@@ -41,7 +41,7 @@ public:
         const std::lock_guard<std::mutex> lock(device_->mutex);
         device_->queue_open[index_] = false;
     }
-    int read(std::span<std::uint8_t> bytes) noexcept override {
+    int read(std::span<std::uint8_t> bytes, int /*timeout_ms*/) noexcept override {
         const std::lock_guard<std::mutex> lock(device_->mutex);
         if (dead()) {
             return -1;

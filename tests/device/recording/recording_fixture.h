@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "device/recording/recorder.h"
 #include "device/recording/replay_transport.h"
 #include "device/servo_fixture.h"
 #include "support/snapshot_bits.h"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "device/recording/command_fields.h"
+#include "device/recording/reading_fields.h"
 #include "device/recording/recording_fixture.h"
 
 using namespace spidar;
@@ -216,6 +217,42 @@ TEST_CASE("recording: every input comes back to the bit, NaN and wrap-around too
     }
     CHECK_FALSE(reader.next(cycle));
     CHECK(reader.closed());
+}
+
+TEST_CASE(
+    "recording: readings of a version with more fields are read, the unknown ones passed over") {
+    CycleRecord record;
+    record.segment_start = true;
+    record.tick = 1;
+    record.input.reading.device_time_us = 7;
+    std::vector<std::uint8_t> bytes;
+    ByteWriter to(bytes);
+    CycleEncoder encoder;
+    encoder.encode(record, HapticCommand(), to);
+    // Flags 2 bytes, tick 1, the clock's word 2, then a byte for each word that is as expected.
+    const std::size_t own = count_fields(DeviceReading{});
+    const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(2 + 1 + 2 + own - 1 + 1);
+    const std::vector<std::uint8_t> unknown = {0x01, 0x05};
+    bytes.insert(place, unknown.begin(), unknown.end());
+    const std::size_t end_of_first = bytes.size();
+    record.segment_start = false;
+    record.input.reading.device_time_us = 14;
+    record.input.reading.sequence = 1;
+    encoder.encode(record, HapticCommand(), to); // as expected: nothing of the reading is told
+    CHECK(bytes.size() > end_of_first);
+
+    CycleDecoder decoder(count_fields(HapticCommand{}), own + 1);
+    ByteReader from(bytes);
+    RecordedCycle cycle;
+    REQUIRE(decoder.decode(from, cycle));
+    CHECK(cycle.input.reading.device_time_us == 7);
+    CHECK(cycle.input.reading.sequence == 0);
+    REQUIRE(decoder.decode(from, cycle));
+    CHECK(cycle.input.reading.device_time_us == 14);
+    CHECK(cycle.input.reading.sequence == 1);
+    CHECK(cycle.tick == 2);
+    CHECK(cycle.digest == digest_of(record.output));
+    CHECK(from.empty());
 }
 
 TEST_CASE("recording: the head gives the settings back, to the bit, in any locale's text") {

@@ -1,0 +1,74 @@
+## Bars of how late the servo thread woke up, on logarithmic scales: two bars an octave.
+extends Control
+
+const PlotStrip := preload("plot_strip.gd")
+
+const BAR_COLOUR: Color = Color(0.30, 0.62, 0.95)
+const LATE_COLOUR: Color = Color(0.95, 0.55, 0.15)
+## From here on a bar is coloured as late, us.
+const LATE_US: float = 500.0
+## What is shown: earlier wake-ups stand in the first bar, later ones in the last, us.
+const FIRST_US: float = 1.0
+const LAST_US: float = 20000.0
+
+## Half a bar, in decades: one label a decade.
+const HALF_BAR_DECADES: float = 0.0753
+
+## Bucket i counts wake-ups from 2^(i/2) to 2^((i+1)/2) ns after the deadline.
+var counts: PackedInt32Array = []
+
+
+func show_counts(new_counts: PackedInt32Array) -> void:
+	if counts == new_counts:
+		return
+	counts = new_counts
+	queue_redraw()
+
+
+static func bucket_begin_us(bucket: int) -> float:
+	return pow(2.0, 0.5 * bucket) * 1e-3
+
+
+## The counts of the bars shown: what lies outside is added to the first and the last.
+func bars() -> PackedInt32Array:
+	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
+	var last: int = int(ceil(2.0 * log(LAST_US * 1000.0) / log(2.0)))
+	var shown: PackedInt32Array = []
+	shown.resize(last - first + 1)
+	for bucket: int in counts.size():
+		shown[clampi(bucket, first, last) - first] += counts[bucket]
+	return shown
+
+
+func _draw() -> void:
+	draw_rect(Rect2(Vector2.ZERO, size), PlotStrip.BACKGROUND)
+	var font: Font = get_theme_default_font()
+	draw_string(font, Vector2(6, 13), "Wake-up after the deadline, us", HORIZONTAL_ALIGNMENT_LEFT, -1,
+		PlotStrip.FONT_SIZE, PlotStrip.TEXT)
+	var shown: PackedInt32Array = bars()
+	var total: int = 0
+	var most: int = 1
+	for count: int in shown:
+		total += count
+		most = maxi(most, count)
+	if total == 0:
+		draw_string(font, Vector2(0, 13), "no thread", HORIZONTAL_ALIGNMENT_RIGHT, size.x - 6,
+			PlotStrip.FONT_SIZE, PlotStrip.TEXT)
+		return
+	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
+	var area := Rect2(4, PlotStrip.HEAD_HEIGHT, size.x - 8, size.y - PlotStrip.HEAD_HEIGHT - 16)
+	var width: float = area.size.x / shown.size()
+	# One wake-up is as high as a tenth of all the decades that there are.
+	var decades: float = maxf(1.0, log(float(most)) / log(10.0))
+	for i: int in shown.size():
+		var begin_us: float = bucket_begin_us(first + i)
+		if shown[i] > 0:
+			var part: float = 0.1 + 0.9 * (log(float(shown[i])) / log(10.0)) / decades
+			var height: float = clampf(part, 0.0, 1.0) * area.size.y
+			draw_rect(Rect2(area.position.x + i * width, area.end.y - height, width - 1.0, height),
+				LATE_COLOUR if begin_us >= LATE_US else BAR_COLOUR)
+		var decade: float = log(begin_us) / log(10.0)
+		if absf(decade - roundf(decade)) < HALF_BAR_DECADES:
+			draw_string(font, Vector2(area.position.x + i * width - 14, size.y - 3),
+				"%d" % int(round(pow(10.0, roundf(decade)))), HORIZONTAL_ALIGNMENT_CENTER, 28,
+				PlotStrip.FONT_SIZE, PlotStrip.TEXT)

@@ -1,0 +1,82 @@
+class_name SpidarGMonitors
+extends Node
+## Adds what a [SpidarG] does to the Monitors tab of Godot's debugger: servo rate, punctuality, step time, saturation,
+## faults, and the energy given to the simulated hand.
+##
+## Add it as a child of a [SpidarG]. The monitors are there while it is in the tree, in debug builds only, and cost
+## nothing unless the debugger asks for them.
+
+## Monitors are named [code]spidar_g/...[/code]; of further devices [code]spidar_g NODE/...[/code].
+const GROUP: String = "spidar_g"
+
+var _device: SpidarG = null
+var _names: Array[StringName] = []
+var _faults: int = 0
+var _ticks_before: int = 0
+var _saturated_before: int = 0
+
+
+func _enter_tree() -> void:
+	_device = get_parent() as SpidarG
+	if _device == null or not OS.is_debug_build() or Engine.is_editor_hint():
+		return
+	_device.fault_raised.connect(_count_fault)
+	_add("servo_rate_hz", _statistic.bind("servo_rate_hz"))
+	_add("lateness_p99_us", _statistic.bind("lateness_p99_us"))
+	_add("step_p99_us", _statistic.bind("step_p99_us"))
+	_add("missed_deadlines", _statistic.bind("missed_deadlines"))
+	_add("saturated_percent", _saturated_percent)
+	_add("faults", func() -> int: return _faults)
+	if not _device.get_simulated_truth().is_empty():
+		_add("energy_to_hand_mj", _energy_mj)
+
+
+func _exit_tree() -> void:
+	for monitor: StringName in _names:
+		Performance.remove_custom_monitor(monitor)
+	_names.clear()
+	if _device != null and _device.fault_raised.is_connected(_count_fault):
+		_device.fault_raised.disconnect(_count_fault)
+	_device = null
+
+
+func _get_configuration_warnings() -> PackedStringArray:
+	if get_parent() is SpidarG:
+		return []
+	return ["This node shows its parent: put it under a SpidarG."]
+
+
+## The names under which Performance knows what this node added.
+func get_monitor_names() -> Array[StringName]:
+	return _names
+
+
+func _add(quantity: String, reader: Callable) -> void:
+	var monitor := StringName("%s/%s" % [GROUP, quantity])
+	if Performance.has_custom_monitor(monitor):
+		monitor = StringName("%s %s/%s" % [GROUP, _device.name, quantity])
+	if not Performance.has_custom_monitor(monitor):
+		Performance.add_custom_monitor(monitor, reader)
+		_names.append(monitor)
+
+
+func _count_fault(_status: int, _message: String) -> void:
+	_faults += 1
+
+
+func _statistic(key: String) -> float:
+	return _device.get_statistics()[key]
+
+
+## Of the cycles since this was asked for last.
+func _saturated_percent() -> float:
+	var numbers: Dictionary = _device.get_statistics()
+	var ticks: int = numbers["ticks"] - _ticks_before
+	var saturated: int = numbers["saturated_ticks"] - _saturated_before
+	_ticks_before = numbers["ticks"]
+	_saturated_before = numbers["saturated_ticks"]
+	return clampf(100.0 * saturated / ticks, 0.0, 100.0) if ticks > 0 else 0.0
+
+
+func _energy_mj() -> float:
+	return 1000.0 * float(_device.get_simulated_truth().get("energy_to_hand_j", 0.0))

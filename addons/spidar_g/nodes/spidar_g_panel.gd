@@ -1,0 +1,214 @@
+class_name SpidarGPanel
+extends PanelContainer
+## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, how punctual its servo thread is, and
+## what happened; starts and stops recordings.
+##
+## Add [code]spidar_g_panel.tscn[/code] to a scene, under a CanvasLayer or as a child of the device, and set [member
+## device]. It only reads. While it is hidden it computes nothing.
+
+const PlotStrip := preload("plot_strip.gd")
+const JitterPlot := preload("jitter_plot.gd")
+
+## Where recordings go.
+const RECORDING_FOLDER: String = "user://spidar_g_recordings"
+const MOST_EVENTS: int = 100
+## Numbers and the histogram are renewed after this many frames.
+const FRAMES_PER_REPORT: int = 10
+const FORCE_COLOURS: PackedColorArray = [
+	Color(0.95, 0.35, 0.30), Color(0.40, 0.80, 0.35), Color(0.35, 0.60, 1.0)
+]
+const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
+## Given values are drawn paler than asked ones.
+const GIVEN_ALPHA: float = 0.45
+
+## The device to show. Empty: the parent, when that is a [SpidarG].
+@export var device: SpidarG:
+	set(value):
+		if device != value:
+			_disconnect()
+			device = value
+			_connect()
+
+## The file of the recording that runs, or of the last one.
+var recording_path: String = ""
+
+var _frames: int = 0
+var _events: PackedStringArray = []
+
+@onready var _state: Label = %State
+@onready var _tensions: PlotStrip = %Tensions
+@onready var _force: PlotStrip = %Force
+@onready var _moment: PlotStrip = %Moment
+@onready var _jitter: JitterPlot = %Jitter
+@onready var _numbers: Label = %Numbers
+@onready var _log: RichTextLabel = %Events
+@onready var _record: Button = %Record
+@onready var _recorded: Label = %Recorded
+
+
+func _ready() -> void:
+	_tensions.title = "String tensions 1-8, N"
+	_tensions.least_high = 2.0
+	var tints: PackedColorArray = []
+	for string: int in 8:
+		tints.append(Color.from_hsv(string / 8.0, 0.55, 0.95))
+	_tensions.colours = tints
+	_force.title = "Force x y z, N: asked, given pale"
+	_force.least_low = -1.0
+	_force.colours = _pairs(FORCE_COLOURS)
+	_moment.title = "Moment x y z, grasp, N m"
+	_moment.least_low = -0.02
+	_moment.least_high = 0.02
+	_moment.colours = _pairs(FORCE_COLOURS + PackedColorArray([GRASP_COLOUR]))
+	_record.pressed.connect(toggle_recording)
+	visibility_changed.connect(_visibility_changed)
+	if device == null and get_parent() is SpidarG:
+		device = get_parent()
+	_connect()
+	_visibility_changed()
+
+
+func _exit_tree() -> void:
+	if is_recording():
+		device.stop_recording()
+	_disconnect()
+
+
+func _enter_tree() -> void:
+	_connect()
+
+
+func _process(_delta: float) -> void:
+	if not is_instance_valid(device):
+		_state.text = "No device: set the panel's device to a SpidarG."
+		return
+	_tensions.add_sample(device.get_string_tensions())
+	var asked: PackedFloat64Array = device.get_requested_wrench()
+	var given: PackedFloat64Array = device.get_achieved_wrench()
+	_force.add_sample(asked.slice(0, 3) + given.slice(0, 3))
+	_moment.add_sample(asked.slice(3, 7) + given.slice(3, 7))
+	if _frames % FRAMES_PER_REPORT == 0:
+		_report()
+	_frames += 1
+
+
+## What is in the log, newest last.
+func get_events() -> PackedStringArray:
+	return _events
+
+
+func is_recording() -> bool:
+	return is_instance_valid(device) and device.is_recording()
+
+
+## Starts a recording into a new file under [constant RECORDING_FOLDER], or ends the one that runs.
+func toggle_recording() -> void:
+	if not is_instance_valid(device):
+		return
+	if device.is_recording():
+		device.stop_recording()
+		_tell("recorded: %s" % ProjectSettings.globalize_path(recording_path))
+	else:
+		DirAccess.make_dir_recursive_absolute(RECORDING_FOLDER)
+		var stamp: String = Time.get_datetime_string_from_system().replace(":", "-")
+		var path: String = "%s/%s.rec" % [RECORDING_FOLDER, stamp]
+		if device.start_recording(path):
+			recording_path = path
+			_tell("recording: %s" % path.get_file())
+	_report()
+
+
+## State, numbers and histogram.
+func _report() -> void:
+	if not is_instance_valid(device) or not is_visible_in_tree():
+		return
+	_state.text = "%s   %s" % [device.get_state_text(), device.get_fault_text()]
+	var numbers: Dictionary = device.get_statistics()
+	_numbers.text = (
+		"servo %.0f Hz    late p50 %.0f, p99 %.0f, most %.0f us    step p99 %.1f us    missed %d    saturated %d"
+		% [
+			numbers["servo_rate_hz"], numbers["lateness_p50_us"], numbers["lateness_p99_us"],
+			numbers["lateness_max_us"], numbers["step_p99_us"], numbers["missed_deadlines"],
+			numbers["saturated_ticks"]
+		]
+	)
+	_jitter.show_counts(device.get_lateness_histogram())
+	var running: bool = device.is_recording()
+	_record.text = "Stop recording" if running else "Record"
+	if running:
+		var recorded: Dictionary = device.get_recording_statistics()
+		_recorded.text = "%d cycles, %.2f MB, %d lost" % [
+			recorded["cycles"], recorded["bytes"] * 1e-6, recorded["lost_cycles"]]
+	else:
+		_recorded.text = recording_path.get_file()
+
+
+func _visibility_changed() -> void:
+	set_process(is_visible_in_tree())
+	_report()
+
+
+## Colours of values asked for, then the same, paler, of those given.
+func _pairs(colours: PackedColorArray) -> PackedColorArray:
+	var both: PackedColorArray = colours.duplicate()
+	for colour: Color in colours:
+		both.append(Color(colour, GIVEN_ALPHA))
+	return both
+
+
+func _tell(text: String) -> void:
+	_events.append("%s  %s" % [Time.get_time_string_from_system(), text])
+	if _events.size() > MOST_EVENTS:
+		_events = _events.slice(_events.size() - MOST_EVENTS)
+	if is_node_ready():
+		_log.text = "\n".join(_events)
+
+
+## Signals of the device and what the log says of them.
+func _listeners() -> Dictionary[StringName, Callable]:
+	return {
+		&"device_connected": _tell.bind("connected"),
+		&"armed": _tell.bind("armed"),
+		&"disarmed": _tell.bind("disarmed"),
+		&"grasped": _tell.bind("grasped"),
+		&"released": _tell.bind("released"),
+		&"device_lost": _lost,
+		&"fault_raised": _fault,
+		&"request_rejected": _rejected,
+		&"recording_failed": _rejected,
+		&"replay_finished": _replayed,
+	}
+
+
+func _connect() -> void:
+	if not is_instance_valid(device) or not is_inside_tree():
+		return
+	var listeners: Dictionary[StringName, Callable] = _listeners()
+	for name_of_signal: StringName in listeners:
+		if not device.is_connected(name_of_signal, listeners[name_of_signal]):
+			device.connect(name_of_signal, listeners[name_of_signal])
+
+
+func _disconnect() -> void:
+	if not is_instance_valid(device):
+		return
+	var listeners: Dictionary[StringName, Callable] = _listeners()
+	for name_of_signal: StringName in listeners:
+		if device.is_connected(name_of_signal, listeners[name_of_signal]):
+			device.disconnect(name_of_signal, listeners[name_of_signal])
+
+
+func _lost(reason: String) -> void:
+	_tell("device lost: %s" % reason)
+
+
+func _fault(_status: int, message: String) -> void:
+	_tell("fault: %s" % message)
+
+
+func _rejected(message: String) -> void:
+	_tell(message)
+
+
+func _replayed(identical: bool, message: String) -> void:
+	_tell("replay %s: %s" % ["identical" if identical else "differs", message])

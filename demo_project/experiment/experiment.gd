@@ -1,0 +1,203 @@
+class_name Experiment
+extends Node
+## Runs a participant through the plan: instructions, practice, trials, questionnaires, breaks; Backspace aborts a trial,
+## which is then done again. A simulated participant does the same by script.
+
+signal left
+signal ended(exit_code: int)
+
+const TRIALS := 3
+const TEXTS: Dictionary[String, String] = {
+	"forces_on": "You hold the grip. The forces come on by themselves: surfaces, weight and width can be felt.",
+	"forces_off": "You hold the grip. The forces stay off.",
+	"mouse": "You use mouse and keyboard. H shows the keys.",
+	"mouse_auto": "You use the mouse. Click on a thing to have it picked up, and on its target to have it put there.",
+}
+const TASK_TEXTS: Dictionary[String, String] = {
+	"pick_and_place": "Put each thing on the outline of its own shape and colour.",
+	"robot_linking": "Build the robot: each part snaps in where its ghost is.",
+	"match_linking": "Link the matches into the shape shown.",
+}
+
+var arguments := PlayArguments.new()
+var settings := DemoSettings.new()
+## Opens a task's scene by its name; given by main.
+var scene_of: Callable
+
+var _store := ExperimentStore.new()
+var _plan: Array[ExperimentPlan.Step] = []
+var _at := -1
+var _task: DemoTask
+var _trace: TraceRecorder
+var _participant := 1
+var _random := RandomNumberGenerator.new()
+var _screen := ExperimentScreen.new()
+
+
+func _ready() -> void:
+	add_child(_screen)
+	_participant = arguments.participant if arguments.simulates() else settings.participant.to_int()
+	if _participant < 1:
+		_screen.show_text("Participant", "Enter a number of 1 or more as participant in the settings.", "Back", left.emit)
+		return
+	_random.seed = _participant
+	_plan = ExperimentPlan.make(_participant, arguments.trials if arguments.simulates() else TRIALS)
+	var folder := arguments.out_dir
+	if folder == "":
+		folder = ProjectSettings.globalize_path("user://experiments/participant_%d" % _participant)
+	var problem := _store.open(folder, "participant-%d" % _participant)
+	if problem != "":
+		printerr(problem)
+		ended.emit(PlayArguments.EXIT_BAD_ARGUMENTS)
+		return
+	_next()
+
+
+func _physics_process(_delta: float) -> void:
+	if _task != null and _trace != null and _task.is_running():
+		var spidar: SpidarG = _task.get_node(^"SpidarG")
+		var tool_hand: SpidarGHand = _task.get_node(^"SpidarG/SpidarGHand")
+		_trace.sample(_task, spidar, tool_hand.get_held_body(), _head(_plan[_at]))
+
+
+func _unhandled_key_input(event: InputEvent) -> void:
+	var key := event as InputEventKey
+	if _task == null or not key.pressed or key.echo or key.physical_keycode != KEY_BACKSPACE:
+		return
+	_keep("aborted by the participant")
+	_close_task()
+	_screen.show_text("Trial aborted", "It is done again.", "Go on", _open_task)
+
+
+## Goes to the first step that is not on file yet.
+func _next() -> void:
+	var trials := _store.done("summary.csv")
+	var ratings := _store.done("ratings.csv")
+	_at += 1
+	while _at < _plan.size() and _is_done(_plan[_at], trials, ratings):
+		_at += 1
+	if _at >= _plan.size():
+		ended.emit(PlayArguments.EXIT_DONE)
+		return
+	var step := _plan[_at]
+	if arguments.simulates() and step.kind in [ExperimentPlan.Kind.INSTRUCTION, ExperimentPlan.Kind.BREAK]:
+		_next.call_deferred()
+		return
+	match step.kind:
+		ExperimentPlan.Kind.INSTRUCTION:
+			_screen.show_text(
+				step.task.replace("_", " ").capitalize(),
+				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials." % TRIALS,
+				"Start", _next
+			)
+		ExperimentPlan.Kind.BREAK:
+			_screen.show_text("Break", "Rest your hand as long as you like.", "Go on", _next)
+		ExperimentPlan.Kind.RATINGS:
+			_ask(step)
+		ExperimentPlan.Kind.END:
+			if arguments.simulates():
+				ended.emit(PlayArguments.EXIT_DONE)
+			else:
+				_screen.show_text("Thank you", "Results: %s" % _store.folder, "Back to the menu", left.emit)
+		_:
+			_open_task()
+
+
+## What comes before a finished trial or rating is done with it.
+func _is_done(
+	step: ExperimentPlan.Step, trials: Dictionary[String, bool], ratings: Dictionary[String, bool]
+) -> bool:
+	var both := "%s/%s" % [step.task, step.condition]
+	match step.kind:
+		ExperimentPlan.Kind.TRIAL:
+			return trials.has("%s/%d" % [both, step.trial])
+		ExperimentPlan.Kind.RATINGS:
+			return ratings.has(both)
+		ExperimentPlan.Kind.INSTRUCTION, ExperimentPlan.Kind.PRACTICE:
+			return ratings.has(both) or trials.has(both + "/1") or (
+				arguments.simulates() and step.kind == ExperimentPlan.Kind.PRACTICE
+			)
+	return false
+
+
+func _open_task() -> void:
+	var step := _plan[_at]
+	_screen.hide_all()
+	var trial_arguments := PlayArguments.new()
+	trial_arguments.level = arguments.level
+	trial_arguments.seed_number = step.seed_number
+	if arguments.simulates():
+		trial_arguments.task = step.task
+		trial_arguments.hand = PlayArguments.HANDS[_random.randi_range(0, 2)]
+	var trial_settings := DemoSettings.new()
+	trial_settings.device_name = "" if step.condition.begins_with("mouse") else settings.device_name
+	trial_settings.forces_allowed = step.condition == "forces_on"
+	trial_settings.auto_animation = step.condition == "mouse_auto"
+	trial_settings.participant = str(_participant)
+	_task = scene_of.call(step.task)
+	_task.arguments = trial_arguments
+	_task.settings = trial_settings
+	_task.in_experiment = true
+	_task.forces_at_start = trial_settings.forces_allowed
+	_task.most_bodies = arguments.things
+	_task.ended.connect(_on_trial_ended)
+	_task.left.connect(left.emit)
+	_trace = TraceRecorder.new()
+	add_child(_task)
+
+
+func _on_trial_ended(reason: String) -> void:
+	_keep(reason)
+	_close_task.call_deferred()
+	_next.call_deferred()
+
+
+func _keep(reason: String) -> void:
+	var step := _plan[_at]
+	if step.kind == ExperimentPlan.Kind.TRIAL:
+		var row: Dictionary = TrialResults.new(_task, _task.get_node(^"SpidarG") as SpidarG).row_of(reason)
+		row.merge(_head(step), true)
+		row["participant_id"] = _participant
+		row["grip_source"] = "simulated" if arguments.simulates() else _task.settings.grip_source()
+		row["started_utc"] = Time.get_datetime_string_from_system(true)
+		var trace := _trace.rows
+		if _store.append("trace.csv", trace) != OK or _store.append("summary.csv", [row]) != OK:
+			push_error("%s: a trial could not be written" % _store.folder)
+
+
+func _head(step: ExperimentPlan.Step) -> Dictionary:
+	return {
+		"session_id": _store.session_id, "task": step.task, "condition": step.condition, "trial": step.trial,
+	}
+
+
+func _close_task() -> void:
+	if _task != null:
+		_task.queue_free()
+		remove_child(_task)
+	_task = null
+	_trace = null
+
+
+func _ask(step: ExperimentPlan.Step) -> void:
+	if not arguments.simulates():
+		_screen.ask_ratings(step.condition, func(answers: Dictionary) -> void: _rate(step, answers))
+		return
+	var answers := {}
+	for question in ExperimentScreen.questions(step.condition):
+		answers[question] = _random.randi_range(2, 5)
+	_rate.call_deferred(step, answers)
+
+
+func _rate(step: ExperimentPlan.Step, answers: Dictionary) -> void:
+	var row := answers.duplicate()
+	row.merge({
+		"schema_version": TrialLogger.SCHEMA_VERSION, "session_id": _store.session_id,
+		"participant_id": _participant, "task": step.task, "condition": step.condition,
+		"computer_experience": settings.computer_experience,
+		"haptic_experience": settings.haptic_experience,
+		"rated_utc": Time.get_datetime_string_from_system(true),
+	})
+	if _store.append("ratings.csv", [row]) != OK:
+		push_error("%s: a rating could not be written" % _store.folder)
+	_next()
