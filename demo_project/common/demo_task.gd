@@ -28,6 +28,7 @@ var logger := TrialLogger.new()
 var bodies: Array[TaskBody] = []
 var player: TaskPlayer
 var frame_cost := FrameCost.new()
+var sound := ContactSound.new()
 
 var _running := false
 var _finished := false
@@ -97,6 +98,7 @@ func _ready() -> void:
 	_controls.leave_wanted.connect(left.emit)
 	player = _make_player()
 	add_child(player)
+	add_child(sound)
 	_lay_out()
 	if most_bodies > 0:
 		bodies.resize(mini(bodies.size(), most_bodies))
@@ -119,7 +121,7 @@ func _physics_process(delta: float) -> void:
 		return
 	var placed := _judge()
 	_hud.show_task(
-		title(), logger.task_time_s, placed, bodies.size(), arguments.level, arguments.seed_number
+		title(), logger.task_time_s, placed, bodies, arguments.level, arguments.seed_number
 	)
 	if not _running:
 		if _spidar.get_state() == SpidarG.STATE_ACTIVE:
@@ -270,12 +272,14 @@ func _on_body_grasped(body: RigidBody3D) -> void:
 	_start_clock()
 	_on_closed()
 	logger.note_grasp()
+	sound.say(&"grasped")
 	if body is TaskBody:
 		(body as TaskBody).show_held(true)
 
 
 func _on_body_released(released: RigidBody3D) -> void:
 	_attempt_open = false
+	sound.say(&"released")
 	var body := released as TaskBody
 	if body == null:
 		return
@@ -299,3 +303,4 @@ func _on_struck(other: TaskBody, body: TaskBody) -> void:
 	# Both report the same blow; count it once.
 	if body.get_index() < other.get_index():
 		logger.collisions += 1
+		sound.say(&"struck")

@@ -68,11 +68,15 @@ func show_result(text: String) -> void:
 
 
 func show_task(
-	title: String, time_s: float, placed: int, total: int, level: int, seed_number: int
+	title: String, time_s: float, placed: int, bodies: Array[TaskBody], level: int, seed_number: int
 ) -> void:
 	_title.text = "%s   level %d   seed %d" % [title, level, seed_number]
 	_time.text = "%d:%04.1f" % [floori(time_s / 60.0), fmod(time_s, 60.0)]
-	_placed.text = "%d of %d placed" % [placed, total]
+	_placed.text = "%d of %d placed" % [placed, bodies.size()]
+	if not bodies.is_empty():
+		_placed.text += ", within %.0f mm, %.0f°" % [
+			1000.0 * bodies[0].position_tolerance_m, rad_to_deg(bodies[0].rotation_tolerance_rad)
+		]
 
 
 func _process(_delta: float) -> void:

@@ -47,6 +47,14 @@ func setup(spidar: SpidarG, hand: SpidarGHand) -> void:
 	_hand.body_released.connect(_on_released)
 
 
+## A knock for what snaps in and what comes off.
+func sound_with(sound: ContactSound) -> void:
+	linked.connect(func(_one: LinkSocket, _other: LinkSocket) -> void: sound.say(&"linked"))
+	unlinked.connect(
+		func(_one: LinkSocket, _other: LinkSocket, _pull_n: float) -> void: sound.say(&"unlinked")
+	)
+
+
 func clear() -> void:
 	for link in links:
 		link.unlock()

@@ -32,6 +32,11 @@ constexpr const char *kMotions[] = {"motion along x",   "motion along y",   "mot
                                     "the turn about x", "the turn about y", "the turn about z",
                                     "the grasp"};
 
+// Messages to people count strings from 1.
+std::string number(std::size_t string) {
+    return std::to_string(string + 1);
+}
+
 TensionProblem problem_of(const WrenchMatrix &matrix, const GripGeometry &grip) noexcept {
     TensionProblem problem;
     problem.matrix = matrix;
@@ -145,7 +150,7 @@ void complain_about_places(const FrameGeometry &frame, const GripGeometry &grip,
             const bool ties = glm::distance(attachment_lever(grip, rest, i),
                                             attachment_lever(grip, rest, j)) < kSamePlace_m;
             if (motors) {
-                complaints.push_back("Motors " + std::to_string(i) + " and " + std::to_string(j) +
+                complaints.push_back("Motors " + number(i) + " and " + number(j) +
                                      (ties ? " and their joints are in one place: one string "
                                              "twice; move one of them."
                                            : " are in one place; move one of them."));
@@ -166,7 +171,7 @@ void complain_about_exchange(const FrameGeometry &frame, const GripGeometry &gri
             const PoseStatics statics = pose_statics(other, grip, rest_pose(grip));
             if (statics.closed && statics.margin > best) {
                 best = statics.margin;
-                remedy = "With motors " + std::to_string(i) + " and " + std::to_string(j) +
+                remedy = "With motors " + number(i) + " and " + number(j) +
                          " exchanged the strings would hold the grip: they may be mirrored.";
             }
         }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/box_least_squares.h"
+
 namespace spidar {
 
 namespace {
@@ -107,9 +109,124 @@ bool feasible(const Solutions &all, const TensionSettings &settings, double s, d
     return true;
 }
 
+// Where the mask leaves DOF out there are many null vectors, and many tensions for one wrench: what can be given is then
+// asked of the solver itself. A weighted wrench nearer than this is given (unit: N at the pole ends).
+constexpr double kGiven_n = 1e-9;
+// Stands for "no regularising term".
+constexpr double kVanishingWeight = 1e-12;
+// Halvings of an interval of 1 until rounding.
+constexpr int kHalvings = 45;
+// A margin below this is none.
+constexpr double kNoMargin = 1e-7;
+
+TensionProblem masked_problem(const WrenchMatrix &matrix, const TensionSettings &settings,
+                              double least_n, double most_n) noexcept {
+    TensionProblem problem;
+    problem.matrix = matrix;
+    problem.weights = tension_weights(settings);
+    problem.proximal_weight = kVanishingWeight;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = !has_string(settings.broken_mask, i);
+        problem.lower_n[i] = works ? least_n : 0.0;
+        problem.upper_n[i] = works ? most_n : 0.0;
+        problem.proximal_target_n[i] = problem.upper_n[i];
+    }
+    return problem;
+}
+
+WrenchClosure masked_closure(const WrenchMatrix &matrix, const TensionSettings &settings) noexcept {
+    WrenchClosure closure;
+    double can = 0.0;
+    double cannot = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+        const double margin = 0.5 * (can + cannot);
+        const TensionSolution solution =
+            solve_tension_problem(masked_problem(matrix, settings, margin, 1.0), nullptr);
+        const bool closed = solution.status == Status::ok && solution.largest_error_n <= kGiven_n;
+        if (closed) {
+            closure.null_tensions = solution.tensions_n;
+        }
+        (closed ? can : cannot) = margin;
+    }
+    closure.margin = can > kNoMargin ? can : 0.0;
+    if (closure.margin <= 0.0) {
+        closure.null_tensions = {};
+    }
+    return closure;
+}
+
+FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+                           const TensionSettings &settings) noexcept {
+    TensionProblem problem =
+        masked_problem(matrix, settings, settings.min_tension_n, settings.max_tension_n);
+    double request = 0.0; // |W q| squared
+    double reach_n = 0.0; // no weighted wrench is larger
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        const double weighted = problem.weights[k] * wrench[k];
+        request += weighted * weighted;
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            reach_n += std::abs(problem.weights[k] * matrix.columns[i][k]) * settings.max_tension_n;
+        }
+    }
+    struct Look {
+        bool given = false;
+        bool too_small = false; // a larger scale comes nearer
+    };
+    const auto look_at = [&](double scale) {
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            problem.wrench[k] = scale * wrench[k];
+        }
+        const TensionSolution solution = solve_tension_problem(problem, nullptr);
+        const DofArray achieved = spidar::apply(matrix, solution.tensions_n);
+        double along = 0.0;
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            const double square = problem.weights[k] * problem.weights[k];
+            along += square * (achieved[k] - problem.wrench[k]) * wrench[k];
+        }
+        return Look{solution.status == Status::ok && solution.largest_error_n <= kGiven_n,
+                    along > 0.0};
+    };
+    const Look none = look_at(0.0);
+    FeasibleScale result;
+    if (!(request > 0.0)) {
+        result.any = none.given;
+        result.largest = none.given ? std::numeric_limits<double>::infinity() : 0.0;
+        return result;
+    }
+    // The distance to what can be given is convex in the scale: halve towards its least.
+    const double most = reach_n / std::sqrt(request);
+    double low = 0.0;
+    double high = most;
+    double inside = 0.0;
+    bool found = none.given;
+    for (int halving = 0; halving < kHalvings && !found; ++halving) {
+        inside = 0.5 * (low + high);
+        const Look look = look_at(inside);
+        found = look.given;
+        (look.too_small ? low : high) = inside;
+    }
+    if (!found) {
+        return result;
+    }
+    const auto border = [&](double given, double not_given) {
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            const double middle = 0.5 * (given + not_given);
+            (look_at(middle).given ? given : not_given) = middle;
+        }
+        return given;
+    };
+    result.any = true;
+    result.least = none.given ? 0.0 : border(inside, 0.0);
+    result.largest = border(inside, 2.0 * most);
+    return result;
+}
+
 } // namespace
 
 WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &settings) noexcept {
+    if (settings.dof_mask != kAllDofs) {
+        return masked_closure(matrix, settings);
+    }
     WrenchClosure closure;
     const Solutions all = solve_all(matrix, DofArray{}, settings);
     if (!all.full_rank) {
@@ -125,9 +242,14 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
 FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
                              const TensionSettings &settings) noexcept {
     FeasibleScale scale;
+    if (!std::all_of(wrench.begin(), wrench.end(), [](double q) { return std::isfinite(q); })) {
+        return scale;
+    }
+    if (settings.dof_mask != kAllDofs || settings.broken_mask != 0) {
+        return masked_scale(matrix, wrench, settings);
+    }
     const Solutions all = solve_all(matrix, wrench, settings);
-    if (!all.full_rank || settings.broken_mask != 0 ||
-        !std::all_of(wrench.begin(), wrench.end(), [](double q) { return std::isfinite(q); })) {
+    if (!all.full_rank) {
         return scale;
     }
     const double limits[2] = {settings.min_tension_n, settings.max_tension_n};

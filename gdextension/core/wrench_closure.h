@@ -16,7 +16,8 @@ struct WrenchClosure {
     StringArray null_tensions{};
 };
 
-// Weights of `settings` only scale the rows against each other (for the rank); broken strings count as absent.
+// Weights of `settings` only scale the rows against each other (for the rank); broken strings count as absent. Under a
+// DOF mask: for the DOF that count, the best of many null vectors, to 1e-7 by some 45 solves.
 [[nodiscard]] WrenchClosure wrench_closure(const WrenchMatrix &matrix,
                                            const TensionSettings &settings) noexcept;
 

@@ -248,7 +248,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status =
-        no_grasp && result.status == Status::ok ? Status::grasp_unavailable : result.status;
+        no_grasp && usable(result.status) ? Status::grasp_unavailable : result.status;
 
     return command_for(gate.tensions_n);
 }

@@ -12,8 +12,8 @@ constexpr double kSwing_m_s = 0.06;
 // Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
 constexpr double kRotationArm_m = 0.04;
 constexpr double kGraspArm_m = 0.02;
-// Half a period of 12.5 Hz: the lightest hand swings so slowly; no hand shakes of itself above 10 Hz.
-constexpr double kLongestHalfPeriod_s = 0.040;
+// Half a period of 8 Hz: a light hand bounces off a wall so slowly; nobody shakes a grip as fast for long.
+constexpr double kLongestHalfPeriod_s = 0.060;
 // Three whole periods in a row: no tap swings so often.
 constexpr int kSwings = 6;
 // Time constant of what counts as the hand's own motion: a corner of 13 Hz.

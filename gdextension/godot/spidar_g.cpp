@@ -204,28 +204,6 @@ void SpidarG::open_device() {
     set_process_internal(true);
 }
 
-std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(Status &status,
-                                                                std::string &problem) {
-    const std::string device_name = config_or_default().get_device_name().utf8().get_data();
-    if (!claim_.take(device_name, name_for_messages())) {
-        status = Status::device_in_use;
-        problem = "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
-                  spidar::DeviceClaim::owner_of(device_name) +
-                  "\". Free that node, or give this one another device_name.";
-        return nullptr;
-    }
-    auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    if (calibration_.is_null()) {
-        // The ideal calibration of a device that starts at its home pose.
-        settings_.strings =
-            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
-                                                             spidar::rest_pose(settings_.grip)),
-                                      transport->home_counts(), plant_.metres_per_count);
-    }
-    simulated_ = transport.get();
-    return transport;
-}
-
 void SpidarG::refuse_to_open(Status status, const std::string &message) {
     problem_ = message;
     const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +

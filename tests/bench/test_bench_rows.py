@@ -13,6 +13,7 @@ import unittest
 
 import bench_rows
 import run_bench
+import write_tables
 
 
 def row(method="ours", of_set="S1", mode="cold", **figures):
@@ -96,6 +97,15 @@ class Results(unittest.TestCase):
             rows = bench_rows.read_rows(os.path.join(folder, problem + ".json"))
             self.assertTrue(rows)
             self.assertTrue(all(tuple(one) == bench_rows.COLUMNS for one in rows))
+
+    def test_the_page_tells_the_committed_results(self):
+        path = os.path.join(run_bench.ROOT, "docs", "accuracy_and_speed.md")
+        with open(path, encoding="utf-8") as file:
+            page = file.read()
+        self.assertEqual(len(write_tables.MARK.findall(page)), 4)
+        folder = os.path.join(run_bench.ROOT, "tests", "bench", "results")
+        self.assertEqual(write_tables.fill(page, folder), page,
+                         "run python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md")
 
 
 if __name__ == "__main__":

@@ -148,7 +148,7 @@ TEST_CASE("geometry report: one string twice and lost rank are named") {
     device.frame.motors_m[4] = device.frame.motors_m[0];
     device.grip.joints_m[4] = device.grip.joints_m[0];
     const GeometryReport report = report_geometry(device.frame, device.grip, 0.3, 10.0, 10);
-    CHECK(says(report, "Motors 0 and 4 and their joints are in one place"));
+    CHECK(says(report, "Motors 1 and 5 and their joints are in one place"));
     // All strings to two points: the turn about the line between them is out of reach.
     StringVectors joints = device.grip.joints_m;
     for (std::size_t i = 0; i < kStringCount; ++i) {

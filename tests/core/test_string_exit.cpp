@@ -29,10 +29,10 @@ TEST_CASE("string exit: an eyelet's path is the straight line") {
 }
 
 TEST_CASE("string exit: straight across from the pulley the string wraps a quarter and runs on") {
-    // Inlet at the origin of the pulley's rim, axis z pointing out; the attachment 0.3 m aside, one radius inwards: the
-    // tangent leaves at the rim's lowest point.
+    // Inlet at the origin of the pulley's rim, axis z pointing out; the attachment 0.3 m aside, one radius outwards: the
+    // tangent leaves at the rim's outermost point.
     const double r = 0.004;
-    const StringPath path = string_path(Vec3(0, 0, 0.24), r, Vec3(0, 0, 1), Vec3(0.3, 0, 0.24 - r));
+    const StringPath path = string_path(Vec3(0, 0, 0.24), r, Vec3(0, 0, 1), Vec3(0.3, 0, 0.24 + r));
     CHECK(path.on_pulley);
     CHECK(path.direction.x == doctest::Approx(1.0).epsilon(1e-12));
     CHECK(std::fabs(path.direction.z) < 1e-12);

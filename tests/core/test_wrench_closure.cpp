@@ -110,3 +110,72 @@ TEST_CASE("feasible scale: just below it the request is met, just above it is no
     CHECK(nothing.any);
     CHECK(std::isinf(nothing.largest));
 }
+
+TEST_CASE(
+    "wrench closure under a mask: forces alone close where all seven DOF do, and further out") {
+    test::Random random(8);
+    TensionSettings forces;
+    forces.dof_mask = kTranslationOnly;
+    int wider = 0;
+    for (int round = 0; round < 60; ++round) {
+        const WrenchMatrix matrix =
+            matrix_at(test::random_pose(random, 0.1, random.uniform(0.7, 2.4)));
+        const WrenchClosure all = wrench_closure(matrix, {});
+        const WrenchClosure masked = wrench_closure(matrix, forces);
+        CAPTURE(round);
+        CHECK(masked.margin >= all.margin - 1e-6);
+        wider += masked.margin > 0.0 && all.margin == 0.0 ? 1 : 0;
+        if (masked.margin > 0.0) {
+            const DofArray left = apply(matrix, masked.null_tensions);
+            const auto [least, most] =
+                std::minmax_element(masked.null_tensions.begin(), masked.null_tensions.end());
+            CHECK(*least >= masked.margin - 1e-6);
+            CHECK(*most <= 1.0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK(std::abs(left[k]) < 1e-8);
+            }
+        }
+    }
+    CHECK(wider > 10);
+}
+
+TEST_CASE("feasible scale under a mask or with a broken string: given up to there and not beyond") {
+    test::Random random(9);
+    int given = 0;
+    for (int round = 0; round < 40; ++round) {
+        TensionSettings settings;
+        settings.dof_mask = round % 2 == 0 ? kTranslationOnly : kAllDofs;
+        settings.broken_mask = round % 4 == 1 ? 16 : 0;
+        const WrenchMatrix matrix = matrix_at(rest_pose(GripGeometry{}));
+        DofArray q{};
+        for (std::size_t k = 0; k < q.size(); ++k) {
+            q[k] = random.uniform(-1.0, 1.0) * (k < 3 ? 1.0 : 0.02);
+        }
+        const FeasibleScale scale = feasible_scale(matrix, q, settings);
+        CAPTURE(round);
+        if (!scale.any) {
+            CHECK(settings.broken_mask != 0);
+            continue;
+        }
+        ++given;
+        const auto error_at = [&](double s) {
+            TensionProblem problem;
+            problem.matrix = matrix;
+            problem.weights = tension_weights(settings);
+            problem.proximal_weight = 1e-10;
+            for (std::size_t k = 0; k < q.size(); ++k) {
+                problem.wrench[k] = s * q[k];
+            }
+            for (std::size_t i = 0; i < problem.lower_n.size(); ++i) {
+                const bool works = ((settings.broken_mask >> i) & 1) == 0;
+                problem.lower_n[i] = works ? settings.min_tension_n : 0.0;
+                problem.upper_n[i] = works ? settings.max_tension_n : 0.0;
+            }
+            return solve_tension_problem_safely(problem, nullptr).largest_error_n;
+        };
+        CHECK(error_at(scale.largest) < 1e-6);
+        CHECK(error_at(scale.largest * 1.001 + 1e-3) > 1e-6);
+        CHECK(error_at(0.5 * (scale.least + scale.largest)) < 1e-6);
+    }
+    CHECK(given >= 20);
+}

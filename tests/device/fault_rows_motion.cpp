@@ -73,6 +73,9 @@ Answer sustained_force(HandFirmness hand) {
     return rig.answer(first_derated_ms);
 }
 
+// What a contact may give to the hand without being called unstable.
+constexpr double kSlowBounce_w = 0.020;
+
 Answer instability(HandFirmness hand) {
     FaultRig rig(hand, [] {
         PlantSettings plant;
@@ -103,6 +106,10 @@ Answer instability(HandFirmness hand) {
                    0;
         },
         2000);
+    if (halved_ms < 0.0) { // a light hand bounces so slowly and softly that it is no shaking
+        CHECK(rig.energy_j <= kSlowBounce_w * 2.0);
+        return rig.answer(0.0);
+    }
     rig.run_ms(1500);
     CHECK(rig.peak_speed_m_s < 2.0);
     return rig.answer(halved_ms);

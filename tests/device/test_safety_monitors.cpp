@@ -72,7 +72,7 @@ TEST_CASE("shake: a swing of 30 Hz is halved, halved again, and called unstable;
         }
     };
     ShakeMonitor shaking;
-    swing(shaking, 30.0, 0.2, 0.2);
+    swing(shaking, 30.0, 0.2, 0.15);
     CHECK(shaking.scale() == 0.5);
     CHECK_FALSE(shaking.unstable());
     CHECK(shaking.swing_m_s() == doctest::Approx(0.2).epsilon(0.2));

@@ -32,7 +32,8 @@ constexpr double kPoseOverPivot_m = 2e-14;
 constexpr double kBalanceTolerance_m = 2e-14;
 // A warm tick of the general steps ends here at the latest after the movements below; one of the fast steps too.
 constexpr double kTrackedError_m = 2e-9;
-// The first sample after lost ones is further away: two steps from 3 mm.
+// The two samples after lost ones start further away, the second because the next movement is foreseen like the last:
+// two steps from 3 mm.
 constexpr double kAfterLoss_m = 1e-5;
 // Along the direction that a singular pose leaves open poses 1e-5 m apart have the same lengths to this.
 constexpr double kOpenResidual_m = 1e-9;
@@ -259,7 +260,7 @@ Verdict follow(Device &device, CaseRandom &random) {
     const Vec3 turn = random.vector(2.5e-3);
     const double closing = random.between(-2.5e-3, 2.5e-3);
     Verdict verdict;
-    bool lost = false;
+    int unsettled = 0;
     for (int tick = 1; tick <= kLoopTicks; ++tick) {
         const Mat3 turned = glm::mat3_cast(glm::dquat(static_cast<double>(tick) * turn));
         const GripPose next =
@@ -278,10 +279,10 @@ Verdict follow(Device &device, CaseRandom &random) {
             const bool held = pose_error(before, result.pose) == 0.0;
             wrong = held && !usable(result.status) ? 0.0 : HUGE_VAL;
         } else {
-            const double allowed = lost ? kAfterLoss_m : kTrackedError_m;
+            const double allowed = unsettled > 0 ? kAfterLoss_m : kTrackedError_m;
             wrong = pose_error(result.pose, next) / (allowed / result.conditioning);
         }
-        lost = spoilt;
+        unsettled = spoilt ? 2 : unsettled - 1;
         verdict.ratio = wrong <= verdict.ratio ? verdict.ratio : wrong;
     }
     return verdict;

@@ -69,6 +69,6 @@ func _draw() -> void:
 				LATE_COLOUR if begin_us >= LATE_US else BAR_COLOUR)
 		var decade: float = log(begin_us) / log(10.0)
 		if absf(decade - roundf(decade)) < HALF_BAR_DECADES:
-			draw_string(font, Vector2(area.position.x + i * width - 14, size.y - 3),
-				"%d" % int(round(pow(10.0, roundf(decade)))), HORIZONTAL_ALIGNMENT_CENTER, 28,
+			draw_string(font, Vector2(area.position.x + i * width - 22, size.y - 3),
+				"%d" % int(round(pow(10.0, roundf(decade)))), HORIZONTAL_ALIGNMENT_CENTER, 44,
 				PlotStrip.FONT_SIZE, PlotStrip.TEXT)

@@ -18,6 +18,8 @@ const FORCE_COLOURS: PackedColorArray = [
 	Color(0.95, 0.35, 0.30), Color(0.40, 0.80, 0.35), Color(0.35, 0.60, 1.0)
 ]
 const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
+## The level of events that the log shows: something that should be looked at, but stopped nothing.
+const WARNING: int = 1
 ## Given values are drawn paler than asked ones.
 const GIVEN_ALPHA: float = 0.45
 
@@ -177,6 +179,7 @@ func _listeners() -> Dictionary[StringName, Callable]:
 		&"request_rejected": _rejected,
 		&"recording_failed": _rejected,
 		&"replay_finished": _replayed,
+		&"device_event": _event,
 	}
 
 
@@ -208,6 +211,13 @@ func _fault(_status: int, message: String) -> void:
 
 func _rejected(message: String) -> void:
 	_tell(message)
+
+
+## Warnings. Faults and refusals have signals of their own.
+func _event(event: Dictionary) -> void:
+	if event["level"] == WARNING and event["name"] != "request_refused":
+		var where: String = " (string %d of 1-8)" % (event["string"] + 1) if event["string"] >= 0 else ""
+		_tell("%s%s %s" % [event["message"], where, event["remedy"]])
 
 
 func _replayed(identical: bool, message: String) -> void:

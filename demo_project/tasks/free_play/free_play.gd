@@ -33,6 +33,7 @@ func _ready() -> void:
 	add_child(linker)
 	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
+	linker.sound_with(sound)
 	_tool_hand.carrying.connect(_on_carrying)
 
 

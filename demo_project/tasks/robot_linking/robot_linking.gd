@@ -38,6 +38,7 @@ func _ready() -> void:
 	add_child(linker)
 	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
+	linker.sound_with(sound)
 	($CameraRig as CameraRig).see(VIEW_DEG, VIEW_DOWN_M)
 
 

@@ -27,6 +27,22 @@ TEST_CASE("string faults: each kind names its string") {
     }
 }
 
+TEST_CASE("string faults: large errors that once threw a guess to where no pose exists") {
+    // Cases of `string_faults --seed 2` that were missed: case, fault.
+    struct Missed {
+        std::uint64_t number;
+        StringFault fault;
+    };
+    for (const Missed &missed :
+         {Missed{20, StringFault::slipped}, Missed{250, StringFault::slipped},
+          Missed{915, StringFault::slipped}, Missed{516, StringFault::slack}}) {
+        Draw draw(2U * 1000003U + missed.number);
+        const FaultCase c = random_fault(draw, missed.fault);
+        CAPTURE(missed.number);
+        CHECK(right_string(c, evidence_after(c, draw, 5.0)));
+    }
+}
+
 TEST_CASE("string faults: a healthy device is not accused") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         Draw draw(seed);

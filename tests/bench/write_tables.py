@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""write_tables.py RESULTS PAGE: puts the tables of a bench's results between the marks of PAGE,
+<!-- bench NAME --> and <!-- end -->. Nothing else of the page changes."""
+
+import os
+import re
+import sys
+
+import bench_rows
+from bench_rows import DAQP, find
+
+MARK = re.compile(r"(<!-- bench (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+SETS = (
+    ("S2 shipped", "warm", "S2, a 1 kHz trajectory, at the shipped settings"),
+    ("S2", "warm", "S2, ridge 1e-6"),
+    ("S1", "cold", "S1, random and feasible"),
+    ("S3", "cold", "S3, saturated"),
+    ("S4a", "cold", "S4a, rank-deficient"),
+    ("S4b", "cold", "S4b, zero wrench"),
+    ("S4c", "cold", "S4c, ridge 1e-12"),
+    ("S4d", "cold", "S4d, one to three broken strings"),
+    ("S4e", "cold", "S4e, rank-deficient and ridge 1e-12"),
+)
+POSES = (
+    ("ours", "warm"), ("ours", "cold"), ("ours, plain", "1 step"), ("ours, plain", "2 steps"),
+    ("ours, plain", "3 steps"), ("dense damped Gauss-Newton 1e-3", "2 steps"),
+    ("dense damped Gauss-Newton 1e-9", "2 steps"), ("paper, polynomial division", "cold"), ("paper, cubic", "cold"),
+    ("closed form, upright pair", "cold"), ("closed form, best of four", "cold"),
+)
+
+
+def number(value, form):
+    return "-" if value is None else form.format(value)
+
+
+def table(header, lines):
+    rule = "|".join("---" for _ in header)
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in (header,)) + f"\n|{rule}|\n" + \
+        "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+def error_and_failures(row):
+    if row is None:
+        return "-"
+    error = number(row["worst_error"], "{:.0e}") if row["worst_error"] is not None else "no bound"
+    return error + (f", {row['failures']} failed" if row["failures"] else "")
+
+
+def tension(results):
+    rows = results["tension"]
+    builds = [(method, text) for method, text in (("ours, AVX-512", "AVX-512"), ("ours, AVX2", "AVX2"),
+                                                  ("ours, 16-byte vectors", "SSE2"))
+              if find(rows, method, "S1", "cold")]
+    others = (("bounded least squares", "QR"), ("eiquadprog", "eiquadprog"), ("quadprog", "quadprog"),
+              ("qpOASES", "qpOASES"))
+    lines = []
+    for of_set, mode, text in SETS:
+        row_of = [find(rows, method, of_set, mode) for method, _ in builds]
+        peer = find(rows, DAQP, of_set, mode)
+        best = min(row_of, key=lambda row: row["median_ns"])
+        lines.append([f"{text}, {mode}",
+                      *(number(row["ratio_to_daqp"], "{:.2f}") for row in row_of),
+                      *(number(row and row["ratio_to_daqp"], "{:.2f}")
+                        for row in (find(rows, method, of_set, mode) for method, _ in others)),
+                      number(peer and peer["median_ns"], "{:.0f}"),
+                      error_and_failures(best), error_and_failures(peer)])
+    header = ["set", *(f"ours, {text}" for _, text in builds), *(text for _, text in others), "DAQP (ns)",
+              "worst error (N), ours", "DAQP"]
+    return table(header, lines)
+
+
+def fk(results):
+    rows = results["fk"]
+    lines = []
+    for method, mode in POSES:
+        cells = [f"{method}, {mode}"]
+        for of_set in ("T1 clean", "T1 counts", "T1 0.1 mm", "T1 1 mm", "T1 3 mm"):
+            row = next((one for one in rows if bench_rows.key(one) == (method, of_set, mode)), None)
+            cells.append("-" if row is None else f"{row['median_ns']:.0f}; {error_and_failures(row)}")
+        lines.append(cells)
+    return table(["method", "exact lengths", "counts", "0.1 mm noise", "1 mm", "3 mm"], lines)
+
+
+def step(results):
+    lines = []
+    for row in results["step"]:
+        if row["set"] == "step":
+            name = row["method"] + ("" if row["mode"] == "-" else ", " + row["mode"])
+            lines.append([name, number(row["median_ns"] / 1e3, "{:.2f}"), number(row["p999_ns"] / 1e3, "{:.2f}"),
+                          number(row["ratio_to_daqp"], "{:.2f}")])
+    return table(["", "median (us)", "p99.9 (us)", "median / DAQP's warm solve"], lines)
+
+
+def fill(page, folder):
+    """The page with its tables made anew from a folder of results."""
+    results = {problem: bench_rows.read_rows(os.path.join(folder, problem + ".json"))
+               for problem in bench_rows.PROBLEMS}
+    with open(os.path.join(folder, "bars.md"), encoding="utf-8") as file:
+        bars = file.read()
+    tables = {"bars": bars, "tension": tension(results), "fk": fk(results), "step": step(results)}
+    return MARK.sub(lambda found: found[1] + tables[found[2]] + found[4], page)
+
+
+def main():
+    folder, path = sys.argv[1:3]
+    with open(path, encoding="utf-8") as file:
+        page = file.read()
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(fill(page, folder))
+
+
+if __name__ == "__main__":
+    main()
