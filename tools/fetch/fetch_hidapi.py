@@ -14,6 +14,8 @@ import tarfile
 import urllib.parse
 import urllib.request
 
+from pip._internal.models.index import PyPI  # where pip looks when nothing else is set
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDER = os.path.join(ROOT, "build", "hidapi")
 ARCHIVE = "hidapi-0.14.0.post4.tar.gz"
@@ -26,7 +28,7 @@ def index_url():
     setting = subprocess.run(
         [sys.executable, "-m", "pip", "config", "get", "global.index-url"], capture_output=True, text=True
     ).stdout.strip()
-    return (os.environ.get("PIP_INDEX_URL") or setting or "https://pypi.org/simple").rstrip("/")
+    return (os.environ.get("PIP_INDEX_URL") or setting or PyPI.simple_url).rstrip("/")
 
 
 def download():
