@@ -191,7 +191,7 @@ constexpr FaultRow kRows[] = {
     {19, "reversed or swapped strings", 2500.0, 0.0, wrong_wiring},
     {20, "jammed drum: slack or caught string", 250.0, 0.0, jammed_drum},
     {21, "broken or slipped string", 1000.0, 0.0, broken_string},
-    {22, "lengths that no pose has", 5.0, 0.0, impossible_lengths},
+    {22, "lengths that no pose has", 20.0, 0.0, impossible_lengths},
     {36, "zero taken 30 mm beside home", 2500.0, 0.0, not_at_home},
 };
 
