@@ -263,7 +263,7 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
     if (report.at_rest.closed && poses > 0 && report.closure_share < kLowShare) {
         report.complaints.push_back(
             "The strings hold the grip in only " +
-            std::to_string(static_cast<int>(100.0 * report.closure_share + 0.5)) +
+            std::to_string(std::lround(100.0 * report.closure_share)) +
             " % of the poses around the centre; check the positions of motors and joints.");
     }
 

@@ -44,6 +44,8 @@ bool finite(const WrenchMatrix &matrix) noexcept {
 
 template <class T>
 bool same_bits(const T &a, const T &b) noexcept {
+    // Bits are what is asked: -0 and NaN too.
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 

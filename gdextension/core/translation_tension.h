@@ -17,6 +17,7 @@ inline constexpr int kTranslationSteps = 16;
 
 namespace { // each source compiles its own, for its own target
 
+// NOLINTNEXTLINE(misc-definitions-in-headers): `inline` would let the linker mix the targets
 [[nodiscard]] bool is_translation_only(const TensionProblem &problem) noexcept {
     const DofArray &w = problem.weights;
     return w[3] == 0.0 && w[4] == 0.0 && w[5] == 0.0 && w[6] == 0.0;

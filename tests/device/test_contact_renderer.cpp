@@ -181,6 +181,30 @@ TEST_CASE("contact: in a wedge the force leads to the nearest allowed point") {
     }
 }
 
+TEST_CASE("contact: both sides of a slot that is too narrow push by depth, not without bound") {
+    Rig rig;
+    ContactPlane floor = floor_plane();
+    ContactPlane ceiling = floor_plane(ContactTarget::centre, 2);
+    ceiling.normal = -ceiling.normal;
+    for (ContactPlane *plane : {&floor, &ceiling}) {
+        plane->offset_m = 0.002; // 2 mm beyond the middle
+        plane->damping_n_s_m = 0.0;
+    }
+    rig.give({floor, ceiling});
+    const double stiffness_n_m = floor.stiffness_n_m;
+    for (const double off_m : {0.0, 0.0005, -0.0015}) {
+        const Wrench wrench = rig.tick(grip_at(Vec3(0.0, 0.0, off_m)));
+        CAPTURE(off_m);
+        CHECK(wrench.force_n.z * off_m <= 0.0); // back to the middle
+        CHECK(std::abs(wrench.force_n.z) <= 4.0 * stiffness_n_m * std::abs(off_m) + 1e-6);
+    }
+    for (const int side : {0, 1}) {
+        const double impulse_ns = glm::length(rig.report(side).impulse_ns);
+        CHECK(impulse_ns > 0.0);
+        CHECK(impulse_ns <= 3.0 * kTick_s * 3.0 * stiffness_n_m * 0.0035);
+    }
+}
+
 TEST_CASE("contact: a closed path in contact gains no energy from several planes") {
     Rig rig;
     rig.give({floor_plane(ContactTarget::pole1_plus, 1), floor_plane(ContactTarget::pole2_plus, 2),

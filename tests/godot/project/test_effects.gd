@@ -15,8 +15,9 @@ func test_coupling_pulls_the_hand_to_the_target() -> void:
 	# Two springs in balance: the coupling's and the hand's.
 	var moved: float = 0.01 * 350.0 / (350.0 + HAND_STIFFNESS)
 	check_near(device.get_grip_transform().origin.x, moved, 0.05 * moved, "the balance of two springs")
-	device.advance_cycles(320)
-	check_near(device.get_requested_wrench()[0], 0.0, 1e-9, "forgotten, it is gone after 300 ms")
+	# 300 ms until it is forgotten; then the passivity controller brakes the hand that springs back.
+	device.advance_cycles(1500)
+	check_near(device.get_requested_wrench()[0], 0.0, 1e-4, "forgotten, it is gone")
 
 
 func test_coupling_takes_world_coordinates_and_a_mask() -> void:
