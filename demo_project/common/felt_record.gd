@@ -5,7 +5,7 @@ extends RefCounted
 
 const WEIGHT_TOLERANCE := 0.05
 const WIDTH_TOLERANCE_M := 0.001
-const DETENT_TOLERANCE := 0.15
+const DETENT_TOLERANCE := 0.2
 ## One way only, so that the strings' friction, up to 0.3 N, is in it.
 const RELEASE_TOLERANCE := 0.25
 ## A squeeze weaker than this at the fingers is not felt as a thing between them.

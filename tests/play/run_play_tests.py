@@ -34,7 +34,7 @@ SIMULATED_LIMIT_S = 240.0  # the demo's own limit, on simulated time
 WEIGHT_TOLERANCE = 0.05
 WIDTH_TOLERANCE_MM = 1.0
 SQUEEZE_FELT_NM = 0.010
-DETENT_TOLERANCE = 0.15
+DETENT_TOLERANCE = 0.2
 RELEASE_TOLERANCE = 0.25
 # By task: of the things with their target, and by level where the levels differ.
 POSITION_TOLERANCE_MM = {
