@@ -151,6 +151,27 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
     }
 }
 
+TEST_CASE("DOF mask: a far bound guessed wrongly leaves no rounding behind (found by "
+          "stress_tension_quick)") {
+    for (const SimdLevel level : kLevels) {
+        const LevelInUse in_use(level);
+        for (std::uint64_t seed = 110000; seed < 110200; ++seed) {
+            TensionProblem problem = test::random_problem(seed).problem;
+            problem.weights = {1, 1, 1, 0, 0, 0, 0};
+            problem.proximal_weight = 1e-3;
+            problem.lower_n[4] = -9e11;
+            const ActiveSet guess = {StringBound::free, StringBound::free, StringBound::free,
+                                     StringBound::free, StringBound::at_lower};
+            const StringArray given = solve_tension_problem(problem, &guess).tensions_n;
+            const StringArray safe = solve_tension_problem_safely(problem, nullptr).tensions_n;
+            CAPTURE(seed);
+            for (std::size_t i = 0; i < given.size(); ++i) {
+                CHECK(std::abs(given[i] - safe[i]) < 1e-10);
+            }
+        }
+    }
+}
+
 TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
     test::Random random(31);
     const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
