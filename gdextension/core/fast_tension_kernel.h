@@ -41,8 +41,17 @@ public:
             step(table);
             double before = largest_step_;
             free_ = table;
+            contraction_ = 0.0;
             if (!settle(passes)) {
                 return false;
+            }
+            if (contraction_ > 0.0) { // pivots were made: that step says nothing of their table
+                if (!(contraction_ <= kWorstContraction)) {
+                    table = free_;
+                    continue;
+                }
+                const double trusted_n = kLeft_n / (contraction_ * contraction_);
+                before = before < trusted_n ? before : trusted_n;
             }
             for (int correction = 0;; ++correction) {
                 if (correction == kCorrections) {
@@ -213,6 +222,8 @@ private:
             if (Row::bits((tolerance < out_a) & mask.a, (tolerance < out_b) & mask.b) == 0) {
                 return true; // the usual case of a warm tick
             }
+            const double condition = stiffness_ * table_.softest(mask);
+            contraction_ = kTableRounding * condition * condition;
             const Four open = Four::all(kOpen);
             const Four shut = Four::all(-kOpen);
             Row{Four::select(mask.a, lower.a, shut), Four::select(mask.b, lower.b, shut)}.store(
@@ -353,9 +364,10 @@ private:
     Four front_{}; // W (A x - q) where gradient_ was taken
     Four back_{};
     double largest_step_ = 0.0;
-    double stiffness_ = 0.0; // trace of H
-    unsigned movable_ = 0;   // lower < upper
-    unsigned low_ = 0;       // held at the lower bound
+    double stiffness_ = 0.0;   // trace of H
+    double contraction_ = 0.0; // of the corrections, at worst; 0 when no pivot was made
+    unsigned movable_ = 0;     // lower < upper
+    unsigned low_ = 0;         // held at the lower bound
     unsigned high_ = 0;
     unsigned free_ = 0;
     unsigned held_in_table_ = 0;

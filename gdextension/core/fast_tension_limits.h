@@ -24,6 +24,12 @@ inline constexpr int kCorrections = 4;
 // Rounding of the gradient as a share of the largest force that cancels in it, and how far it may move a string.
 inline constexpr double kNoise = 2e-15;
 inline constexpr double kNoiseMove_n = 4e-12;
+// Pivots on a table inverted with condition c (trace of H times its softest element) leave elements that may be c times
+// smaller than what they are the difference of, which had lost c already: corrections with it contract by
+// kTableRounding c^2 at worst. Beyond kWorstContraction they may stand still, which looks like convergence: the
+// table is then inverted afresh on the strings that the pivots left free.
+inline constexpr double kTableRounding = 1e-16;
+inline constexpr double kWorstContraction = 1e-2;
 // What the table (about 1e-9 N at w = 1e-6) cannot tell from zero.
 inline constexpr double kTableTolerance = 1e-9;
 // Passes over all violated strings; then one at a time, the last first (Murty), which cannot cycle.

@@ -37,10 +37,20 @@ public:
                 return false;
             }
             free_ = table;
+            contraction_ = 0.0;
             if (!settle(passes)) {
                 return false;
             }
-            if (const Verdict verdict = correct(); verdict == Verdict::optimal) {
+            double before = step_.largest();
+            if (contraction_ > 0.0) { // pivots were made: that step says nothing of their table
+                if (!(contraction_ <= kWorstContraction)) {
+                    table = free_;
+                    continue;
+                }
+                const double trusted_n = kLeft_n / (contraction_ * contraction_);
+                before = before < trusted_n ? before : trusted_n;
+            }
+            if (const Verdict verdict = correct(before); verdict == Verdict::optimal) {
                 return report(inversions + passes, solution);
             } else if (verdict == Verdict::in_doubt) {
                 return false;
@@ -184,6 +194,8 @@ private:
         if ((out & free_) == 0) {
             return true; // the usual case of a warm tick
         }
+        const double condition = stiffness_ * softest();
+        contraction_ = kTableRounding * condition * condition;
         // Copied there and back: this object stays in registers, which only the seldom case must leave.
         Pivoting<Eight> pivoting;
         for (std::size_t i = 0; i < kFastStrings; ++i) {
@@ -226,9 +238,8 @@ private:
                                           : kShort_n;
     }
 
-    // Newton steps until what is left is rounding, and the certificate.
-    Verdict correct() noexcept {
-        double before = step_.largest();
+    // Newton steps until what is left is rounding, and the certificate. `before`: the step before the first.
+    Verdict correct(double before) noexcept {
         for (int correction = 0; correction < kCorrections; ++correction) {
             gradient();
             const double noise = kNoise * force_.absolute().largest();
@@ -294,12 +305,13 @@ private:
     Eight table_[kFastStrings];
     Eight x_{};
     Eight gradient_{};
-    Eight step_{};           // size of the last step
-    Eight force_{};          // W (A x - q) where gradient_ was taken
-    double stiffness_ = 0.0; // trace of H
-    double scale_ = 1.0;     // a power of two, about 1 / H
-    unsigned movable_ = 0;   // lower < upper
-    unsigned low_ = 0;       // held at the lower bound
+    Eight step_{};             // size of the last step
+    Eight force_{};            // W (A x - q) where gradient_ was taken
+    double stiffness_ = 0.0;   // trace of H
+    double contraction_ = 0.0; // of the corrections, at worst; 0 when no pivot was made
+    double scale_ = 1.0;       // a power of two, about 1 / H
+    unsigned movable_ = 0;     // lower < upper
+    unsigned low_ = 0;         // held at the lower bound
     unsigned high_ = 0;
     unsigned free_ = 0;
     unsigned wrong_ = 0; // held with a slope of the wrong sign

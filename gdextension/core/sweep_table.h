@@ -112,9 +112,11 @@ public:
     void pivot(std::size_t c, double inverse, double sign) noexcept {
         const Row row = Row::load(table_[c]);
         const Row own = Row::strings(1U << c);
+        const Row others = Row::strings(0xFFU & ~(1U << c));
         const Four inv = Four::all(inverse);
-        // Its own element is set so that the update leaves sign T_rc / T_cc in column c.
-        const Four corner = Four::all(1.0 - sign * inverse);
+        // Column c becomes sign T_cr / T_cc, as row c does: from nothing, since the difference of T_rc and
+        // T_cr (1 - sign / T_cc) would be rounding alone where T_cc is large.
+        const Four corner = Four::all(-sign * inverse);
         const Row w{Four::select(own.a, corner, row.a * inv),
                     Four::select(own.b, corner, row.b * inv)};
         alignas(32) double entries[kFastStrings];
@@ -122,7 +124,8 @@ public:
         for (std::size_t r = 0; r < kFastStrings; ++r) {
             const Four e = Four::all(entries[r]);
             const Row t = Row::load(table_[r]);
-            Row{Four::sub_mul(e, w.a, t.a), Four::sub_mul(e, w.b, t.b)}.store(table_[r]);
+            Row{Four::sub_mul(e, w.a, t.a & others.a), Four::sub_mul(e, w.b, t.b & others.b)}.store(
+                table_[r]);
         }
         const Four signed_inverse = Four::all(sign * inverse);
         const Four pivot_entry = Four::all(-inverse);

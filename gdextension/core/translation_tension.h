@@ -79,7 +79,9 @@ public:
             z1 += d1;
             z2 += d2;
             const Row move = combine(d0, d1, d2);
-            u = {u.a + move.a, u.b + move.b};
+            // Afresh: summed up it would keep the rounding of a far start.
+            const Row away = combine(z0, z1, z2);
+            u = {target.a + away.a, target.b + away.b};
             const Row mask = Row::strings(free);
             const double largest =
                 Four::max(move.a.absolute() & mask.a, move.b.absolute() & mask.b).largest();

@@ -86,14 +86,14 @@ struct Pivoting {
     // The sweep of string c: sign is -1 when it was swept before (free), +1 when not.
     void pivot(std::size_t c, Eight row, double inverse, double sign) noexcept {
         const unsigned own = 1U << c;
-        // Its own element is set so that the update leaves sign T_rc / T_cc in column c.
-        const Eight w =
-            Eight::select(own, Eight::all(1.0 - sign * inverse), row * Eight::all(inverse));
+        // Column c becomes sign T_cr / T_cc, as row c does: from nothing, since the difference of T_rc and
+        // T_cr (1 - sign / T_cc) would be rounding alone where T_cc is large.
+        const Eight w = Eight::select(own, Eight::all(-sign * inverse), row * Eight::all(inverse));
         alignas(64) double entries[kFastStrings];
         row.store(entries);
 #pragma GCC unroll 8
         for (std::size_t r = 0; r < kFastStrings; ++r) {
-            table[r] = Eight::sub_mul(Eight::all(entries[r]), w, table[r]);
+            table[r] = Eight::sub_mul(Eight::all(entries[r]), w, table[r].keep(0xFFU & ~own));
         }
         table[c] = Eight::select(own, Eight::all(-inverse), row * Eight::all(sign * inverse));
     }
