@@ -26,7 +26,7 @@ struct RenderSettings {
     double max_turn_damping_nm_s_rad = 0.01;
     double max_grasp_damping_nm_s_rad = 0.003;
 
-    // The controller of wrench and coupling: greatest damping it adds, in parts of the caps of damping. 0: off.
+    // The controller of the coupling: greatest damping it adds, in parts of the caps of damping. 0: off.
     double passivity_share = 2.0;
 
     // Calibrated options, off by default. The grip's weight is held up by a force of the strings.

@@ -1,4 +1,4 @@
-// Do the forces shake the grip? A rendering that is too stiff for its latency swings to and fro at 12 to 200 Hz;
+// Do the forces shake the grip? A rendering that is too stiff for its latency swings to and fro at 8 to 200 Hz;
 // a hand does not, and a tap swings once or twice. Counted are the swings of the grip's velocity, in each DOF,
 // that follow each other within half a period.
 #pragma once
