@@ -79,7 +79,9 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         const bool small =
             (found.fault == StringFault::slipped || found.fault == StringFault::slack) &&
             !(std::abs(found.error_m) >= kNamedError_m);
-        named_ = small ? FaultEvidence() : found;
+        // A string may rightly stand still for a while: what is named must show in the lengths, too.
+        const bool shows = parity_m > kStuckParity_m + stretch_m;
+        named_ = small || !shows ? FaultEvidence() : found;
         if (named_.fault != StringFault::none) {
             string_ = named_.string;
         }
