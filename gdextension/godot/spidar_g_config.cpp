@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry_report.h"
 #include "core/presets.h"
 #include "godot/type_conversions.h"
+
+#include <godot_cpp/variant/packed_string_array.hpp>
 
 using godot::PROPERTY_HINT_NONE;
 using godot::PROPERTY_HINT_RANGE;
@@ -70,6 +73,34 @@ godot::String SpidarGConfig::get_problem() const {
         problem = spidar::validate(plant_settings());
     }
     return spidar::to_godot(problem);
+}
+
+godot::Dictionary SpidarGConfig::check_geometry() const {
+    godot::Dictionary told;
+    godot::PackedStringArray complaints;
+    const std::string problem = own_problem();
+    if (!problem.empty()) {
+        complaints.push_back(spidar::to_godot(problem));
+        told["sound"] = false;
+        told["complaints"] = complaints;
+        return told;
+    }
+    const spidar::ServoSettings settings = servo_settings();
+    const spidar::GeometryReport report =
+        spidar::report_geometry(settings.frame, settings.grip, settings.tension.min_tension_n,
+                                settings.tension.max_tension_n);
+    for (const std::string &complaint : report.complaints) {
+        complaints.push_back(spidar::to_godot(complaint));
+    }
+    told["sound"] = report.sound();
+    told["degrees_of_freedom"] = report.degrees_of_freedom;
+    told["rank"] = report.at_rest.rank;
+    told["closed_at_rest"] = report.at_rest.closed;
+    told["closure_share"] = report.closure_share;
+    told["force_capacity_n"] = report.force_capacity_n;
+    told["moment_capacity_nm"] = report.moment_capacity_nm;
+    told["complaints"] = complaints;
+    return told;
 }
 
 spidar::ServoSettings SpidarGConfig::servo_settings() const {
@@ -218,6 +249,7 @@ void SpidarGConfig::_bind_methods() {
                         "Light,Normal,Firm");
 
     godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
+    godot::ClassDB::bind_method(godot::D_METHOD("check_geometry"), &SpidarGConfig::check_geometry);
     BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
     BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);
     BIND_ENUM_CONSTANT(TRANSPORT_DEVICE);

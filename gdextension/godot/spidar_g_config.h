@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
@@ -88,6 +89,8 @@ private:
 public:
     // Empty when usable; else one sentence with field, value, unit and remedy.
     [[nodiscard]] godot::String get_problem() const;
+    // Whether the strings of this frame and grip can hold and move it (core/geometry_report.h).
+    [[nodiscard]] godot::Dictionary check_geometry() const;
 
     // The settings of the servo loop, all but the calibration.
     [[nodiscard]] spidar::ServoSettings servo_settings() const;
