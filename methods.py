@@ -100,7 +100,8 @@ def use_mingw(env):
     env.Append(
         # This compiler does not align the stack to 32 bytes: aligned moves of spilled AVX registers would fault.
         CCFLAGS=["-Wa,-muse-unaligned-vector-move"],
-        CPPDEFINES=[("_WIN32_WINNT", "0x0A00")],
+        # hidapi is inside our own library: nothing of it is for others.
+        CPPDEFINES=[("_WIN32_WINNT", "0x0A00"), "HID_API_NO_EXPORT_DEFINE"],
         LINKFLAGS=["-static", "-static-libgcc", "-static-libstdc++"],
     )
     # Headers alone, shared with the host; its /usr/include as a whole would bring the wrong C library.

@@ -60,7 +60,7 @@ def main():
         check(code == 0 and found and int(found[2]) > 200 and found[3] == found[4] == "0",
               f"core and device tests: {found[0] if found else text[-400:]}")
         if code != 0:
-            print(text[-4000:])
+            print("\n".join(line for line in text.splitlines() if "ERROR" in line or "values" in line)[:4000])
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 
