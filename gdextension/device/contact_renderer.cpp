@@ -302,15 +302,19 @@ Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         solution = solve_god_object(rows, static_cast<int>(count_), active_mask_);
     }
     active_mask_ = solution.active_mask;
+    std::array<double, kMaxConstraints> alone{};
     double deepest = 0.0;
     for (std::size_t i = 0; i < count_; ++i) {
-        deepest = solution.push[i] > 0.0 ? std::max(deepest, own_push(rows[i])) : deepest;
+        if (solution.push[i] > 0.0) {
+            alone[i] = own_push(rows[i]);
+            deepest = std::max(deepest, alone[i]);
+        }
     }
     Wrench sum;
     for (std::size_t i = 0; i < count_; ++i) {
         Track &track = tracks_[i];
         // Contradicting constraints, such as both sides of a slot that is too narrow, would push without bound.
-        track.push = std::min(solution.push[i], kMostPush * (own_push(rows[i]) + deepest));
+        track.push = std::min(solution.push[i], kMostPush * (alone[i] + deepest));
         track.force_n = Vec3(0.0);
         track.moment_nm = Vec3(0.0);
         track.grasp_torque_nm = 0.0;

@@ -5,12 +5,11 @@
 // each level of calibration, beside the paper's +-4 mm. Exit code 1 when a device could not be
 // calibrated or a figure is not finite; the bars are printed, not judged here.
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 #include "core/calibration/exit_pulley.h"
 #include "core/calibration/home_zero.h"
 #include "core/forward_kinematics.h"
+#include "support/command_line.h"
 #include "support/length_error_model.h"
 
 namespace {
@@ -160,15 +159,6 @@ DeviceModel with_stretch(DeviceModel model, double axial_stiffness_n) {
     return model;
 }
 
-double option(int argc, char **argv, const char *name, double otherwise) {
-    for (int i = 1; i + 1 < argc; ++i) {
-        if (std::strcmp(argv[i], name) == 0) {
-            return std::strtod(argv[i + 1], nullptr);
-        }
-    }
-    return otherwise;
-}
-
 struct Table {
     Errors errors[kLevelCount][2] = {}; // untilted as in the paper; tilted
     bool sound = true;
@@ -237,8 +227,8 @@ void print_row(const char *name, const Errors (&errors)[2]) {
 } // namespace
 
 int main(int argc, char **argv) {
-    const auto cases = static_cast<long>(option(argc, argv, "--cases", 5));
-    const auto seed = static_cast<std::uint64_t>(option(argc, argv, "--seed", 1));
+    const auto cases = static_cast<long>(test::number_option(argc, argv, "--cases", 5));
+    const auto seed = static_cast<std::uint64_t>(test::number_option(argc, argv, "--seed", 1));
     if (cases <= 0) {
         std::fprintf(stderr, "--cases is %ld; give a positive number of devices.\n", cases);
         return 2;

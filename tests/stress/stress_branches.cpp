@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 #include "core/closed_form.h"
 #include "core/constants.h"
@@ -14,6 +12,7 @@
 #include "core/pose_helpers.h"
 #include "core/pose_polish.h"
 #include "core/string_calibration.h"
+#include "support/command_line.h"
 
 namespace {
 
@@ -88,20 +87,11 @@ void judge(ForwardKinematics &kinematics, const LengthProblem &problem, const Gr
     }
 }
 
-long option(int argc, char **argv, const char *name, long otherwise) {
-    for (int i = 1; i + 1 < argc; ++i) {
-        if (std::strcmp(argv[i], name) == 0) {
-            return std::strtol(argv[i + 1], nullptr, 10);
-        }
-    }
-    return otherwise;
-}
-
 } // namespace
 
 int main(int argc, char **argv) {
-    const long cases = option(argc, argv, "--cases", 20000);
-    const long seed = option(argc, argv, "--seed", 1);
+    const long cases = test::whole_option(argc, argv, "--cases", 20000);
+    const long seed = test::whole_option(argc, argv, "--seed", 1);
     if (cases <= 0) {
         std::fprintf(stderr, "--cases is %ld; give a positive number of cases.\n", cases);
         return 2;

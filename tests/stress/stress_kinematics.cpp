@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,6 +15,7 @@
 #include "core/rigid_step.h"
 #include "core/string_exit.h"
 #include "support/case_random.h"
+#include "support/command_line.h"
 
 namespace {
 
@@ -297,21 +297,13 @@ struct Worst {
     long at = -1;
 };
 
-long option(int argc, char **argv, const char *name, long otherwise) {
-    for (int i = 1; i + 1 < argc; ++i) {
-        if (std::strcmp(argv[i], name) == 0) {
-            return std::strtol(argv[i + 1], nullptr, 10);
-        }
-    }
-    return otherwise;
-}
-
 } // namespace
 
 int main(int argc, char **argv) {
-    const long cases = option(argc, argv, "--cases", 20000);
-    const long seed = option(argc, argv, "--seed", 1);
-    const long first = option(argc, argv, "--first", 0); // replay: --first CASE --cases 1
+    const long cases = test::whole_option(argc, argv, "--cases", 20000);
+    const long seed = test::whole_option(argc, argv, "--seed", 1);
+    const long first =
+        test::whole_option(argc, argv, "--first", 0); // replay: --first CASE --cases 1
     if (cases <= 0 || first < 0) {
         std::fprintf(stderr, "--cases is %ld, --first is %ld; give a positive number of cases.\n",
                      cases, first);

@@ -5,9 +5,8 @@
 // when the right string is named in less than 99 % of the cases, or healthy devices are accused once an hour or more often.
 // Named without stress_: a case is 5,000 servo ticks, not one.
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
+#include "support/command_line.h"
 #include "support/fault_motion.h"
 
 namespace {
@@ -23,15 +22,6 @@ constexpr double kBar = 0.99;
 constexpr double kAlarmsAnHour = 1.0; // fewer than this
 // A healthy device is calibrated as the self-calibration leaves it with 100 poses, and a little worse.
 constexpr double kCalibrationError_m = 1e-4;
-
-double option(int argc, char **argv, const char *name, double otherwise) {
-    for (int i = 1; i + 1 < argc; ++i) {
-        if (std::strcmp(argv[i], name) == 0) {
-            return std::strtod(argv[i + 1], nullptr);
-        }
-    }
-    return otherwise;
-}
 
 // Motions one after the other; every accusation counts, and ends its motion.
 long false_alarms(std::uint64_t seed, double healthy_s) {
@@ -57,11 +47,11 @@ long false_alarms(std::uint64_t seed, double healthy_s) {
 } // namespace
 
 int main(int argc, char **argv) {
-    const auto cases = static_cast<long>(option(argc, argv, "--cases", 100));
-    const auto first = static_cast<long>(option(argc, argv, "--first", 0));
-    const auto seed = static_cast<std::uint64_t>(option(argc, argv, "--seed", 1));
+    const auto cases = static_cast<long>(test::number_option(argc, argv, "--cases", 100));
+    const auto first = static_cast<long>(test::number_option(argc, argv, "--first", 0));
+    const auto seed = static_cast<std::uint64_t>(test::number_option(argc, argv, "--seed", 1));
     const double healthy_s =
-        option(argc, argv, "--healthy_s", kMotion_s * static_cast<double>(cases));
+        test::number_option(argc, argv, "--healthy_s", kMotion_s * static_cast<double>(cases));
     if (cases <= 0 || first < 0 || !(healthy_s >= 0.0)) {
         std::fprintf(stderr, "--cases is %ld, --first %ld; give positive numbers.\n", cases, first);
         return 2;

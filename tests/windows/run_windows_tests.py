@@ -36,18 +36,20 @@ def wine(prefix, *command):
     return done.returncode, done.stdout
 
 
+def headers(path):
+    return subprocess.run(["x86_64-w64-mingw32-objdump", "-p", path], check=True, text=True,
+                          capture_output=True).stdout
+
+
 def main():
     build, *libraries = sys.argv[1:]
     programs = [os.path.join(build, "bin", name) for name in ("spidar_tests.exe", "spidar_load_library.exe")]
-    for path in [*libraries, *programs]:
-        table = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", path], check=True, text=True,
-                               capture_output=True).stdout
+    tables = {path: headers(path) for path in [*libraries, *programs]}
+    for path, table in tables.items():
         imports = {name.lower() for name in re.findall(r"DLL Name: (\S+)", table)}
         check(imports and imports <= SYSTEM, f"{os.path.basename(path)} imports {', '.join(sorted(imports))}")
     for path in libraries:
-        table = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", path], check=True, text=True,
-                               capture_output=True).stdout
-        names = table.split("[Ordinal/Name Pointer] Table")[-1]
+        names = tables[path].split("[Ordinal/Name Pointer] Table")[-1]
         exported = re.findall(r"^\s*\[\s*\d+\].*?(\w+)\s*$", names, re.M)
         check(exported == ["spidar_g_library_init"], f"{os.path.basename(path)} exports {', '.join(exported)}")
     with tempfile.TemporaryDirectory(prefix="spidar_wine_") as prefix:

@@ -1,5 +1,5 @@
 class_name MatchLinking
-extends DemoTask
+extends LinkingTask
 ## The task: link matches end to end into the shape shown.
 ## Kim, Koike and Sato's experiment 4 ("SPIDAR-G", section 7.2).
 
@@ -19,7 +19,6 @@ const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(8.0), deg_to_rad(
 const VIEW_DEG := 22.0
 const VIEW_DOWN_M := 0.005
 
-var linker := Linker.new()
 var shape: MatchShape
 
 
@@ -31,12 +30,8 @@ func title() -> String:
 	return "Match linking"
 
 
-func _ready() -> void:
-	add_child(linker)
-	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
-	super()
-	linker.sound_with(sound)
-	($CameraRig as CameraRig).see(VIEW_DEG, VIEW_DOWN_M)
+func _view() -> Vector2:
+	return Vector2(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:

@@ -1,5 +1,5 @@
 class_name RobotLinking
-extends DemoTask
+extends LinkingTask
 ## The task: build a robot by linking head, arms, legs and torso, in any order.
 ## Kim, Koike and Sato's experiment 3 ("SPIDAR-G", section 7.2).
 
@@ -23,8 +23,6 @@ const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(6.0), deg_to_rad(
 const VIEW_DEG := 27.0
 const VIEW_DOWN_M := 0.000
 
-var linker := Linker.new()
-
 
 func task_name() -> String:
 	return "robot_linking"
@@ -34,12 +32,8 @@ func title() -> String:
 	return "Robot linking"
 
 
-func _ready() -> void:
-	add_child(linker)
-	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
-	super()
-	linker.sound_with(sound)
-	($CameraRig as CameraRig).see(VIEW_DEG, VIEW_DOWN_M)
+func _view() -> Vector2:
+	return Vector2(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:
