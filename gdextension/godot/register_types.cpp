@@ -9,6 +9,7 @@
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_calibrator.h"
 #include "godot/spidar_g_config.h"
+#include "godot/spidar_g_workspace.h"
 
 namespace {
 
@@ -17,6 +18,7 @@ void initialize(godot::ModuleInitializationLevel level) {
         GDREGISTER_CLASS(SpidarGConfig);
         GDREGISTER_CLASS(SpidarGCalibration);
         GDREGISTER_CLASS(SpidarGCalibrator);
+        GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
     }
     if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {
