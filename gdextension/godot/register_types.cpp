@@ -17,8 +17,8 @@ void initialize(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         GDREGISTER_CLASS(SpidarGConfig);
         GDREGISTER_CLASS(SpidarGCalibration);
-        GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarGCalibrator);
+        GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
     }
     if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {

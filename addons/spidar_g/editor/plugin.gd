@@ -1,6 +1,9 @@
 @tool
 extends EditorPlugin
-## Adds one menu item: the physics settings that small held things need. The nodes work without this plugin.
+## Adds one menu item: the physics settings that small held things need; and the calibration panel of the inspector. The
+## nodes work without this plugin.
+
+const CalibrationInspector := preload("calibration/calibration_inspector.gd")
 
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
 ## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
@@ -10,12 +13,18 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
+var _calibration: CalibrationInspector = CalibrationInspector.new()
+
 
 func _enter_tree() -> void:
+	_calibration.history = get_undo_redo()
+	add_inspector_plugin(_calibration)
 	add_tool_menu_item(MENU_ITEM, _ask)
 
 
 func _exit_tree() -> void:
+	_calibration.close_all()
+	remove_inspector_plugin(_calibration)
 	remove_tool_menu_item(MENU_ITEM)
 
 
