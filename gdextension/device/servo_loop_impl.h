@@ -241,6 +241,7 @@ struct ServoLoop::Impl {
 
     void run() noexcept {
         const FlushDenormals flush;
+        name_thread("spidar_servo");
         real_time_priority.store(request_real_time(), std::memory_order_relaxed);
         if (!usable(open_status) && !open_patiently()) {
             return;
