@@ -215,6 +215,7 @@ func _start_script() -> void:
 func _equip_player() -> void:
 	player.spidar = _spidar
 	player.tool_hand = _tool_hand
+	player.view = $SpidarG/SpidarGView
 	player.hand = _scripted_hand
 	player.bodies = bodies
 	player.pictures = _pictures
