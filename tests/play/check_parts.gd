@@ -32,6 +32,8 @@ func _initialize() -> void:
 	_check_store()
 	_check_minimum_jerk()
 	_check_csv()
+	_check_settings()
+	_check_picture_quality()
 	print("%d passed, %d failed" % [_passed, _failed])
 	quit(0 if _failed == 0 else 1)
 
@@ -246,6 +248,46 @@ func _check_csv() -> void:
 	var text := FileAccess.get_file_as_string(path)
 	DirAccess.remove_absolute(ProjectSettings.globalize_path(path))
 	_check(text == 'a,b,c,d\n,"x ""y"", z",,1\n', "CSV text is " + text)
+
+
+## What is saved is read again; what makes no sense is not.
+func _check_settings() -> void:
+	var kept := FileAccess.get_file_as_string(DemoSettings.PATH)
+	var settings := DemoSettings.new()
+	settings.source = DemoSettings.MOUSE
+	settings.workspace_scale = 2.0
+	settings.clutch = DemoSettings.CLUTCHES[1]
+	settings.picture = PictureQuality.PLAIN
+	settings.save()
+	var again := DemoSettings.load_or_default()
+	_check(again.source == "mouse" and again.workspace_scale == 2.0, "settings read: %s" % again.source)
+	_check(again.clutch == "switched" and again.picture == "plain", "clutch and picture: %s" % again.clutch)
+	settings.source = "thin air"
+	settings.workspace_scale = 7.0
+	settings.rate_hz = -1
+	settings.level = 9
+	settings.save()
+	again = DemoSettings.load_or_default()
+	_check(again.source == "simulated", "a source that does not exist: %s" % again.source)
+	_check(again.workspace_scale == 1.0 and again.rate_hz == 1000, "scale %f, rate %d" % [again.workspace_scale, again.rate_hz])
+	_check(again.level == PlayArguments.LEVELS, "level %d" % again.level)
+	var forces: Array[bool] = []
+	for source in DemoSettings.SOURCES:
+		again.source = source
+		forces.append(again.may_have_forces())
+	_check(forces == [true, true, false, false], "forces with %s: %s" % [DemoSettings.SOURCES, forces])
+	DirAccess.remove_absolute(ProjectSettings.globalize_path(DemoSettings.PATH))
+	if kept != "":
+		var file := FileAccess.open(DemoSettings.PATH, FileAccess.WRITE)
+		file.store_string(kept)
+
+
+func _check_picture_quality() -> void:
+	var software := "llvmpipe (LLVM 21.1.8, 256 bits)"
+	_check(PictureQuality.is_plain(PictureQuality.AUTOMATIC, software), "full on a software renderer")
+	_check(not PictureQuality.is_plain(PictureQuality.AUTOMATIC, "AMD Radeon RX 6600"), "plain on a GPU")
+	_check(not PictureQuality.is_plain(PictureQuality.FULL, software), "full was asked for")
+	_check(PictureQuality.is_plain(PictureQuality.PLAIN, "AMD Radeon RX 6600"), "plain was asked for")
 
 
 func _spec(shape: ObjectSpec.Shape, size: Vector3) -> ObjectSpec:

@@ -231,19 +231,20 @@ def check_bad_arguments(checks, godot):
         checks.check(named in run.output, f"{words}: the message does not name {named}")
 
 
-def check_parts(checks, godot):
-    """The demo's own mathematics, inside Godot; its counts are added."""
-    command = [godot, "--headless", "--path", DEMO, "-s", os.path.join(HERE, "check_parts.gd")]
+def check_parts(checks, godot, script):
+    """The demo's own mathematics, or free play, inside Godot; its counts are added."""
+    command = [godot, "--headless", "--audio-driver", "Dummy", "--fixed-fps", "60", "--path", DEMO,
+               "-s", os.path.join(HERE, script)]
     try:
         output = subprocess.run(
             command, timeout=RUN_LIMIT_S, text=True, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
         ).stdout
     except subprocess.TimeoutExpired:
-        output = "FAIL parts: not finished in time"
+        output = f"FAIL {script}: not finished in time"
     totals = re.findall(r"^(\d+) passed, (\d+) failed$", output, re.M)
     print("\n".join(line for line in output.splitlines() if line.startswith("FAIL")), end="")
-    checks.check(len(totals) == 1, f"parts: no totals\n{output[-2000:]}")
+    checks.check(len(totals) == 1, f"{script}: no totals\n{output[-2000:]}")
     for passed, failed in totals:
         checks.passed += int(passed)
         checks.failed += int(failed)
@@ -276,7 +277,8 @@ def in_parallel(calls):
 def run_some(godot, seeds):
     """What a change is tested with: one level of each task."""
     checks = Checks()
-    check_parts(checks, godot)
+    check_parts(checks, godot, "check_parts.gd")
+    check_parts(checks, godot, "check_free_play.gd")
     good = [(task, level, seed) for task, level in zip(TASKS, LEVELS) for seed in range(1, seeds + 1)]
     calls = [lambda key=key: Play(godot, *key) for key in good]
     calls.append(lambda: Play(godot, *good[0], name="again"))
