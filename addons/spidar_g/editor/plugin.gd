@@ -1,8 +1,9 @@
 @tool
 extends EditorPlugin
-## Adds the 3-D view of SpidarG nodes, and a menu item: the physics settings that small held things need. The nodes work
-## without this plugin.
+## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
+## small held things need. The nodes work without this plugin.
 
+const CalibrationInspector := preload("calibration/calibration_inspector.gd")
 const GizmoPlugin := preload("gizmo/gizmo_plugin.gd")
 const ViewMenu := preload("gizmo/view_menu.gd")
 
@@ -14,11 +15,14 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
+var _calibration: CalibrationInspector = CalibrationInspector.new()
 var _gizmos: GizmoPlugin = null
 var _view_menu: ViewMenu = null
 
 
 func _enter_tree() -> void:
+	_calibration.history = get_undo_redo()
+	add_inspector_plugin(_calibration)
 	add_tool_menu_item(MENU_ITEM, _ask)
 	_gizmos = GizmoPlugin.new()
 	add_node_3d_gizmo_plugin(_gizmos)
@@ -29,6 +33,8 @@ func _enter_tree() -> void:
 
 
 func _exit_tree() -> void:
+	_calibration.close_all()
+	remove_inspector_plugin(_calibration)
 	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
 	_view_menu.queue_free()
 	_gizmos.stop()
