@@ -47,7 +47,7 @@ bool request_real_time() noexcept {
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter) == 0;
 }
 
-#else
+#elif !defined(_WIN32) && !defined(__APPLE__) // those have files of their own
 
 void sleep_until_ns(std::int64_t deadline_ns) noexcept {
     std::this_thread::sleep_until(
