@@ -118,6 +118,8 @@ func _hint_text() -> String:
 		return "Fault: %s   F  clears it and arms again" % _spidar.get_fault_text()
 	if get_tree().paused and _notice != "":
 		return _notice
+	if _spidar.is_recording():
+		return "Recording.  L  stops it    Space  stops the forces"
 	if not _spidar.forces_enabled:
 		return _notice if _notice != "" else HINT_FORCES_OFF
 	return HINT_ON

@@ -31,6 +31,7 @@ const REACH_M := 0.20
 
 var spidar: SpidarG
 var tool_hand: SpidarGHand
+var view: SpidarGView
 var hand: ScriptedHand
 var bodies: Array[TaskBody] = []
 var table_height_m := 0.0
@@ -46,7 +47,7 @@ var let_go_m := CLEARANCE_M
 ## Coroutine: returns when every body was placed or given up.
 func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
-	hand.stepped.connect(func() -> void: penetration.measure(spidar, tool_hand))
+	hand.stepped.connect(func() -> void: penetration.measure(spidar, view))
 	# Nobody waits for a picture: the play is the same with pictures and without.
 	pictures.take("start")
 	for body in order():

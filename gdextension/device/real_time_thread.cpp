@@ -47,6 +47,10 @@ bool request_real_time() noexcept {
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter) == 0;
 }
 
+void name_thread(const char *name) noexcept {
+    prctl(PR_SET_NAME, name, 0UL, 0UL, 0UL);
+}
+
 #elif !defined(_WIN32) && !defined(__APPLE__) // those have files of their own
 
 void sleep_until_ns(std::int64_t deadline_ns) noexcept {
@@ -57,6 +61,8 @@ void sleep_until_ns(std::int64_t deadline_ns) noexcept {
 bool request_real_time() noexcept {
     return false;
 }
+
+void name_thread(const char * /*name*/) noexcept {}
 
 #endif
 

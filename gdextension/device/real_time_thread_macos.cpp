@@ -44,6 +44,10 @@ bool request_real_time() noexcept {
                              THREAD_TIME_CONSTRAINT_POLICY_COUNT) == KERN_SUCCESS;
 }
 
+void name_thread(const char *name) noexcept {
+    pthread_setname_np(name);
+}
+
 } // namespace spidar
 
 #endif

@@ -4,6 +4,7 @@
 #if defined(_WIN32)
 
 #include <chrono>
+#include <cstddef>
 #include <thread>
 
 #ifndef WIN32_LEAN_AND_MEAN
@@ -121,6 +122,19 @@ bool request_real_time() noexcept {
     const bool raised =
         SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL) != FALSE;
     return joined || raised;
+}
+
+void name_thread(const char *name) noexcept {
+    using Describe = HRESULT(WINAPI *)(HANDLE, PCWSTR);
+    const auto set = system_function<Describe>("kernel32.dll", "SetThreadDescription");
+    constexpr std::size_t kMost = 32;
+    wchar_t wide[kMost] = {};
+    for (std::size_t i = 0; i + 1 < kMost && name[i] != '\0'; ++i) {
+        wide[i] = static_cast<unsigned char>(name[i]); // ASCII
+    }
+    if (set != nullptr) {
+        set(GetCurrentThread(), wide);
+    }
 }
 
 } // namespace spidar

@@ -96,6 +96,12 @@ std::string validate(const ServoSettings &settings) {
     if (problem.empty()) {
         problem = validate(settings.tension);
     }
+    if (problem.empty() && settings.grip.kind == GripKind::rigid &&
+        (settings.tension.dof_mask & kNoGrasp) == 0) {
+        return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "
+               "bit k "
+               "for DOF k of the wrench.";
+    }
     if (problem.empty()) {
         problem = validate(settings.grasp);
     }

@@ -18,6 +18,9 @@ public:
     [[nodiscard]] static double scale(const GripState &grip) noexcept;
     // How far P0 is beyond the start of the wall (unit: m); 0 inside.
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
+    // Opposite corners of the box in which there is no wall (device frame).
+    [[nodiscard]] const Vec3 &low_m() const noexcept { return low_m_; }
+    [[nodiscard]] const Vec3 &high_m() const noexcept { return high_m_; }
 
 private:
     Vec3 low_m_{0.0};

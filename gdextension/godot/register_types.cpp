@@ -7,7 +7,9 @@
 #include "godot/class_documentation.h"
 #include "godot/spidar_g.h"
 #include "godot/spidar_g_calibration.h"
+#include "godot/spidar_g_calibrator.h"
 #include "godot/spidar_g_config.h"
+#include "godot/spidar_g_workspace.h"
 
 namespace {
 
@@ -15,6 +17,8 @@ void initialize(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         GDREGISTER_CLASS(SpidarGConfig);
         GDREGISTER_CLASS(SpidarGCalibration);
+        GDREGISTER_CLASS(SpidarGCalibrator);
+        GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
     }
     if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {

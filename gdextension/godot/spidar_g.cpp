@@ -72,6 +72,7 @@ void SpidarG::resource_changed() {
     // Several fields are often set in a row: the device restarts once, at the next tick, and arms anew.
     restart_pending_ = true;
     update_configuration_warnings();
+    update_gizmos();
 }
 
 void SpidarG::set_enabled(bool enabled) {
@@ -106,6 +107,7 @@ void SpidarG::set_workspace_scale(double scale) {
         return;
     }
     workspace_scale_ = scale;
+    update_gizmos();
 }
 
 const SpidarGConfig &SpidarG::config_or_default() const {

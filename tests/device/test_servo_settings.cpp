@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "core/presets.h"
 #include "device/servo_fixture.h"
 
 using namespace spidar;
@@ -67,6 +68,13 @@ TEST_CASE("settings: numbers that contradict each other") {
     settings = spidar::test::ideal_settings();
     settings.motors.max_current_a.fill(0.05); // 0.27 N: less than the pretension
     CHECK(names(settings, "max_current_a"));
+    settings = spidar::test::ideal_settings();
+    settings.tension.dof_mask = 0x40; // the grasp alone
+    CHECK(validate(settings).empty());
+    const DevicePreset rigid = device_preset(Preset::spidar_g6_x3r);
+    settings.frame = rigid.frame;
+    settings.grip = rigid.grip;
+    CHECK(names(settings, "dof_mask"));
 }
 
 TEST_CASE("settings: the parts are checked too") {

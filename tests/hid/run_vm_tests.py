@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs spidar_hid_vm in a virtual machine: QEMU, a Debian kernel, its uhid and USB gadget drivers.
 
-run_vm_tests.py PROGRAM KERNEL_FOLDER [--log FILE] [--only DOCTEST_FILTER]
+run_vm_tests.py PROGRAM KERNEL_FOLDER GODOT [--log FILE] [--only DOCTEST_FILTER]
 
 KERNEL_FOLDER holds vmlinuz and the modules (dev's fetch_kernel fills it). The machine's clock counts instructions
 (QEMU's icount), so that times inside are the same on a busy computer as on an idle one. No root, no KVM.
@@ -16,12 +16,21 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from godot_project import ADDONS, list_extensions  # noqa: E402
+
 LIMIT_S = 400
+START_LIMIT_S = 60
 # In the order of their dependences; those that the kernel has built in are not there as files.
 MODULES = (
     "usb-common", "usbcore", "hid", "hid-generic", "usbhid", "uhid", "udc-core", "configfs",
     "libcomposite", "usb_f_hid", "dummy_hcd",
 )
+# A game's own start of Godot: its real files stand beside it, whatever script started it outside.
+START_GODOT = """#!/bin/sh
+export HOME=/game/home
+exec /game/lib/{loader} --library-path /game/lib /game/lib/{program} "$@"
+"""
 # Loaded by name when it runs, so ldd does not list it.
 LOADED_LIBRARIES = ("libudev.so.1",)
 
@@ -40,6 +49,62 @@ def find_library(name):
     if not found:
         raise SystemExit(f"run_vm_tests: {name} is missing on this machine")
     return found.group(1)
+
+
+def mapped_files(godot):
+    """What a running Godot has mapped: its program, its loader and its libraries; GODOT may be a script."""
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "wait.gd"), "w", encoding="utf-8") as file:
+            file.write('extends SceneTree\nfunc _initialize() -> void:\n\tprint("waits")\n')
+        with open(os.path.join(folder, "project.godot"), "w", encoding="utf-8") as file:
+            file.write("config_version=5\n")
+        command = ["timeout", str(START_LIMIT_S), godot, "--headless", "--audio-driver", "Dummy", "--path", folder,
+                   "-s", "wait.gd"]
+        running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        try:
+            while (line := running.stdout.readline()) and line.strip() != "waits":
+                pass
+            if not line:
+                raise SystemExit(f"run_vm_tests: {godot} did not start")
+            children = open(f"/proc/{running.pid}/task/{running.pid}/children", encoding="utf-8").read().split()
+            maps = open(f"/proc/{children[0]}/maps", encoding="utf-8").read()
+        finally:
+            running.terminate()
+            running.wait()
+    return sorted(set(re.findall(r"r-xp .* (/\S+)$", maps, re.MULTILINE)))
+
+
+def add_game(root, godot):
+    """/game: Godot, the add-on as it is built, and the game of two devices."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    game = os.path.join(root, "game")
+    os.makedirs(os.path.join(game, "lib"))
+    os.makedirs(os.path.join(game, "home"))
+    project = os.path.join(game, "project")
+    shutil.copytree(os.path.join(here, "game"), project)
+    add_on = os.path.join(project, "addons/spidar_g")
+    shutil.copytree(os.path.join(ADDONS, "spidar_g"), add_on,
+                    ignore=shutil.ignore_patterns("*.dll", "*template_release*"))
+    list_extensions(project)
+    files = mapped_files(godot)
+    names = [os.path.basename(path) for path in files]
+    loader = next(name for name in names if name.startswith("ld-linux"))
+    program = next(name for name in names if ".so" not in name)
+    library = next(path for path in os.listdir(os.path.join(add_on, "bin")) if path.endswith(".so"))
+    # What the add-on needs beyond Godot's own.
+    files += [path for path in libraries_of(os.path.join(add_on, "bin", library))
+              if os.path.basename(path) not in names]
+    for path in files:
+        shutil.copy(path, os.path.join(game, "lib", os.path.basename(path)))
+        # Programs ask for a library by a shorter name, that of a link beside it.
+        for other in os.listdir(os.path.dirname(path)):
+            same = os.path.realpath(os.path.join(os.path.dirname(path), other)) == os.path.realpath(path)
+            if same and not os.path.lexists(os.path.join(game, "lib", other)):
+                os.symlink(os.path.basename(path), os.path.join(game, "lib", other))
+    start = os.path.join(game, "godot")
+    with open(start, "w", encoding="utf-8") as file:
+        file.write(START_GODOT.format(loader=loader, program=program))
+    os.chmod(start, 0o755)
 
 
 def fill_root(root, program, kernel, only):
@@ -82,8 +147,8 @@ def pack(root, archive):
 
 def run_machine(kernel, archive, log):
     command = [
-        "qemu-system-x86_64", "-accel", "tcg", "-cpu", "qemu64", "-smp", "1",
-        "-icount", "shift=1,sleep=off", "-m", "256", "-nodefaults", "-no-user-config",
+        "qemu-system-x86_64", "-accel", "tcg", "-cpu", "Nehalem", "-smp", "1",
+        "-icount", "shift=1,sleep=off", "-m", "1536", "-nodefaults", "-no-user-config",
         "-display", "none", "-serial", "stdio", "-no-reboot",
         "-kernel", os.path.join(kernel, "vmlinuz"), "-initrd", archive,
         "-append", "console=ttyS0 quiet panic=-1 mitigations=off",
@@ -107,12 +172,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("kernel")
+    parser.add_argument("godot")
     parser.add_argument("--log", default=os.devnull)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         root = os.path.join(folder, "root")
         fill_root(root, options.program, options.kernel, options.only)
+        add_game(root, options.godot)
         archive = os.path.join(folder, "initrd")
         pack(root, archive)
         lines = run_machine(options.kernel, archive, options.log)

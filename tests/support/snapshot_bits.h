@@ -14,8 +14,10 @@ inline std::uint64_t bits_of(const ServoSnapshot &snapshot) {
     static_assert(std::is_trivially_copyable_v<ServoSnapshot>);
     static_assert(sizeof(ServoSnapshot) % sizeof(std::uint64_t) == 0);
     ServoSnapshot copy = snapshot;
-    // What lies between members says nothing. GCC 12 forgets that of structs in arrays: those one by one.
+    // What lies between members says nothing. GCC 12 forgets that of structs in arrays, and what comes after: those one
+    // by one.
     __builtin_clear_padding(&copy);
+    __builtin_clear_padding(&copy.clamp);
     for (ContactReport &contact : copy.contacts) {
         __builtin_clear_padding(&contact);
     }
