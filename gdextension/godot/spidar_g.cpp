@@ -1,6 +1,7 @@
 // Life of the node: resources, opening and closing the device, the tick, signals on edges.
 #include "godot/spidar_g.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -31,6 +32,14 @@ constexpr double kNodeScaleTolerance = 1e-3;
 SpidarG::SpidarG() {
     default_config_.instantiate();
     problem_ = read_resources();
+}
+
+void SpidarG::read_project() {
+    options_ = spidar::project_options();
+    const Ref<SpidarGConfig> config = spidar::project_config();
+    if (config.is_valid()) {
+        default_config_ = config;
+    }
 }
 
 SpidarG::~SpidarG() {
@@ -119,6 +128,7 @@ std::string SpidarG::read_resources() {
     std::string problem = config.own_problem();
     spidar::ServoSettings settings = config.servo_settings();
     spidar::PlantSettings plant = config.plant_settings();
+    settings.safety.max_force_n = std::min(settings.safety.max_force_n, options_.largest_force_n);
     if (problem.empty() && calibration_.is_valid()) {
         problem = calibration_->apply_to(settings);
     }
@@ -140,10 +150,18 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
     if (!problem_.empty()) {
         warnings.push_back(spidar::to_godot(problem_));
     }
-    if (config_.is_null()) {
+    if (config_.is_null() && default_config_->get_path().is_empty()) {
         warnings.push_back(
             String("No config: the paper's device (48 cm frame, 4 cm half poles) is assumed. Add a "
-                   "SpidarGConfig to describe yours."));
+                   "SpidarGConfig to describe yours, or name one for the whole project in the "
+                   "project setting spidar_g/device/default_config."));
+    }
+    if (config_or_default().get_max_force() > options_.largest_force_n) {
+        warnings.push_back(spidar::to_godot(
+            "SpidarGConfig.max_force = " + std::to_string(config_or_default().get_max_force()) +
+            " N is brought down to " + std::to_string(options_.largest_force_n) +
+            " N by the project setting spidar_g/safety/largest_force_n: lower the one or raise the "
+            "other."));
     }
     const godot::Basis basis = get_transform().basis;
     for (int axis = 0; axis < 3; ++axis) {
@@ -169,6 +187,8 @@ std::string SpidarG::name_for_messages() const {
 void SpidarG::open_device() {
     close_device();
     restart_pending_ = false;
+    read_project();
+    set_process_input(options_.panic_key != 0);
     problem_ = read_resources();
     // Even a refused device is retried when a resource changes.
     set_physics_process_internal(true);
@@ -234,10 +254,14 @@ void SpidarG::_notification(int what) {
     case NOTIFICATION_ENTER_TREE:
         if (may_run()) {
             open_device();
+        } else if (in_editor()) {
+            read_project();
+            problem_ = read_resources();
         }
         break;
     case NOTIFICATION_EXIT_TREE:
         close_device();
+        set_process_input(false);
         set_process_internal(false);
         set_physics_process_internal(false);
         break;
