@@ -98,6 +98,8 @@ func _ready() -> void:
 	_tool_hand.body_released.connect(_on_body_released)
 	_spidar.grasped.connect(_on_closed)
 	_spidar.released.connect(func() -> void: _attempt_open = false)
+	if arguments.scripted() and DisplayServer.get_name() == "headless":
+		_hud.mode = Hud.Mode.OFF # Nobody is there to read it.
 	_hud.setup(_spidar, _tool_hand)
 	_controls.setup(_spidar, _hud, _mouse_hand, settings, task_name())
 	_controls.restart_wanted.connect(_restart)

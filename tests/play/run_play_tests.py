@@ -34,7 +34,8 @@ SIMULATED_LIMIT_S = 240.0  # the demo's own limit, on simulated time
 WEIGHT_TOLERANCE = 0.05
 WIDTH_TOLERANCE_MM = 1.0
 SQUEEZE_FELT_NM = 0.010
-DETENT_TOLERANCE = 0.2
+DETENT_TOLERANCE = {"match": 0.2}  # by kind of thing; see match_stick.gd
+DETENT_TOLERANCE_ELSE = 0.1
 RELEASE_TOLERANCE = 0.25
 # By task: of the things with their target, and by level where the levels differ.
 POSITION_TOLERANCE_MM = {
@@ -120,7 +121,8 @@ def width_felt(row):
 
 
 def detent_felt(row):
-    return within(number(row, "detent_felt_n_m"), number(row, "detent_expected_n_m"), DETENT_TOLERANCE)
+    tolerance = DETENT_TOLERANCE.get(row["kind"], DETENT_TOLERANCE_ELSE)
+    return within(number(row, "detent_felt_n_m"), number(row, "detent_expected_n_m"), tolerance)
 
 
 class Play(Run):
