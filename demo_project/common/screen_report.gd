@@ -65,13 +65,13 @@ func _buttons() -> Dictionary:
 	for child in task.find_children("*", "Button", true, false):
 		var button := child as Button
 		if button.is_visible_in_tree():
-			var at := get_viewport().get_screen_transform() * button.get_global_rect().get_center()
+			var at := get_viewport().get_final_transform() * button.get_global_rect().get_center()
 			found[button.text] = [at.x, at.y]
 	return found
 
 
 func _point(camera: Camera3D, point: Vector3) -> Dictionary:
-	var on_screen := get_viewport().get_screen_transform() * camera.unproject_position(point)
+	var on_screen := get_viewport().get_final_transform() * camera.unproject_position(point)
 	return {"screen": [on_screen.x, on_screen.y], "world": [point.x, point.y, point.z]}
 
 

@@ -87,7 +87,7 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_screen.show_text(
 				step.task.replace("_", " ").capitalize(),
-				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials." % TRIALS,
+				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
 				"Start", _next
 			)
 		ExperimentPlan.Kind.BREAK:

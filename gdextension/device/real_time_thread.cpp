@@ -51,7 +51,7 @@ void name_thread(const char *name) noexcept {
     prctl(PR_SET_NAME, name, 0UL, 0UL, 0UL);
 }
 
-#else
+#elif !defined(_WIN32) && !defined(__APPLE__) // those have files of their own
 
 void sleep_until_ns(std::int64_t deadline_ns) noexcept {
     std::this_thread::sleep_until(
