@@ -38,6 +38,7 @@ func _process(delta: float) -> void:
 		"paused": get_tree().paused,
 		"level": task.settings.level,
 		"hud": ((task.get_node(^"Hud") as Hud).mode),
+		"hint": (task.get_node(^"Hud/%Hint") as Label).text,
 		"help": (task.get_node(^"Hud/Screen/Help") as Control).visible,
 		"buttons": _buttons(),
 		"bodies": [],

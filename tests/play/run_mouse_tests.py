@@ -172,7 +172,7 @@ def hub_by_grip(godot, display, check):
         user.press("h", "no help", lambda report: not report["help"])
         for mode in (0, 1, 2):  # off, short, full; full at the start
             user.press("Tab", f"display {mode}", lambda report, mode=mode: report["hud"] == mode)
-        user.press("p", "pause", lambda report: report["paused"])
+        user.press("p", "pause", lambda report: report["paused"] and "Paused" in report["hint"])
         user.press("p", "no pause", lambda report: not report["paused"])
         user.press("Escape", "back in the hub", lambda report: report["scene"].startswith("Hub"))
         panic_with_a_button_in_focus(user)
