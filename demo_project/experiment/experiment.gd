@@ -53,6 +53,11 @@ func _ready() -> void:
 	_next()
 
 
+## The task of the trial in progress, or null.
+func open_task() -> DemoTask:
+	return _task
+
+
 func _physics_process(_delta: float) -> void:
 	if _task != null and _trace != null and _task.is_running():
 		var spidar: SpidarG = _task.get_node(^"SpidarG")
@@ -87,7 +92,7 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_screen.show_text(
 				step.task.replace("_", " ").capitalize(),
-				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials." % TRIALS,
+				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
 				"Start", _next
 			)
 		ExperimentPlan.Kind.BREAK:

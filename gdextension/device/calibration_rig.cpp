@@ -124,7 +124,8 @@ void CalibrationRig::Impl::take_orders(double dt_s) noexcept {
         script_time_s = next.hand_number != orders.hand_number ? 0.0 : script_time_s;
         orders = next;
     }
-    if (!(since_beat_s < kUnwatched_s)) {
+    const double limit_s = simulated != nullptr ? settings.simulated_unwatched_s : kUnwatched_s;
+    if (!(since_beat_s < limit_s)) {
         tasks.abort(TaskVerdict::stopped);
     }
 }

@@ -18,16 +18,19 @@ namespace spidar {
 
 enum class RigState : std::uint8_t { closed = 0, opening = 1, open = 2, failed = 3 };
 
+// Motors go off when nobody gives orders for this long: an editor that hangs, a window that is gone.
+inline constexpr double kUnwatched_s = 1.0;
+
 struct RigSettings {
     double rate_hz = 1000.0;
     StringArray scale_m_per_count{}; // as assumed before the calibration; not zero
     MotorCalibration motors;
     PlantSettings plant; // where the scripted hand of a simulated device may go
     double max_tension_n = kTaskMaxTension_n;
+    // Of a simulated device, which hurts nobody: an editor on a busy machine may be slow.
+    double simulated_unwatched_s = kUnwatched_s;
 };
 
-// Motors go off when nobody gives orders for this long: an editor that hangs, a window that is gone.
-inline constexpr double kUnwatched_s = 1.0;
 // Counts kept while collecting: poses further apart than a hand's tremor.
 inline constexpr double kSampleInterval_s = 0.02;
 inline constexpr std::size_t kWaitingSamples = 1024;

@@ -20,6 +20,7 @@ namespace {
 
 // What a real device may do while it is calibrated (unit: mN, mN/ms, mm/s).
 constexpr std::uint16_t kMilliPerUnit = 1000;
+constexpr double kSimulatedUnwatched_s = 20.0;
 constexpr double kTurn_rad = 6.283185307179586;
 
 } // namespace
@@ -52,6 +53,7 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
     settings.scale_m_per_count = start_.strings.scale_m_per_count;
     settings.motors = motors_;
     settings.plant = target_.plant;
+    settings.simulated_unwatched_s = kSimulatedUnwatched_s;
     rig_ = std::make_unique<spidar::CalibrationRig>(
         settings, [target = target_, opened = opened_](std::string &problem) {
             return spidar::open_for_calibration(target, *opened, problem);

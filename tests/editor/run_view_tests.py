@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The add-on in a real editor without a display: run_view_tests.py GODOT [--actions N] [--seed S]
+"""The add-on in a real editor: run_view_tests.py GODOT [--actions N] [--seed S] [--part view|idle|actions] [--display]
 
-The 3-D view's checks, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a
+The 3-D view's checks, what an idle editor pays, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a
 handle, save, close and open scenes, switch the plugin off and on, close and open the project. Fails on a failed
 check, an error, a crash, a servo thread in the editor or an object left behind. The seed is printed: --seed S repeats a
 run. The last line is "N passed, N failed".
@@ -10,6 +10,7 @@ run. The last line is "N passed, N failed".
 import argparse
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -18,7 +19,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 from godot_project import prepare_project  # noqa: E402
 
-PROJECT = os.path.join(HERE, "view")
+SOURCE = os.path.join(HERE, "view")
+PROJECT = os.path.join(os.path.dirname(os.path.dirname(HERE)), "build", "editor", "view")
 SCENES = {"stage.tscn": "Stage", "second.tscn": "Second"}
 TIME_LIMIT_S = 600
 # What an editor without a display says of itself.
@@ -28,15 +30,18 @@ LEAKS = re.compile(r"^Leaked instance: SpidarG.*", re.M)
 COUNTS = re.compile(r"^(\d+) passed, (\d+) failed$", re.M)
 
 
-def write_scenes():
+def copy_project():
+    """An editor writes into its project: it gets a copy."""
+    shutil.copytree(SOURCE, PROJECT, dirs_exist_ok=True, ignore=shutil.ignore_patterns("addons", ".godot"))
     for name, root in SCENES.items():
         with open(os.path.join(PROJECT, name), "w", encoding="utf-8") as file:
             file.write(f'[gd_scene format=3]\n\n[node name="{root}" type="Node3D"]\n')
 
 
 def edit(godot, *arguments):
-    """The editor with the driver's script: what it printed, its exit code."""
-    command = [godot, "--headless", "--verbose", "--editor", "--path", PROJECT, "--", *arguments]
+    """The editor with the driver's script: what it printed, its exit code. With a display it is shown there."""
+    display = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if "DISPLAY" in os.environ else ["--headless"]
+    command = [godot, *display, "--verbose", "--editor", "--path", PROJECT, "--", *arguments]
     try:
         done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace", stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -54,8 +59,11 @@ def problems_of(output, code):
     return found
 
 
-def view_checks(godot):
-    output, code = edit(godot, "view_checks")
+def checks(godot, script):
+    """A script of the driver that counts its own checks."""
+    output, code = edit(godot, script)
+    for line in re.findall(r"^idle editor:.*", output, re.M):
+        print(line)
     counts = COUNTS.findall(output)
     passed, failed = (int(n) for n in counts[-1]) if counts else (0, 1)
     problems = re.findall(r"^FAIL.*", output, re.M) + problems_of(output, code)
@@ -95,15 +103,20 @@ def main():
     options.add_argument("godot")
     options.add_argument("--actions", type=int, default=200)
     options.add_argument("--seed", type=int, default=int(time.time()) % 1000000)
-    options.add_argument("--part", choices=("view", "actions"))
+    options.add_argument("--part", choices=("view", "idle", "actions"))
+    options.add_argument("--display", action="store_true", help="use $DISPLAY in place of --headless")
     chosen = options.parse_args()
-    write_scenes()
+    if not chosen.display:
+        os.environ.pop("DISPLAY", None)
+    copy_project()
     prepare_project(PROJECT, chosen.godot)
     passed = failed = 0
-    if chosen.part != "actions":
-        passed, failed = view_checks(chosen.godot)
-        print(f"the 3-D view: {passed} checks, {failed} failed")
-    if chosen.part != "view":
+    for part, script in (("view", "view_checks"), ("idle", "idle_cost")):
+        if chosen.part in (None, part):
+            good, bad = checks(chosen.godot, script)
+            print(f"{script}: {good} checks, {bad} failed")
+            passed, failed = passed + good, failed + bad
+    if chosen.part in (None, "actions"):
         good, bad = random_actions(chosen.godot, chosen.actions, chosen.seed)
         passed, failed = passed + good, failed + bad
     print(f"{passed} passed, {failed} failed")

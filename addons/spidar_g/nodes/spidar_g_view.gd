@@ -123,17 +123,21 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 	_drawn_angle = angle
 	_parts.grip.visible = show_grip
 	_parts.strings.visible = show_strings
-	_parts.place_grip(
-		grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
-	)
-	for string: int in ViewParts.STRINGS:
-		_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
-	for end: int in 4:
-		var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
-		_parts.place_knot(end, spidar.get_pole_end(target))
+	if show_grip:
+		_parts.place_grip(
+			grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
+		)
+		for end: int in 4:
+			var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
+			_parts.place_knot(end, spidar.get_pole_end(target))
+	if show_strings:
+		for string: int in ViewParts.STRINGS:
+			_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
 
 
 func _draw_tensions(forced: bool) -> void:
+	if not show_strings:
+		return
 	var tensions: PackedFloat64Array = spidar.get_string_tensions()
 	if not forced and tensions == _drawn_tensions:
 		return
@@ -154,6 +158,9 @@ func _draw_pads() -> void:
 
 
 func _draw_force(from: Vector3, forced: bool) -> void:
+	if not show_force:
+		_parts.arrow.visible = false
+		return
 	var wrench: PackedFloat64Array = spidar.get_achieved_wrench()
 	var force: Vector3 = Vector3.ZERO
 	if wrench.size() >= 3:
@@ -161,7 +168,7 @@ func _draw_force(from: Vector3, forced: bool) -> void:
 	if not forced and force == _drawn_force:
 		return
 	_drawn_force = force
-	_parts.arrow.visible = show_force and force.length() > LEAST_FORCE_N
+	_parts.arrow.visible = force.length() > LEAST_FORCE_N
 	if _parts.arrow.visible:
 		_parts.place_arrow(from, force * (force_arrow_m_n * spidar.workspace_scale))
 

@@ -224,7 +224,7 @@ func _refresh() -> void:
 	_open.text = "Close device" if busy else "Open device"
 	_state.text = _state_text()
 	var is_open: bool = _session.is_open()
-	_live.visible = is_open
+	_live.visible = is_open and _session.step != CalibrationSession.Step.RESULT
 	_quality.visible = is_open
 	if is_open:
 		_show_live()

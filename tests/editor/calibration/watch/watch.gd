@@ -51,7 +51,18 @@ func _tell_controls(node: Node, into: Dictionary, in_panel: bool) -> void:
 				into["%s/%s" % [title, (control as Button).text]] = _tell(control)
 			elif control is LineEdit and (control as LineEdit).editable:
 				into["%s/edit %s" % [title, (control as LineEdit).placeholder_text]] = _tell(control)
+		if child is PopupMenu and (child as PopupMenu).visible:
+			_tell_menu(child as PopupMenu, into)
 		_tell_controls(child, into, inside)
+
+
+## The lines of an open menu, all of one height.
+func _tell_menu(menu: PopupMenu, into: Dictionary) -> void:
+	for item: int in menu.item_count:
+		var y: float = menu.position.y + menu.size.y * (item + 0.5) / menu.item_count
+		into["menu/" + menu.get_item_text(item)] = {
+			"x": menu.position.x + 0.5 * menu.size.x, "y": y, "disabled": menu.is_item_disabled(item), "text": ""
+		}
 
 
 func _tell(control: Control) -> Dictionary:
