@@ -37,7 +37,7 @@ CARRIES_A_RUN = 25
 WEIGHT_TOLERANCE = 0.05
 WIDTH_TOLERANCE_MM = 1.0
 SQUEEZE_FELT_NM = 0.010
-DETENT_TOLERANCE = {"match": 0.2}  # by kind of thing; see match_stick.gd
+DETENT_TOLERANCE = {"match": 0.2, "arm": 0.2, "leg": 0.2}  # by kind of thing; see felt_record.gd
 DETENT_TOLERANCE_ELSE = 0.1
 RELEASE_TOLERANCE = 0.25
 # By task: of the things with their target, and by level where the levels differ.

@@ -128,6 +128,8 @@ static func _part(label: String, size: Vector3, mass_kg: float, colour: Color) -
 	mesh.size = size
 	part.add_piece(shape, mesh, Transform3D.IDENTITY, colour)
 	part.felt.checks_detent = true
+	if size.x <= ARM_M.x:
+		part.felt.detent_tolerance = FeltRecord.DETENT_TOLERANCE_THIN
 	return part
 
 

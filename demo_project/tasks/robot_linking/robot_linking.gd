@@ -5,12 +5,12 @@ extends LinkingTask
 
 const STAND_Z_M := -0.045
 ## On the table, before the robot and near its middle: further out the least tension of the strings alone presses nearly
-## closed jaws open with 7 N mm and more, and a squeeze up to that is not felt. Fingers that open for torso or head reach
-## 53 mm, and come in 36 mm in front: hence the spaces.
+## closed jaws open with 7 N mm and more, and a squeeze up to that is not felt. Fingers that open for the torso reach
+## 41 mm to each side, and come in 36 mm in front, turned by up to 30 degrees: hence the spaces.
 const THIN_SLOTS_M: Array[Vector2] = [
-	Vector2(-0.068, 0.030), Vector2(0.068, 0.030), Vector2(-0.068, 0.105), Vector2(0.068, 0.105)
+	Vector2(-0.072, 0.030), Vector2(0.072, 0.030), Vector2(-0.072, 0.105), Vector2(0.072, 0.105)
 ]
-const WIDE_SLOTS_M: Array[Vector2] = [Vector2(0.0, 0.030), Vector2(0.0, 0.105)]
+const WIDE_SLOTS_M: Array[Vector2] = [Vector2(0.0, 0.030), Vector2(0.0, 0.130)]
 const JITTER_M := 0.003
 ## By level: how far the parts are turned, and the stand.
 const YAW_RAD: PackedFloat64Array = [0.0, deg_to_rad(15.0), deg_to_rad(30.0)]
