@@ -15,14 +15,23 @@ var _settings: DemoSettings
 ## Where the grip stood when the clutch was pressed.
 var _clutched_at := Vector3.INF
 var _steps_left := 0
+var _task_name := ""
 
 
-func setup(spidar: SpidarG, hud: Hud, mouse: MouseHand, settings: DemoSettings) -> void:
+func setup(spidar: SpidarG, hud: Hud, mouse: MouseHand, settings: DemoSettings, task_name: String) -> void:
+	_task_name = task_name
 	_spidar = spidar
+	_spidar.request_rejected.connect(_hud_says)
+	_spidar.fault_raised.connect(func(_status: int, message: String) -> void: _hud_says(message))
 	_hud = hud
 	_mouse = mouse
 	_settings = settings
 	process_mode = Node.PROCESS_MODE_ALWAYS # P and O work while everything else stands.
+
+
+func _hud_says(message: String) -> void:
+	if interactive:
+		_hud.show_notice(message)
 
 
 func _exit_tree() -> void:
@@ -33,7 +42,7 @@ func _physics_process(_delta: float) -> void:
 	if _steps_left > 0:
 		_steps_left -= 1
 		get_tree().paused = _steps_left == 0
-	if _clutched_at.is_finite() and _settings.device_name != "":
+	if _clutched_at.is_finite() and _settings.source == DemoSettings.DEVICE:
 		# A real hand goes on; the device's frame gives way, so that the grip stays in the scene.
 		_spidar.global_position += _clutched_at - _spidar.get_grip_transform().origin
 
@@ -43,17 +52,28 @@ func _clutch(pressed: bool) -> void:
 	_clutched_at = _spidar.get_grip_transform().origin if pressed else Vector3.INF
 
 
+## The panic key comes before everything else: a button that has the focus would take Space for itself.
+func _input(event: InputEvent) -> void:
+	var key := event as InputEventKey
+	if not interactive or key == null or not key.pressed or key.physical_keycode != KEY_SPACE:
+		return
+	if _spidar.forces_enabled:
+		_cut_forces("Stopped. F turns the forces on again.")
+		get_viewport().set_input_as_handled()
+
+
 func _unhandled_key_input(event: InputEvent) -> void:
 	var key := event as InputEventKey
 	if not interactive or key.echo:
 		return
 	if key.physical_keycode == KEY_C:
-		_clutch(key.pressed)
+		if _settings.clutch == DemoSettings.CLUTCHES[0]:
+			_clutch(key.pressed)
+		elif key.pressed:
+			_clutch(not _mouse.clutched)
 	if not key.pressed:
 		return
 	match key.physical_keycode:
-		KEY_SPACE:
-			_cut_forces("Stopped. F turns the forces on again.")
 		KEY_F:
 			_toggle_forces()
 		KEY_R:
@@ -69,6 +89,8 @@ func _unhandled_key_input(event: InputEvent) -> void:
 			if get_tree().paused:
 				_steps_left = 2 # This frame may be over already.
 				get_tree().paused = false
+		KEY_L:
+			_toggle_recording()
 		KEY_ESCAPE:
 			_spidar.disarm()
 			leave_wanted.emit()
@@ -83,14 +105,24 @@ func _toggle_forces() -> void:
 	if _spidar.forces_enabled:
 		_cut_forces("Forces are off. F turns them on.")
 		return
-	if not _settings.forces_allowed:
-		_hud.show_notice("The settings keep the forces off.")
+	if not _settings.may_have_forces():
+		_hud.show_notice("The settings keep the forces off." if not _settings.forces_allowed else (
+			"No forces here: the settings' source is %s." % _settings.source
+		))
 		return
 	_hud.show_notice("")
 	_spidar.clear_fault()
 	_spidar.forces_enabled = true
 	# A real device arms only when told; a simulated one has armed itself by now.
 	_spidar.arm()
+
+
+func _toggle_recording() -> void:
+	if _spidar.is_recording():
+		_spidar.stop_recording()
+		_hud.show_notice("Recorded. Settings, source: replay plays it.")
+	elif not _spidar.is_replaying() and _spidar.start_recording(DemoSettings.new_recording(_task_name)):
+		_hud.show_notice("")
 
 
 func _cut_forces(notice: String) -> void:

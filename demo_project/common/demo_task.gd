@@ -59,6 +59,11 @@ func is_trial() -> bool:
 	return true
 
 
+## Whether a recording can stand in for the hand; the menu has to be worked.
+func may_replay() -> bool:
+	return true
+
+
 func is_finished() -> bool:
 	return _finished
 
@@ -93,8 +98,10 @@ func _ready() -> void:
 	_tool_hand.body_released.connect(_on_body_released)
 	_spidar.grasped.connect(_on_closed)
 	_spidar.released.connect(func() -> void: _attempt_open = false)
+	if arguments.scripted() and DisplayServer.get_name() == "headless":
+		_hud.mode = Hud.Mode.OFF # Nobody is there to read it.
 	_hud.setup(_spidar, _tool_hand)
-	_controls.setup(_spidar, _hud, _mouse_hand, settings)
+	_controls.setup(_spidar, _hud, _mouse_hand, settings, task_name())
 	_controls.restart_wanted.connect(_restart)
 	_controls.leave_wanted.connect(left.emit)
 	player = _make_player()
@@ -108,12 +115,15 @@ func _ready() -> void:
 	if arguments.scripted():
 		_start_script()
 	else:
+		PictureQuality.apply(self, settings.picture)
 		_controls.interactive = true
 		_spidar.forces_enabled = forces_at_start
 		if forces_at_start:
 			_spidar.arm()
 		_scripted_hand.process_mode = Node.PROCESS_MODE_DISABLED
 		_mouse_hand.start(_spidar, $CameraRig/Camera, _home_in_device())
+		if settings.source == DemoSettings.REPLAY and may_replay():
+			_start_replay()
 		_animator.setup(_mouse_hand, _scripted_hand, player, settings.auto_animation)
 
 
@@ -212,9 +222,19 @@ func _start_script() -> void:
 	_finish(reason)
 
 
+func _start_replay() -> void:
+	_spidar.replay_finished.connect(func(_identical: bool, message: String) -> void:
+		_hud.show_notice("Replay of %s has ended: %s" % [settings.recording, message]))
+	if settings.recording == "":
+		_hud.show_notice("No recording is chosen in the settings. L records a run.")
+	elif _spidar.start_replay(DemoSettings.RECORDINGS.path_join(settings.recording)):
+		_hud.show_notice("Replay of %s.   Esc  leaves" % settings.recording)
+
+
 func _equip_player() -> void:
 	player.spidar = _spidar
 	player.tool_hand = _tool_hand
+	player.view = $SpidarG/SpidarGView
 	player.hand = _scripted_hand
 	player.bodies = bodies
 	player.pictures = _pictures

@@ -5,7 +5,6 @@ extends RefCounted
 
 const WEIGHT_TOLERANCE := 0.05
 const WIDTH_TOLERANCE_M := 0.001
-const DETENT_TOLERANCE := 0.2
 ## One way only, so that the strings' friction, up to 0.3 N, is in it.
 const RELEASE_TOLERANCE := 0.25
 ## A squeeze weaker than this at the fingers is not felt as a thing between them.
@@ -16,6 +15,8 @@ var checks_weight := true
 var checks_width := true
 var checks_detent := false
 var checks_release := false
+## Of a detent's slope.
+var detent_tolerance := 0.1
 
 var weight_expected_n := NAN
 var weight_felt_n := NAN
@@ -47,7 +48,7 @@ func width_ok() -> bool:
 
 func detent_ok() -> bool:
 	return (
-		not checks_detent or _within(detent_felt_n_m, detent_expected_n_m, DETENT_TOLERANCE)
+		not checks_detent or _within(detent_felt_n_m, detent_expected_n_m, detent_tolerance)
 	) and (
 		not checks_release or _within(release_felt_n, release_expected_n, RELEASE_TOLERANCE)
 	)

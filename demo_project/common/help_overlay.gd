@@ -15,7 +15,8 @@ const KEYS: Dictionary[String, String] = {
 	"R": "starts again, same layout",
 	"Tab": "display: off, short, full",
 	"H": "this help",
-	"C, held": "clutch: the hand moves, the grip stays",
+	"C": "clutch: the hand moves, the grip stays",
+	"L": "records the run, for a replay",
 	"P, O": "pause, single step",
 	"Esc": "back to the menu; there: quits",
 }

@@ -12,8 +12,12 @@ const STATE_NAMES: PackedStringArray = [
 ]
 const HINT_ON := "Left button  closes the grasp    Space  stops the forces    H  help"
 
+## Numbers that change faster are not read, and every new text is laid out anew.
+const REFRESH_S := 0.05
+
 @export var mode := Mode.FULL
 
+var _shown_for_s := INF
 var _spidar: SpidarG
 var _tool_hand: SpidarGHand
 var _notice := ""
@@ -61,25 +65,34 @@ func show_help(shown: bool) -> void:
 
 func show_notice(text: String) -> void:
 	_notice = text
+	_shown_for_s = INF
 
 
 func show_result(text: String) -> void:
 	_result = text
+	_shown_for_s = INF
 
 
 func show_task(
 	title: String, time_s: float, placed: int, bodies: Array[TaskBody], level: int, seed_number: int
 ) -> void:
+	if mode == Mode.OFF:
+		return
 	_title.text = "%s   level %d   seed %d" % [title, level, seed_number]
 	_time.text = "%d:%04.1f" % [floori(time_s / 60.0), fmod(time_s, 60.0)]
-	_placed.text = "%d of %d placed" % [placed, bodies.size()]
+	var text := "%d of %d placed" % [placed, bodies.size()]
 	if not bodies.is_empty():
-		_placed.text += ", within %.0f mm, %.0f°" % [
+		text += ", within %.0f mm, %.0f°" % [
 			1000.0 * bodies[0].position_tolerance_m, rad_to_deg(bodies[0].rotation_tolerance_rad)
 		]
+	_placed.text = text
 
 
-func _process(_delta: float) -> void:
+func _process(delta: float) -> void:
+	_shown_for_s += delta
+	if _shown_for_s < REFRESH_S:
+		return
+	_shown_for_s = 0.0
 	if _spidar == null or mode == Mode.OFF:
 		_hint_panel.visible = _spidar != null and _hint_text() != HINT_ON
 		_hint.text = _hint_text()
@@ -105,6 +118,7 @@ func _process(_delta: float) -> void:
 
 
 func _apply_mode() -> void:
+	_shown_for_s = INF
 	for panel: Control in [%Task, _device, %DialPanel]:
 		panel.visible = mode != Mode.OFF
 	for panel: Control in [_bars_panel, _wrench_panel]:
@@ -118,6 +132,8 @@ func _hint_text() -> String:
 		return "Fault: %s   F  clears it and arms again" % _spidar.get_fault_text()
 	if get_tree().paused and _notice != "":
 		return _notice
+	if _spidar.is_recording():
+		return "Recording.  L  stops it    Space  stops the forces"
 	if not _spidar.forces_enabled:
 		return _notice if _notice != "" else HINT_FORCES_OFF
 	return HINT_ON

@@ -1,7 +1,7 @@
 class_name ScreenReport
 extends Node
-## For a scripted user outside the program, who has a mouse and keys but no eyes: where things are on the screen, in a
-## JSON file that is replaced ten times a second. It only tells; it changes nothing.
+## For a scripted user outside the program, who has a mouse and keys but no eyes: where things are in the window (pixels)
+## and in the scene (m), in a JSON file that is replaced ten times a second. It only tells; it changes nothing.
 
 const PERIOD_S := 0.1
 
@@ -10,6 +10,10 @@ var task: DemoTask
 
 var _left_s := 0.0
 var _count := 0
+
+
+func _ready() -> void:
+	process_mode = Node.PROCESS_MODE_ALWAYS
 
 
 func _process(delta: float) -> void:
@@ -31,6 +35,11 @@ func _process(delta: float) -> void:
 		"held": "" if held == null else String(held.name),
 		"busy": (task.get_node(^"AutoAnimator") as AutoAnimator).busy,
 		"finished": task.is_finished(),
+		"paused": get_tree().paused,
+		"level": task.settings.level,
+		"hud": ((task.get_node(^"Hud") as Hud).mode),
+		"help": (task.get_node(^"Hud/Screen/Help") as Control).visible,
+		"buttons": _buttons(),
 		"bodies": [],
 		"knobs": [],
 	}
@@ -50,8 +59,19 @@ func _process(delta: float) -> void:
 	_write(report)
 
 
+## Middles of the menu's buttons on the screen, by what they say.
+func _buttons() -> Dictionary:
+	var found := {}
+	for child in task.find_children("*", "Button", true, false):
+		var button := child as Button
+		if button.is_visible_in_tree():
+			var at := get_viewport().get_final_transform() * button.get_global_rect().get_center()
+			found[button.text] = [at.x, at.y]
+	return found
+
+
 func _point(camera: Camera3D, point: Vector3) -> Dictionary:
-	var on_screen := camera.unproject_position(point)
+	var on_screen := get_viewport().get_final_transform() * camera.unproject_position(point)
 	return {"screen": [on_screen.x, on_screen.y], "world": [point.x, point.y, point.z]}
 
 

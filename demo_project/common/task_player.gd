@@ -17,6 +17,8 @@ const HEFT_M := 0.012
 ## Bodies are hefted nearer to the middle, where the strings pull best: this share of the way out.
 const HEFT_PLACE := 0.6
 const HEFT_S := 0.6
+## Of a stroke, left out at each end.
+const HEFT_FROM := 0.25
 ## The held body is watched for this long in the still hand.
 const WATCH_S := 0.3
 const STILL_S := 0.6
@@ -31,6 +33,7 @@ const REACH_M := 0.20
 
 var spidar: SpidarG
 var tool_hand: SpidarGHand
+var view: SpidarGView
 var hand: ScriptedHand
 var bodies: Array[TaskBody] = []
 var table_height_m := 0.0
@@ -46,7 +49,7 @@ var let_go_m := CLEARANCE_M
 ## Coroutine: returns when every body was placed or given up.
 func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
-	hand.stepped.connect(func() -> void: penetration.measure(spidar, tool_hand))
+	hand.stepped.connect(func() -> void: penetration.measure(spidar, view))
 	# Nobody waits for a picture: the play is the same with pictures and without.
 	pictures.take("start")
 	for body in order():
@@ -162,25 +165,30 @@ func _watch(body: TaskBody) -> void:
 	body.felt.grasp_angle_rad = spidar.get_grasp_angle()
 
 
-## Hefts the body: the mean pull over one stroke up and one down.
+## Hefts the body: the mean pull over the middle of a stroke up and of one down. At the ends of a stroke the strings'
+## friction still holds from the stroke before.
 func _weigh(body: TaskBody) -> void:
 	var low := hand.wanted
 	var high := low.translated(Vector3.UP * HEFT_M)
-	var pulls := PackedFloat64Array()
-	var feel := func() -> void:
-		var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
-		pulls.append(-strings[1])
-	hand.stepped.connect(feel)
-	await hand.move_to(high, HEFT_S)
-	await hand.move_to(low, HEFT_S)
-	hand.stepped.disconnect(feel)
-	var sum := 0.0
-	for pull in pulls:
-		sum += pull
+	var means := PackedFloat64Array()
+	for stroke in 2:
+		var pulls := PackedFloat64Array()
+		var feel := func() -> void:
+			var risen := spidar.get_grip_transform().origin.y - low.origin.y
+			if risen > HEFT_FROM * HEFT_M and risen < (1.0 - HEFT_FROM) * HEFT_M:
+				var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
+				pulls.append(-strings[1])
+		hand.stepped.connect(feel)
+		await hand.move_to(high if stroke == 0 else low, HEFT_S)
+		hand.stepped.disconnect(feel)
+		var sum := 0.0
+		for pull in pulls:
+			sum += pull
+		means.append(sum / pulls.size() if not pulls.is_empty() else NAN)
 	body.felt.weight_expected_n = (
 		body.mass * float(ProjectSettings.get_setting("physics/3d/default_gravity"))
 	)
-	body.felt.weight_felt_n = sum / maxi(pulls.size(), 1)
+	body.felt.weight_felt_n = 0.5 * (means[0] + means[1])
 
 
 ## Opens, and goes back the way it came in.

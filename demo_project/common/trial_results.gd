@@ -68,7 +68,7 @@ func save_interactive() -> String:
 	var folder := "user://trials".path_join(started)
 	var table := _object_table()
 	var condition := "forces_on" if _spidar.forces_enabled else "forces_off"
-	_fill_row(started, condition, _task.settings.grip_source(), "")
+	_fill_row(started, condition, _task.settings.source, "")
 	_task.logger.row["participant_id"] = _task.settings.participant
 	_task.logger.row["auto_animation"] = _task.settings.auto_animation
 	_task.logger.row["started_utc"] = started

@@ -8,13 +8,18 @@ extends RefCounted
 const FREE_FROM_RAD := deg_to_rad(3.0)
 ## Free closing is known after this much more; a line through less follows its ripple.
 const KNOWN_AFTER_RAD := deg_to_rad(2.0)
-## Free closing is judged over this much before the knee, the push over this much after it.
+## Free closing is judged over this much before the first risen sample, the push over this much after it.
 const BEFORE_RAD := deg_to_rad(4.0)
 const AFTER_RAD := deg_to_rad(1.6)
 ## A push: this many samples in a row above free closing by this much, and by so many times its ripple.
 const RISING_SAMPLES := 3
+## The line leaves out what came just before: a soft thing's slow push would bend it and hide in it.
+const GUARD_RAD := deg_to_rad(1.0)
 const RISE_NM := 0.0005
 const RISE_RIPPLES := 4.0
+## The knee is looked for round the first risen sample.
+const KNEE_BEFORE_RAD := deg_to_rad(1.5)
+const KNEE_AFTER_RAD := deg_to_rad(0.5)
 const KNEE_STEP_RAD := deg_to_rad(0.05)
 
 var _angles_rad := PackedFloat64Array()
@@ -39,8 +44,8 @@ func touch_angle_rad() -> float:
 		return NAN
 	var best_rad := NAN
 	var best_sum := INF
-	var knee := _angles_rad[first] - deg_to_rad(1.0)
-	while knee < _angles_rad[first] + deg_to_rad(0.5):
+	var knee := _angles_rad[first] - KNEE_BEFORE_RAD
+	while knee < _angles_rad[first] + KNEE_AFTER_RAD:
 		var sum := _misfit(knee, _angles_rad[first])
 		if sum < best_sum:
 			best_sum = sum
@@ -49,10 +54,10 @@ func touch_angle_rad() -> float:
 	return best_rad
 
 
-## The first of RISING_SAMPLES that all stand above the line of the free closing before them; -1: none.
+## The first of RISING_SAMPLES that all stand above the line of the free closing GUARD_RAD before them; -1: none.
 func _first_risen() -> int:
 	for first in range(1, _angles_rad.size() - RISING_SAMPLES + 1):
-		if _angles_rad[first] - _angles_rad[0] < FREE_FROM_RAD + KNOWN_AFTER_RAD:
+		if _angles_rad[first] - _angles_rad[0] < FREE_FROM_RAD + KNOWN_AFTER_RAD + GUARD_RAD:
 			continue
 		var line := _line_before(first)
 		var rise := maxf(RISE_NM, RISE_RIPPLES * line.ripple())
@@ -66,14 +71,17 @@ func _first_risen() -> int:
 
 func _line_before(first: int) -> FitLine:
 	var line := FitLine.new()
+	var until := _angles_rad[first] - GUARD_RAD
 	for index in first:
 		var angle := _angles_rad[index]
-		if angle - _angles_rad[0] >= FREE_FROM_RAD and angle >= _angles_rad[first] - BEFORE_RAD:
+		var free := angle - _angles_rad[0] >= FREE_FROM_RAD
+		if free and angle >= until - BEFORE_RAD and angle <= until:
 			line.add(angle, _torques_nm[index])
 	return line
 
 
-## Sum of squares left by free closing up to `knee` and a straight rise from its end.
+## Sum of squares left by free closing up to `knee` and a straight rise from its end. Every knee is judged by the same
+## samples: when an earlier one left out the last of them, it won by having less to explain.
 func _misfit(knee: float, around: float) -> float:
 	var free := FitLine.new()
 	for index in _angles_rad.size():
@@ -86,14 +94,14 @@ func _misfit(knee: float, around: float) -> float:
 	var along := 0.0
 	for index in _angles_rad.size():
 		var past := _angles_rad[index] - knee
-		if past > 0.0 and past < AFTER_RAD:
+		if past > 0.0 and _angles_rad[index] < around + AFTER_RAD:
 			across += past * (_torques_nm[index] - free.at(_angles_rad[index]))
 			along += past * past
 	var rise := across / along if along > 0.0 else 0.0
 	var sum := 0.0
 	for index in _angles_rad.size():
 		var angle := _angles_rad[index]
-		if angle - _angles_rad[0] >= FREE_FROM_RAD and angle >= around - BEFORE_RAD and angle < knee + AFTER_RAD:
+		if angle - _angles_rad[0] >= FREE_FROM_RAD and angle >= around - BEFORE_RAD and angle < around + AFTER_RAD:
 			var left := _torques_nm[index] - free.at(angle) - rise * maxf(angle - knee, 0.0)
 			sum += left * left
 	return sum

@@ -87,7 +87,7 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_screen.show_text(
 				step.task.replace("_", " ").capitalize(),
-				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials." % TRIALS,
+				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
 				"Start", _next
 			)
 		ExperimentPlan.Kind.BREAK:
@@ -130,9 +130,14 @@ func _open_task() -> void:
 		trial_arguments.task = step.task
 		trial_arguments.hand = PlayArguments.HANDS[_random.randi_range(0, 2)]
 	var trial_settings := DemoSettings.new()
-	trial_settings.device_name = "" if step.condition.begins_with("mouse") else settings.device_name
+	trial_settings.source = DemoSettings.MOUSE
+	if not step.condition.begins_with("mouse"):
+		var device := settings.source == DemoSettings.DEVICE
+		trial_settings.source = DemoSettings.DEVICE if device else DemoSettings.SIMULATED
+	trial_settings.device_serial = settings.device_serial
 	trial_settings.forces_allowed = step.condition == "forces_on"
 	trial_settings.auto_animation = step.condition == "mouse_auto"
+	trial_settings.picture = settings.picture
 	trial_settings.participant = str(_participant)
 	_task = scene_of.call(step.task)
 	_task.arguments = trial_arguments
@@ -158,7 +163,7 @@ func _keep(reason: String) -> void:
 		var row: Dictionary = TrialResults.new(_task, _task.get_node(^"SpidarG") as SpidarG).row_of(reason)
 		row.merge(_head(step), true)
 		row["participant_id"] = _participant
-		row["grip_source"] = "simulated" if arguments.simulates() else _task.settings.grip_source()
+		row["grip_source"] = "simulated" if arguments.simulates() else _task.settings.source
 		row["started_utc"] = Time.get_datetime_string_from_system(true)
 		var trace := _trace.rows
 		if _store.append("trace.csv", trace) != OK or _store.append("summary.csv", [row]) != OK:

@@ -11,11 +11,11 @@ const GRASP_M := 0.016
 const GRASP_NM := 0.010
 const GRASP_S := 0.15
 const PLACES_M: Dictionary[StringName, Vector2] = {
-	&"pick_and_place": Vector2(-0.100, -0.045),
-	&"robot_linking": Vector2(0.0, -0.045),
-	&"match_linking": Vector2(0.100, -0.045),
-	&"level": Vector2(-0.060, 0.060),
-	&"free_play": Vector2(0.060, 0.060),
+	&"pick_and_place": Vector2(-0.100, -0.070),
+	&"robot_linking": Vector2(0.0, -0.070),
+	&"match_linking": Vector2(0.100, -0.070),
+	&"level": Vector2(-0.060, 0.075),
+	&"free_play": Vector2(0.060, 0.075),
 }
 const COLOURS: Dictionary[StringName, Color] = {
 	&"pick_and_place": DemoPalette.CORAL,
@@ -37,6 +37,10 @@ func title() -> String:
 
 
 func is_trial() -> bool:
+	return false
+
+
+func may_replay() -> bool:
 	return false
 
 
@@ -91,6 +95,7 @@ func _on_chosen(entry: StringName) -> void:
 func _on_applied() -> void:
 	settings.save()
 	settings.apply(_spidar)
+	PictureQuality.apply(self, settings.picture)
 	_show_level()
 
 

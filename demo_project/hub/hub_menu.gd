@@ -67,11 +67,15 @@ func _build_form() -> void:
 	_form.columns = 2
 	_form.visible = false
 	_rows.add_child(_form)
-	_add_text_field("Device (empty: simulated)", "device_name")
+	_add_choice("Source", "source", Array(DemoSettings.SOURCES))
+	_add_text_field("Device's serial number", "device_serial")
+	_add_choice("Recording (L makes one)", "recording", [""] + Array(DemoSettings.recordings()))
 	_add_check("Forces may be turned on", "forces_allowed")
 	_add_choice("Scale", "workspace_scale", Array(DemoSettings.SCALES))
 	_add_choice("Rate, Hz", "rate_hz", Array(DemoSettings.RATES_HZ))
+	_add_choice("Clutch (C)", "clutch", Array(DemoSettings.CLUTCHES))
 	_add_check("Auto-animation", "auto_animation")
+	_add_choice("Picture", "picture", Array(PictureQuality.CHOICES))
 	_add_text_field("Participant", "participant")
 	_add_experience("Computers", "computer_experience")
 	_add_experience("Force feedback", "haptic_experience")
@@ -96,8 +100,11 @@ func _add_check(text: String, key: String) -> void:
 func _add_choice(text: String, key: String, values: Array) -> void:
 	_add_text(_form, text, DemoPalette.TEXT_SOFT, 13)
 	var option := OptionButton.new()
+	# A long name is cut off instead of widening the menu.
+	option.fit_to_longest_item = false
+	option.clip_text = true
 	for value: Variant in values:
-		option.add_item(str(value))
+		option.add_item("none" if str(value) == "" else str(value))
 	option.selected = values.find(_settings.get(key))
 	option.item_selected.connect(func(index: int) -> void: _change(key, values[index]))
 	_form.add_child(option)

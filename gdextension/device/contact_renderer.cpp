@@ -70,17 +70,12 @@ Vec3 turn_gradient(const Vec3 &turn, const Vec3 &axis) noexcept {
     return axis + 0.5 * glm::cross(turn, axis) + rest * glm::cross(turn, glm::cross(turn, axis));
 }
 
-double blend(double from, double to, double s) noexcept {
-    return from + s * (to - from);
-}
-
 } // namespace
 
 void ContactRenderer::configure(const ServoSettings &settings) noexcept {
     *this = ContactRenderer();
     full_s_ = settings.safety.contacts_full_s;
     gone_s_ = settings.safety.contacts_gone_s;
-    lead_s_ = settings.render.delay_compensation_s;
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
@@ -95,6 +90,10 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
     const std::size_t old_count = count_;
     count_ = static_cast<std::size_t>(std::clamp(command.contact_count, 0, kMaxContacts));
     active_mask_ = 0; // contacts may have changed places
+    // Frames of the game, by its own clock where it tells.
+    const bool stamped = command.contacts_state_time_s >= 0.0 && state_time_s_ >= 0.0;
+    const double apart_s = stamped ? command.contacts_state_time_s - state_time_s_ : clock_.age_s();
+    state_time_s_ = command.contacts_state_time_s;
     for (std::size_t i = 0; i < count_; ++i) {
         ContactPlane plane = command.contacts[i];
         const auto index = static_cast<std::int32_t>(i);
@@ -123,16 +122,21 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
         }
 
         Track track;
+        bool same = false;
         for (std::size_t j = 0; j < old_count; ++j) {
             if (!used[j] && old[j].plane.id == plane.id && old[j].plane.target == plane.target) {
                 used[j] = true;
                 track = old[j];
-                track.from = old[j].now;
                 // Turned by more than a right angle it is another surface: nothing lies in between.
-                track.fading_in = glm::dot(old[j].now.normal, plane.normal) > 0.0;
-                track.anchored = track.anchored && track.fading_in;
+                same = glm::dot(old[j].now.normal, plane.normal) > 0.0;
+                track.anchored = track.anchored && same;
                 break;
             }
+        }
+        if (same) {
+            track.surface.renew(plane, track.now, apart_s, foot(plane));
+        } else {
+            track.surface.begin(plane);
         }
         track.plane = plane;
         tracks_[i] = track;
@@ -160,41 +164,21 @@ bool ContactRenderer::age(double dt_s) noexcept {
 }
 
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {
-    const ContactPlane &plane = track.plane;
-    const double moved_s = clock_.carried_s();
-    const bool moving = clock_.carries();
-    const double shift_m = glm::dot(plane.normal, plane.velocity_m_s) * moved_s;
-
-    Surface to;
-    to.normal = plane.normal;
-    to.velocity_m_s = moving ? plane.velocity_m_s : Vec3(0.0);
-    to.offset_m = plane.offset_m + shift_m;
-    to.stiffness_n_m = plane.stiffness_n_m;
-    to.damping_n_s_m = plane.damping_n_s_m;
-    to.friction = plane.friction;
-
-    const double s = track.fading_in ? std::min(1.0, clock_.age_s() / kContactCrossFade_s) : 1.0;
-    Surface now = to;
-    if (s < 1.0) {
-        // Both ends of the fade move on alike: a plane that moves as announced is not dragged back.
-        const Surface &from = track.from;
-        const Vec3 normal = from.normal + s * (to.normal - from.normal);
-        const double length = glm::length(normal);
-        now.normal = normal / length; // at least sqrt(1/2): accept() saw to it
-        now.offset_m = blend(from.offset_m + shift_m, to.offset_m, s) / length;
-        now.stiffness_n_m = blend(from.stiffness_n_m, to.stiffness_n_m, s);
-        now.damping_n_s_m = blend(from.damping_n_s_m, to.damping_n_s_m, s);
-        now.friction = blend(from.friction, to.friction, s);
-    }
-    track.now = now;
+    track.now = track.surface.now(clock_);
     if (track.anchored) {
-        track.anchor_m += now.velocity_m_s * dt_s; // friction holds to the moving surface
+        track.anchor_m += track.now.velocity_m_s * dt_s; // friction holds to the moving surface
     }
+}
+
+// Where the contact's point, as last rendered, stands on this plane.
+Vec3 ContactRenderer::foot(const ContactPlane &plane) const noexcept {
+    const Vec3 point_m = grip_point(pose_, plane.target);
+    return point_m + (plane.offset_m - glm::dot(plane.normal, point_m)) * plane.normal;
 }
 
 // Depth, and how the contact moves with the grip. `track` is placed.
 ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) const noexcept {
-    const Surface &surface = track.now;
+    const ContactSurface &surface = track.now;
     const GripState &grip = motion.grip;
     double place = 0.0;
     Vec3 along(0.0); // per unit of linear, angular and grasp motion
@@ -224,8 +208,8 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
     const double surface_m_s = glm::dot(surface.normal, surface.velocity_m_s);
     const double leaving_m_s = glm::dot(along, v.linear_m_s) + glm::dot(turn, v.angular_rad_s) +
                                grasp * v.grasp_rate_rad_s - surface_m_s;
-    // The surface moves on too while the loop delays.
-    const double depth_m = surface.offset_m + lead_s_ * surface_m_s - place - ahead_m;
+    // Surface and grip as of the same moment: what moves with the hand feels like what rests.
+    const double depth_m = surface.offset_m + motion.lead_s * surface_m_s - place - ahead_m;
     track.touching = depth_m > 0.0; // false for NaN
     track.depth_m = std::clamp(depth_m, -most_m, most_m);
 
@@ -250,7 +234,7 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
 
 // Coulomb friction of a contact that pushes: a spring to where it first touched, dragged along beyond the cone.
 void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept {
-    const Surface &surface = track.now;
+    const ContactSurface &surface = track.now;
     if (!(surface.friction > 0.0) || !(surface.stiffness_n_m > 0.0) || is_stop(track.plane)) {
         track.anchored = false;
         return;
@@ -290,6 +274,7 @@ void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept
 }
 
 Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
+    pose_ = motion.grip.pose;
     std::array<ConstraintRow, kMaxConstraints> rows;
     bool any = false;
     for (std::size_t i = 0; i < count_; ++i) {

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "device/contact_surface.h"
 #include "device/gain_clamp.h"
 #include "device/game_clock.h"
 #include "device/god_object.h"
@@ -14,8 +15,6 @@
 
 namespace spidar {
 
-// One game period: steps of a plane between two updates are spread over it.
-inline constexpr double kContactCrossFade_s = 0.016;
 // How stiff the god-object holds the grip's orientation and grasp angle while a contact away from the centre turns
 // it. A contact at a pole's end (lever r) gives way by 1 / stiffness + r^2 / this.
 inline constexpr double kGodObjectTurnStiffness_nm_rad = 1.0;
@@ -41,20 +40,10 @@ public:
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
 
 private:
-    // What a plane is right now, cross-faded and moved on.
-    struct Surface {
-        Vec3 normal{0.0, 1.0, 0.0};
-        Vec3 velocity_m_s{0.0};
-        double offset_m = 0.0;
-        double stiffness_n_m = 0.0;
-        double damping_n_s_m = 0.0;
-        double friction = 0.0;
-    };
     struct Track {
         ContactPlane plane; // as last given, capped
-        Surface from;       // where the cross-fade starts
-        bool fading_in = false;
-        Surface now;
+        SurfaceTrack surface;
+        ContactSurface now;
         double depth_m = 0.0; // or rad: predicted, what the spring sees
         double push = 0.0;    // N, or N m, along the normal
         bool touching = false;
@@ -68,18 +57,20 @@ private:
     };
 
     void place(Track &track, double dt_s) const noexcept;
+    [[nodiscard]] Vec3 foot(const ContactPlane &plane) const noexcept;
     ConstraintRow measure(Track &track, const GripMotion &motion) const noexcept;
     void rub(Track &track, const GripMotion &motion) const noexcept;
 
     double full_s_ = 0.1;
     double gone_s_ = 0.3;
-    double lead_s_ = 0.0;
     GainCaps caps_{};
     std::array<Track, kMaxContacts> tracks_{};
     std::size_t count_ = 0;
     std::uint8_t active_mask_ = 0;
     GameClock clock_;
-    double strength_ = 1.0; // falls with age, comes back gradually
+    double state_time_s_ = -1.0; // of the last set
+    GripPose pose_;              // last rendered
+    double strength_ = 1.0;      // falls with age, comes back gradually
 };
 
 } // namespace spidar

@@ -21,24 +21,6 @@ constexpr double kMaxProxyTurnRate_rad_s = 50.0;
 // Beyond any frame: keeps absurd proxies from overflowing.
 constexpr double kFarAway_m = 10.0;
 
-Mat3 rotation_exp(const Vec3 &turn) noexcept {
-    const double angle = glm::length(turn);
-    constexpr double kSmall = 1e-9;
-    if (!(angle > kSmall)) {
-        return Mat3(1.0);
-    }
-    const Vec3 k = turn / angle;
-    const double s = std::sin(angle);
-    const double c = 1.0 - std::cos(angle);
-    Mat3 result(1.0);
-    for (int column = 0; column < 3; ++column) {
-        Vec3 unit(0.0);
-        unit[column] = 1.0;
-        result[column] = unit + s * glm::cross(k, unit) + c * glm::cross(k, glm::cross(k, unit));
-    }
-    return result;
-}
-
 Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     const double length = glm::length(v);
     return length > limit ? v * (limit / length) : v;
@@ -174,9 +156,11 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     const Proxy proxy = proxy_now();
     const GripState &grip = motion.grip;
     const Twist pull = clock_.carries() ? coupling_.twist : Twist();
-    const Vec3 apart_m = proxy.position_m - grip.pose.position_m - motion.ahead.linear_m;
-    const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) -
-                           motion.ahead.angular_rad;
+    // Proxy and grip as of the same moment.
+    const Vec3 apart_m = proxy.position_m + motion.lead_s * pull.linear_m_s - grip.pose.position_m -
+                         motion.ahead.linear_m;
+    const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) +
+                           motion.lead_s * pull.angular_rad_s - motion.ahead.angular_rad;
     const double s = faded_in();
     const auto gain = [s](const DofGains &from, const DofGains &to, std::size_t i) {
         return from[i] + s * (to[i] - from[i]);
@@ -193,11 +177,11 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
                                   (pull.angular_rad_s[k] - v.angular_rad_s[k]);
     }
     constexpr std::size_t kGrasp = 6;
-    wrench.grasp_torque_nm =
-        gain(from_stiffness_, coupling_.stiffness, kGrasp) *
-            (proxy.grasp_angle_rad - grip.frame.grasp_angle_rad - motion.ahead.grasp_rad) +
-        gain(from_damping_, coupling_.damping, kGrasp) *
-            (pull.grasp_rate_rad_s - motion.velocity.grasp_rate_rad_s);
+    wrench.grasp_torque_nm = gain(from_stiffness_, coupling_.stiffness, kGrasp) *
+                                 (proxy.grasp_angle_rad + motion.lead_s * pull.grasp_rate_rad_s -
+                                  grip.frame.grasp_angle_rad - motion.ahead.grasp_rad) +
+                             gain(from_damping_, coupling_.damping, kGrasp) *
+                                 (pull.grasp_rate_rad_s - motion.velocity.grasp_rate_rad_s);
     wrench.force_n = strength_ * no_longer_than(wrench.force_n, coupling_.max_force_n);
     wrench.moment_nm = strength_ * no_longer_than(wrench.moment_nm, coupling_.max_moment_nm);
     wrench.grasp_torque_nm =

@@ -28,6 +28,10 @@ public:
     [[nodiscard]] double age_s() const noexcept { return age_s_; }
     // How far to carry it on.
     [[nodiscard]] double carried_s() const noexcept { return std::min(late_s_ + age_s_, most_s()); }
+    // The part of that since it came: what has been carried to that moment already moves on by this.
+    [[nodiscard]] double carried_since_s() const noexcept {
+        return carried_s() - std::min(late_s_, most_s());
+    }
     [[nodiscard]] bool carries() const noexcept { return late_s_ + age_s_ <= most_s(); }
 
 private:

@@ -32,6 +32,7 @@ inline constexpr std::uint8_t kAllDof = 0x7F;
 // (grasp: per radian of grasp_angle). Not the paper's q, whose g is twice the grasp torque.
 using DofGains = std::array<double, kDofCount>;
 
+// Between updates a plane moves on by its velocity, and turns and speeds up as it did over the last ones.
 // Unilateral: the target point x is pushed out along +normal when dot(normal, x) < offset.
 // grasp_stop: normal.x is +1 (stops opening below offset_rad) or -1: keeps normal.x * grasp_angle >= offset;
 // stiffness is then in N m/rad, damping in N m s/rad. A stop at a width of angle w: normal.x = -1, offset = -w.
@@ -40,7 +41,7 @@ using DofGains = std::array<double, kDofCount>;
 struct ContactPlane {
     Vec3 normal{0.0, 1.0, 0.0}; // unit
     double offset_m = 0.0;      // or rad
-    Vec3 velocity_m_s{0.0};     // the plane's own: it moves on between updates
+    Vec3 velocity_m_s{0.0};     // of the surface, where the target is nearest
     double stiffness_n_m = 350.0;
     double damping_n_s_m = 2.0;
     double friction = 0.0; // Coulomb coefficient

@@ -75,6 +75,7 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
         motion_.update(moved, dt_s);
         motion.ahead = motion_.ahead();
         motion.velocity = motion_.velocity();
+        motion.lead_s = motion_.steady_lead_s();
     } else {
         motion_.reset();
     }

@@ -23,6 +23,7 @@ void MotionFilter::configure(const RenderSettings &settings, double rate_hz) noe
     *this = MotionFilter();
     cutoff_rad_s_ = 2.0 * std::numbers::pi * settings.velocity_cutoff_hz;
     lead_s_ = settings.delay_compensation_s;
+    steady_lead_s_ = lead_s_;
     const double hz = settings.string_resonance_hz;
     if (!(hz > 0.0) || !(hz < kHighestResonance * rate_hz)) {
         return; // offset stays zero
@@ -38,6 +39,8 @@ void MotionFilter::configure(const RenderSettings &settings, double rate_hz) noe
     // N - 1 has a zero at z = 1, which is divided out against the sum of the moves.
     c0_ = b0 - 1.0;
     c1_ = a2_ - b2;
+    steady_lead_s_ +=
+        (c0_ + c1_) / (1.0 + a1_ + a2_) / rate_hz; // offset of a steady move, per speed
 }
 
 void MotionFilter::reset() noexcept {

@@ -21,6 +21,8 @@ struct GripMotion {
     GripState grip;
     Displacement ahead; // filtered and predicted pose, relative to grip.pose
     Twist velocity;     // filtered
+    // How far ahead a steady motion is seen: what moves beside the grip, such as a wall, is to be looked at then.
+    double lead_s = 0.0;
 };
 
 class MotionFilter {
@@ -33,6 +35,8 @@ public:
 
     [[nodiscard]] Displacement ahead() const noexcept;
     [[nodiscard]] Twist velocity() const noexcept;
+    // The prediction less the delay of the notch.
+    [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
     // The grip stood still long enough: further updates without motion change nothing.
     [[nodiscard]] bool settled() const noexcept { return settled_; }
 
@@ -45,6 +49,7 @@ private:
     double filter_share_ = 0.0; // of a time step of filtered_dt_s_
     double filtered_dt_s_ = 0.0;
     double lead_s_ = 0.0;
+    double steady_lead_s_ = 0.0;
     // offset = filtered - measured position = (c0 + c1 / z) / (1 + a1 / z + a2 / z^2) moved
     double c0_ = 0.0;
     double c1_ = 0.0;

@@ -47,7 +47,11 @@ bool request_real_time() noexcept {
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter) == 0;
 }
 
-#else
+void name_thread(const char *name) noexcept {
+    prctl(PR_SET_NAME, name, 0UL, 0UL, 0UL);
+}
+
+#elif !defined(_WIN32) && !defined(__APPLE__) // those have files of their own
 
 void sleep_until_ns(std::int64_t deadline_ns) noexcept {
     std::this_thread::sleep_until(
@@ -57,6 +61,8 @@ void sleep_until_ns(std::int64_t deadline_ns) noexcept {
 bool request_real_time() noexcept {
     return false;
 }
+
+void name_thread(const char * /*name*/) noexcept {}
 
 #endif
 

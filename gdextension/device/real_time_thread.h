@@ -15,6 +15,9 @@ void sleep_until_ns(std::int64_t deadline_ns) noexcept;
 // where it does not: the loop only gets less punctual). True when priority was granted.
 bool request_real_time() noexcept;
 
+// What `top -H` and a debugger call the calling thread; at most 15 letters. Linux only.
+void name_thread(const char *name) noexcept;
+
 // While it lives, denormal numbers count as zero in this thread: they cost a hundredfold and mean nothing here.
 // Used around every servo cycle, threaded or stepped, so that both compute the same bits.
 class FlushDenormals {

@@ -88,7 +88,8 @@ struct ServoLoop::Impl {
     void cycle(double dt_s) noexcept SPIDAR_NONBLOCKING {
         Recorder *const recording = recorder.load(std::memory_order_acquire);
         bool may_arm_itself = transport->simulated();
-        bool command_is_new = commands.read(command);
+        // In a replay the recorded commands are the only ones: what the game goes on asking for must not come between.
+        bool command_is_new = replay == nullptr && commands.read(command);
         if (replay != nullptr) {
             if (!replay->next(step, command, dt_s)) {
                 return; // the end: what was last shown stays
@@ -240,6 +241,7 @@ struct ServoLoop::Impl {
 
     void run() noexcept {
         const FlushDenormals flush;
+        name_thread("spidar_servo");
         real_time_priority.store(request_real_time(), std::memory_order_relaxed);
         if (!usable(open_status) && !open_patiently()) {
             return;

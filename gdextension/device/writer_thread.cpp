@@ -71,6 +71,7 @@ void WriterThread::write(const DriveCommand &command) noexcept {
 }
 
 void WriterThread::run() noexcept {
+    name_thread("spidar_writer");
     (void)request_real_time();
     DriveCommand command;
     while (!stop_asked_.load(std::memory_order_acquire)) {

@@ -7,6 +7,7 @@
 #include "godot/class_documentation.h"
 #include "godot/spidar_g.h"
 #include "godot/spidar_g_calibration.h"
+#include "godot/spidar_g_calibrator.h"
 #include "godot/spidar_g_config.h"
 #include "godot/spidar_g_workspace.h"
 
@@ -16,6 +17,7 @@ void initialize(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         GDREGISTER_CLASS(SpidarGConfig);
         GDREGISTER_CLASS(SpidarGCalibration);
+        GDREGISTER_CLASS(SpidarGCalibrator);
         GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
     }

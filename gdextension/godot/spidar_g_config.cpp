@@ -21,6 +21,26 @@ std::string complaint(const char *field, double value, const char *unit, const c
            ": " + remedy;
 }
 
+// Eight values of a string each, or none. The problem, or empty.
+std::string refuse_eight(const char *field, const godot::PackedFloat64Array &values, double low,
+                         double high, const char *unit) {
+    if (values.size() == 0) {
+        return {};
+    }
+    if (values.size() != spidar::kStringCount) {
+        return std::string("SpidarGConfig.") + field + " has " + std::to_string(values.size()) +
+               " values: give 8, one a string, or none.";
+    }
+    for (int i = 0; i < spidar::kStringCount; ++i) {
+        if (!(values[i] >= low && values[i] <= high)) {
+            return std::string("SpidarGConfig.") + field + "[" + std::to_string(i) +
+                   "] = " + std::to_string(values[i]) + " " + unit + ": give " +
+                   std::to_string(low) + " to " + std::to_string(high) + ".";
+        }
+    }
+    return {};
+}
+
 spidar::DevicePreset preset_of(int value) {
     return spidar::device_preset(static_cast<spidar::Preset>(value - 1));
 }
@@ -61,7 +81,20 @@ std::string SpidarGConfig::own_problem() const {
         return complaint("jaw_closed_angle", jaw_closed_angle_, "rad",
                          "choose the angle of the closed jaws, above 0 and below pi/2.");
     }
-    return {};
+    constexpr double kMostOffset_m = 0.1;
+    constexpr double kMostGain = 0.3;
+    constexpr double kTensionGain = 0.2;
+    std::string problem = refuse_eight("simulated_offset_errors", simulated_offset_errors_,
+                                       -kMostOffset_m, kMostOffset_m, "m");
+    if (problem.empty()) {
+        problem = refuse_eight("simulated_gain_errors", simulated_gain_errors_, -kMostGain,
+                               kMostGain, "(relative)");
+    }
+    if (problem.empty()) {
+        problem = refuse_eight("simulated_tension_gains", simulated_tension_gains_, kTensionGain,
+                               1.0 / kTensionGain, "(real / commanded)");
+    }
+    return problem;
 }
 
 godot::String SpidarGConfig::get_problem() const {
@@ -163,6 +196,20 @@ spidar::PlantSettings SpidarGConfig::plant_settings() const {
         plant.viscous_friction_n_s_m = 0.0;
     }
     const int firmest = static_cast<int>(spidar::HandFirmness::firm);
+    for (std::size_t i = 0; i < spidar::kStringCount; ++i) {
+        const auto at = static_cast<std::int64_t>(i);
+        if (simulated_offset_errors_.size() == spidar::kStringCount) {
+            plant.length_offset_error_m[i] = simulated_offset_errors_[at];
+        }
+        if (simulated_gain_errors_.size() == spidar::kStringCount) {
+            // More counts a metre: the string lies on a smaller radius, and so pulls harder.
+            plant.length_gain_error[i] = simulated_gain_errors_[at];
+            plant.motors.effective_radius_m[i] /= 1.0 + simulated_gain_errors_[at];
+        }
+        if (simulated_tension_gains_.size() == spidar::kStringCount) {
+            plant.motors.tension_gain[i] = simulated_tension_gains_[at];
+        }
+    }
     plant.firmness =
         static_cast<spidar::HandFirmness>(std::clamp(simulated_hand_firmness_, 0, firmest));
     return plant;
@@ -247,6 +294,10 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, real, simulated_friction, PROPERTY_HINT_RANGE, "0,0.5,0.01,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, simulated_hand_firmness, godot::PROPERTY_HINT_ENUM,
                         "Light,Normal,Firm");
+    const Variant::Type reals = Variant::PACKED_FLOAT64_ARRAY;
+    SPIDAR_G_BIND_FIELD(Self, reals, simulated_offset_errors, PROPERTY_HINT_NONE, "suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, reals, simulated_gain_errors, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, reals, simulated_tension_gains, PROPERTY_HINT_NONE, "");
 
     godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
     godot::ClassDB::bind_method(godot::D_METHOD("check_geometry"), &SpidarGConfig::check_geometry);

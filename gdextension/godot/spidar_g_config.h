@@ -7,6 +7,7 @@
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/packed_float64_array.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
@@ -85,6 +86,10 @@ private:
                    spidar::PlantSettings{}.string_stiffness_ea_n);
     SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
     SPIDAR_G_FIELD(int, simulated_hand_firmness, static_cast<int>(spidar::HandFirmness::normal));
+    // What a calibration has to find: 8 values, or none.
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_tension_gains); // real / commanded
 
 public:
     // Empty when usable; else one sentence with field, value, unit and remedy.

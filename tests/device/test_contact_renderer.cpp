@@ -63,12 +63,7 @@ struct Rig {
     ContactRenderer renderer;
     HapticCommand command;
 
-    Rig() { renderer.configure(settings()); }
-    static ServoSettings settings() {
-        ServoSettings settings;
-        settings.render.delay_compensation_s = 0.0; // the tests give the motion themselves
-        return settings;
-    }
+    Rig() { renderer.configure(ServoSettings()); }
     void give(std::initializer_list<ContactPlane> planes) {
         command.contact_count = 0;
         for (const ContactPlane &plane : planes) {
@@ -267,10 +262,8 @@ TEST_CASE("turn stop: keeps the turn about its axis, wherever the others are") {
 }
 
 TEST_CASE("contact: the push acts on where the grip will be, surface and all") {
-    ServoSettings settings;
-    settings.render.delay_compensation_s = 0.003;
     ContactRenderer renderer;
-    renderer.configure(settings);
+    renderer.configure(ServoSettings());
     HapticCommand command;
     command.contact_count = 1;
     command.contacts[0] = floor_plane();
@@ -279,6 +272,7 @@ TEST_CASE("contact: the push acts on where the grip will be, surface and all") {
     renderer.accept(command, 0.0);
     GripMotion motion = motion_of(grip_at(Vec3(0.0, 0.0, -0.004)));
     motion.ahead.linear_m.z = -0.001;
+    motion.lead_s = 0.003;
     CHECK(renderer.render(motion, kTick_s).force_n.z ==
           doctest::Approx(350.0 * (0.004 + 0.001 + 0.003 * 0.2)));
 }
@@ -474,7 +468,7 @@ TEST_CASE("contact: caps of stiffness and damping, reported") {
     plane.damping_n_s_m = 1e6;
     rig.command.contacts[0] = plane;
     rig.command.contact_count = 1;
-    const GainCaps caps = gain_caps(Rig::settings().render, Rig::settings().rate_hz);
+    const GainCaps caps = gain_caps(RenderSettings(), ServoSettings().rate_hz);
     const GainClamp clamp = rig.renderer.accept(rig.command, 0.0);
     CHECK(clamp.gain == GainClamp::Gain::stiffness);
     CHECK(clamp.asked == 1e6);
@@ -529,5 +523,33 @@ TEST_CASE("contact: every valid set, however absurd, gives a finite wrench that 
         for (const double value : to_paper(wrench)) {
             REQUIRE(std::isfinite(value));
         }
+    }
+}
+
+TEST_CASE("contacts: a wall and a hand that move together feel like both at rest") {
+    MotionFilter filter;
+    filter.configure(RenderSettings(), 1.0 / kTick_s);
+    constexpr double kSpeed_m_s = 0.2;
+    constexpr double kDepth_m = 0.005;
+    Rig rig;
+    rig.command.contacts_state_time_s = 0.0;
+    ContactPlane wall = floor_plane();
+    wall.velocity_m_s.z = kSpeed_m_s;
+    rig.give({wall});
+    Displacement moved;
+    moved.linear_m.z = kSpeed_m_s * kTick_s;
+    double force_n = 0.0;
+    for (int i = 1; i <= 28; ++i) { // as long as a plane is carried on
+        rig.renderer.age(kTick_s);
+        for (int settle = i == 1 ? 200 : 1; settle > 0; --settle) {
+            filter.update(moved, kTick_s);
+        }
+        GripMotion motion;
+        motion.grip = grip_at(Vec3(0.0, 0.0, kSpeed_m_s * kTick_s * i - kDepth_m));
+        motion.ahead = filter.ahead();
+        motion.velocity = filter.velocity();
+        motion.lead_s = filter.steady_lead_s();
+        force_n = rig.renderer.render(motion, kTick_s).force_n.z;
+        CHECK(force_n == doctest::Approx(wall.stiffness_n_m * kDepth_m).epsilon(1e-6));
     }
 }

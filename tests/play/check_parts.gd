@@ -1,6 +1,21 @@
 extends SceneTree
 ## Known answers for the demo's own mathematics. Prints FAIL lines and "N passed, N failed".
 
+## A thin leg in a corner of the workspace, stopped at 41.2 degrees: grasp angle (degrees) and opening torque (N mm).
+const LEG_STOP_DEG := 41.2
+const LEG_ANGLES_DEG: PackedFloat64Array = [
+	32.311, 32.398, 32.563, 32.778, 33.017, 33.303, 33.597, 33.889, 34.227, 34.584, 34.936, 35.332,
+	35.739, 36.129, 36.554, 36.979, 37.380, 37.811, 38.240, 38.641, 39.072, 39.499, 39.900, 40.329,
+	40.756, 41.155, 41.570, 41.931, 42.217, 42.482, 42.712, 42.915, 43.132, 43.349, 43.557, 43.790,
+	44.024, 44.245,
+]
+const LEG_TORQUES_NMM: PackedFloat64Array = [
+	0.9346, 3.0082, 3.1534, 3.6262, 3.9909, 4.7983, 5.0823, 5.2082, 5.3338, 5.4515, 5.4802, 5.4163,
+	5.4565, 5.5538, 5.4185, 5.4025, 5.5533, 5.4027, 5.4141, 5.5287, 5.3429, 5.3599, 5.4966, 5.3831,
+	5.3036, 5.9946, 6.7963, 8.2012, 9.6896, 10.1858, 11.2136, 11.9563, 12.7268, 13.5936, 14.7379, 15.4758,
+	16.4184, 17.3173,
+]
+
 var _passed := 0
 var _failed := 0
 
@@ -17,6 +32,8 @@ func _initialize() -> void:
 	_check_store()
 	_check_minimum_jerk()
 	_check_csv()
+	_check_settings()
+	_check_picture_quality()
 	print("%d passed, %d failed" % [_passed, _failed])
 	quit(0 if _failed == 0 else 1)
 
@@ -40,6 +57,16 @@ func _check_width_sense() -> void:
 		_check(absf(sense.push_nm() - push) < 5e-4, "push %.5f, not %.5f" % [sense.push_nm(), push])
 	var nothing := _closing(deg_to_rad(30.0), deg_to_rad(38.0), 0.04, 0.0)
 	_check(is_nan(nothing.touch_angle_rad()), "touch felt where nothing pushes")
+	# The last samples once counted for late knees only: an early one won, 1.5 mm too wide.
+	var leg := WidthSense.new()
+	for index in LEG_ANGLES_DEG.size():
+		leg.add(deg_to_rad(LEG_ANGLES_DEG[index]), 1e-3 * LEG_TORQUES_NMM[index])
+	var leg_off_deg := rad_to_deg(leg.touch_angle_rad()) - LEG_STOP_DEG
+	_check(absf(leg_off_deg) < 0.3, "a thin leg is touched %.2f deg off" % leg_off_deg)
+	# So soft that the line of free closing once bent with it: felt 10 mm late.
+	var soft := _closing(deg_to_rad(26.0), deg_to_rad(34.0), 0.005, 0.04)
+	var soft_off_deg := rad_to_deg(soft.touch_angle_rad()) - 34.0
+	_check(absf(soft_off_deg) < 0.3, "something soft is touched %.2f deg off" % soft_off_deg)
 	_check(is_nan(WidthSense.new().touch_angle_rad()), "touch felt without a sample")
 
 
@@ -221,6 +248,46 @@ func _check_csv() -> void:
 	var text := FileAccess.get_file_as_string(path)
 	DirAccess.remove_absolute(ProjectSettings.globalize_path(path))
 	_check(text == 'a,b,c,d\n,"x ""y"", z",,1\n', "CSV text is " + text)
+
+
+## What is saved is read again; what makes no sense is not.
+func _check_settings() -> void:
+	var kept := FileAccess.get_file_as_string(DemoSettings.PATH)
+	var settings := DemoSettings.new()
+	settings.source = DemoSettings.MOUSE
+	settings.workspace_scale = 2.0
+	settings.clutch = DemoSettings.CLUTCHES[1]
+	settings.picture = PictureQuality.PLAIN
+	settings.save()
+	var again := DemoSettings.load_or_default()
+	_check(again.source == "mouse" and again.workspace_scale == 2.0, "settings read: %s" % again.source)
+	_check(again.clutch == "switched" and again.picture == "plain", "clutch and picture: %s" % again.clutch)
+	settings.source = "thin air"
+	settings.workspace_scale = 7.0
+	settings.rate_hz = -1
+	settings.level = 9
+	settings.save()
+	again = DemoSettings.load_or_default()
+	_check(again.source == "simulated", "a source that does not exist: %s" % again.source)
+	_check(again.workspace_scale == 1.0 and again.rate_hz == 1000, "scale %f, rate %d" % [again.workspace_scale, again.rate_hz])
+	_check(again.level == PlayArguments.LEVELS, "level %d" % again.level)
+	var forces: Array[bool] = []
+	for source in DemoSettings.SOURCES:
+		again.source = source
+		forces.append(again.may_have_forces())
+	_check(forces == [true, true, false, false], "forces with %s: %s" % [DemoSettings.SOURCES, forces])
+	DirAccess.remove_absolute(ProjectSettings.globalize_path(DemoSettings.PATH))
+	if kept != "":
+		var file := FileAccess.open(DemoSettings.PATH, FileAccess.WRITE)
+		file.store_string(kept)
+
+
+func _check_picture_quality() -> void:
+	var software := "llvmpipe (LLVM 21.1.8, 256 bits)"
+	_check(PictureQuality.is_plain(PictureQuality.AUTOMATIC, software), "full on a software renderer")
+	_check(not PictureQuality.is_plain(PictureQuality.AUTOMATIC, "AMD Radeon RX 6600"), "plain on a GPU")
+	_check(not PictureQuality.is_plain(PictureQuality.FULL, software), "full was asked for")
+	_check(PictureQuality.is_plain(PictureQuality.PLAIN, "AMD Radeon RX 6600"), "plain was asked for")
 
 
 func _spec(shape: ObjectSpec.Shape, size: Vector3) -> ObjectSpec:

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """A scripted user with real mouse events: python3 run_mouse_tests.py GODOT [--display :N]
 
-Under an X server of its own (Xvfb) and with xdotool it works the hub by the simulated grip (touch a knob, close on it),
-places an object with the mouse alone, and completes each task in the mouse condition with auto-animation, two
-clicks a thing. What it cannot see it reads from the file that the demo's --report leaves.
+Under an X server of its own (Xvfb) and with xdotool it works the hub by the simulated grip (touch a knob, close on it)
+and by keys, does pick and place with the mouse alone, and completes each task with auto-animation, two clicks a thing.
+What it cannot see it reads from the file that the demo's --report leaves.
 """
 
 import argparse
+import functools
 import json
 import os
 import shutil
@@ -22,9 +23,14 @@ sys.path.insert(0, os.path.join(ROOT, "tests"))
 from godot_project import prepare_project  # noqa: E402
 
 DEMO = os.path.join(ROOT, "demo_project")
+WINDOW = "spidar_g demo"
 SETTINGS = "godot/app_userdata/spidar_g demo/settings.cfg"
-START_LIMIT_S = 90
+START_LIMIT_S = 180
 STEP_LIMIT_S = 200  # a loaded machine without a GPU draws few frames a second, and the game waits for them
+TRAVEL_Y_M = 0.035  # world: a held thing passes over the others
+OPEN_DEG = 6.0
+RESOLUTION = "640x400"  # a small window costs a computer without a GPU a third of a large one
+PIXELS_M = 500.0  # fewer than the picture has: the loop then comes in without swinging
 WHEEL_STEP_M = 0.006  # the demo's own
 SCENES = {"pick_and_place": "PickAndPlace", "robot_linking": "RobotLinking", "match_linking": "MatchLinking"}
 
@@ -37,6 +43,7 @@ class User:
     """The demo, a display, a mouse and a keyboard."""
 
     def __init__(self, godot, display, arguments, settings):
+        self.window_id = None
         self.folder = tempfile.mkdtemp(prefix="spidar_mouse_")
         self.report_path = os.path.join(self.folder, "report.json")
         path = os.path.join(self.folder, SETTINGS)
@@ -47,7 +54,7 @@ class User:
         with open(os.path.join(self.folder, "log.txt"), "w", encoding="utf-8") as log:
             self.demo = subprocess.Popen(
                 [godot, "--audio-driver", "Dummy", "--rendering-driver", "opengl3", "--path", DEMO,
-                 "--", "--report", self.report_path, *arguments],
+                 "--resolution", RESOLUTION, "--", "--report", self.report_path, *arguments],
                 env=self.environment, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
 
     def close(self):
@@ -71,12 +78,25 @@ class User:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True)
 
     def move(self, screen):
-        self.xdotool("mousemove", round(screen[0]), round(screen[1]))
+        self.xdotool("mousemove", "--window", self.window(), round(screen[0]), round(screen[1]))
+
+    def window(self):
+        """X's number of the demo's window, which may lie anywhere on the screen."""
+        if self.window_id is None:
+            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", WINDOW], env=self.environment,
+                                   check=True, text=True, stdout=subprocess.PIPE)
+            self.window_id = found.stdout.split()[-1]
+        return self.window_id
 
     def click(self, screen):
         self.move(screen)
         time.sleep(0.1)
         self.xdotool("click", 1)
+
+    def press(self, key, what, condition):
+        """Presses a key once and waits for what it does."""
+        self.xdotool("key", key)
+        return self.wait(f"{what} by {key}", condition)
 
     def see(self):
         with open(self.report_path, encoding="utf-8") as file:
@@ -98,93 +118,145 @@ class User:
         raise GaveUp(f"not within {limit_s} s: {what}")
 
     def bring_grip(self, world_of, near_m=0.005):
-        """Closed loop by cursor and wheel: the grip to the point that world_of(report) gives, {screen, world}."""
+        """Closed loop by cursor and wheel: the grip to the point (m) that world_of(report) gives."""
         end = time.monotonic() + STEP_LIMIT_S
         while time.monotonic() < end:
             report = self.see()
             goal, grip = world_of(report), report["grip"]
-            off = [there - here for there, here in zip(goal["world"], grip["world"])]
+            off = [there - here for there, here in zip(goal, grip["world"])]
             if max(map(abs, off)) < near_m:
                 return
             clicks = round(-off[2] / WHEEL_STEP_M)
             if abs(off[2]) > near_m and clicks:
                 self.xdotool("click", "--repeat", min(abs(clicks), 5), "--delay", 20, 4 if clicks > 0 else 5)
-            x, y = (grip["screen"][axis] + 0.7 * (goal["screen"][axis] - grip["screen"][axis]) for axis in (0, 1))
             if abs(off[0]) > near_m or abs(off[1]) > near_m:
-                self.move((x, y))
+                self.move((grip["screen"][0] + PIXELS_M * off[0], grip["screen"][1] - PIXELS_M * off[1]))
             self.wait("the next report", lambda now: now["count"] >= report["count"] + 4)
         raise GaveUp("the grip does not come to its place")
+
+
+    def rise(self, y_m):
+        """Straight up to this height."""
+        here = self.see()["grip"]["world"]
+        self.bring_grip(lambda report: at_height(here, y_m), 0.012)
 
 
 def named(report, kind, name):
     return next(item for item in report[kind] if item["name"] == name)
 
 
-def above(point, height_m):
-    """The same point so much higher; its place on the screen is about so many pixels higher."""
-    x, y, z = point["world"]
-    pixels = height_m * 1270.0
-    return {"world": [x, y + height_m, z], "screen": [point["screen"][0], point["screen"][1] - pixels]}
+def above(point_m, height_m):
+    return [point_m[0], point_m[1] + height_m, point_m[2]]
+
+
+def at_height(point_m, y_m):
+    return [point_m[0], y_m, point_m[2]]
 
 
 def hub_by_grip(godot, display, check):
+    """The menu by touch and grasp alone; its keys and buttons; what stops and what goes on."""
     user = User(godot, display, [], {})
     try:
         user.wait("the hub", lambda report: report["scene"] == "Hub", START_LIMIT_S)
         check(not user.see()["forces"], "forces are on at the start")
 
         def knob(report):
-            return named(report, "knobs", "RobotLinking")["at"]
+            return named(report, "knobs", "RobotLinking")["at"]["world"]
 
         user.bring_grip(lambda report: above(knob(report), 0.05), 0.008)
         user.bring_grip(knob, 0.008)
         user.xdotool("mousedown", 1)
         user.wait("robot linking by a grasp of its knob", lambda report: report["scene"] == "RobotLinking")
         user.xdotool("mouseup", 1)
-        user.xdotool("key", "Escape")
-        user.wait("back in the hub", lambda report: report["scene"].startswith("Hub"))
-        user.xdotool("key", "3")
-        user.wait("match linking by a key", lambda report: report["scene"] == "MatchLinking")
+        user.press("h", "help", lambda report: report["help"])
+        user.press("h", "no help", lambda report: not report["help"])
+        for mode in (0, 1, 2):  # off, short, full; full at the start
+            user.press("Tab", f"display {mode}", lambda report, mode=mode: report["hud"] == mode)
+        user.press("p", "pause", lambda report: report["paused"])
+        user.press("p", "no pause", lambda report: not report["paused"])
+        user.press("Escape", "back in the hub", lambda report: report["scene"].startswith("Hub"))
+        panic_with_a_button_in_focus(user)
+        user.press("3", "match linking by a key", lambda report: report["scene"].startswith("MatchLinking"))
         check(True, "")
     finally:
         check("SCRIPT ERROR" not in user.close(), "script errors in the hub")
         shutil.rmtree(user.folder)
 
 
-def object_by_mouse(godot, display, check):
-    """README, demo, first object placed with a mouse; forces on by F."""
+def panic_with_a_button_in_focus(user):
+    """Space once pressed the button that was clicked last, and the forces stayed on."""
+    level = user.see()["level"]
+    user.click(next(at for text, at in user.see()["buttons"].items() if "Level" in text))
+    clicked = user.wait("another level by a click", lambda report: report["level"] != level)["level"]
+    user.press("f", "forces on", lambda report: report["forces"])
+    user.press("space", "forces off", lambda report: not report["forces"])
+    user.wait("the level as it was", lambda report: report["level"] == clicked)
+
+
+def objects_by_mouse(godot, display, check, how_many=None):
+    """The mouse condition as the paper had it at first: objects to their outlines by mouse alone, no forces."""
     began = time.monotonic()
-    user = User(godot, display, ["--task", "pick_and_place"], {})
+    user = User(godot, display, ["--task", "pick_and_place"], {"source": '"mouse"', "participant": '"p6"'})
     try:
-        first = user.wait("the task", lambda report: report["bodies"], START_LIMIT_S)["bodies"][0]["name"]
+        names = [body["name"] for body in user.wait("the task", lambda report: report["bodies"], START_LIMIT_S)["bodies"]]
         started = time.monotonic()
         user.xdotool("key", "f")
-        user.wait("forces on", lambda report: report["forces"])
-
-        def at(report):
-            return named(report, "bodies", first)["at"]
-
-        def goal(report):
-            return named(report, "bodies", first)["goal"]
-
-        user.bring_grip(lambda report: above(at(report), 0.05))
-        user.bring_grip(at)
-        user.xdotool("mousedown", 1)
-        user.wait("the object held", lambda report: report["held"] == first)
-        user.bring_grip(lambda report: above(goal(report), 0.06))
-        user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
-        user.xdotool("mouseup", 1)
-        user.wait("the object placed", lambda report: named(report, "bodies", first)["placed"])
-        print(f"first object placed by mouse: {started - began:.0f} s to the task, "
-              f"{time.monotonic() - started:.0f} s more to place it")
+        for number, name in enumerate(names[:how_many], 1):
+            place_by_mouse(user, name)
+            print(f"placed by mouse: {number} in {time.monotonic() - started:.0f} s, {started - began:.0f} s after the start")
+        check(not user.see()["forces"], "F turns forces on although the source is the mouse")
+        if how_many is None:
+            user.wait("the task complete", lambda report: report["finished"])
+            check_row(check, user, "pick_and_place", "p6", auto_animation="0")
         check(True, "")
     finally:
         check("SCRIPT ERROR" not in user.close(), "script errors in the mouse task")
         shutil.rmtree(user.folder)
 
 
-def task_by_clicks(godot, display, task, check):
-    user = User(godot, display, ["--task", task], {"auto_animation": "true", "participant": '"p7"'})
+def place_by_mouse(user, name):
+    """Down on it from above, closed, up, over its outline, down, opened, and up again before anything is brushed."""
+    def at(report):
+        return named(report, "bodies", name)["at"]["world"]
+
+    def goal(report):
+        return named(report, "bodies", name)["goal"]["world"]
+
+    for attempt in range(3):
+        user.rise(TRAVEL_Y_M)
+        user.bring_grip(lambda report: at_height(at(report), TRAVEL_Y_M))
+        user.bring_grip(at)
+        user.xdotool("mousedown", 1)
+        try:
+            user.wait(f"{name} held", lambda report: report["held"] == name, 60)
+            user.rise(TRAVEL_Y_M)
+            user.bring_grip(lambda report: at_height(goal(report), TRAVEL_Y_M))
+            user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
+            user.xdotool("mouseup", 1)
+            user.wait(f"{name} placed", lambda report: named(report, "bodies", name)["placed"], 60)
+            user.wait("open fingers", lambda report: report["grasp_angle_deg"] < OPEN_DEG)
+            user.rise(TRAVEL_Y_M)
+            return
+        except GaveUp as lost:
+            print(f"attempt {attempt + 1}: {lost}")
+            user.xdotool("mouseup", 1)
+    raise GaveUp(f"{name} was not placed in three attempts")
+
+
+def check_row(check, user, task, participant, auto_animation):
+    """The one row that a completed task leaves."""
+    end = time.monotonic() + 20
+    while not user.results() and time.monotonic() < end:
+        time.sleep(0.1)
+    rows = user.results()
+    check(len(rows) == 1 and rows[0]["completed"] == "1", f"{task}: results {rows}")
+    row = rows[0] if rows else {}
+    check(row.get("task") == task and row.get("auto_animation") == auto_animation, f"{task}: {row}")
+    check(row.get("participant_id") == participant and row.get("grip_source") == "mouse", f"{task}: {row}")
+
+
+def task_by_clicks(godot, display, check, task):
+    user = User(godot, display, ["--task", task], {"source": '"mouse"', "auto_animation": "true", "participant": '"p7"'})
     try:
         report = user.wait(task, lambda report: report["scene"] == SCENES[task] and report["bodies"], START_LIMIT_S)
         for body in report["bodies"]:
@@ -192,7 +264,7 @@ def task_by_clicks(godot, display, task, check):
             for _ in range(3):  # a click can be lost while the window is still coming up
                 user.click(named(user.see(), "bodies", name)["at"]["screen"])
                 try:
-                    user.wait(f"{name} chosen", lambda now: now["busy"] or now["held"], 30)
+                    user.wait(f"{name} chosen", lambda now: now["busy"] or now["held"], 60)
                     break
                 except GaveUp as lost:
                     print(lost)
@@ -200,12 +272,7 @@ def task_by_clicks(godot, display, task, check):
             user.click(named(user.see(), "bodies", name)["goal"]["screen"])
             user.wait(f"{name} placed", lambda now: named(now, "bodies", name)["placed"] and not now["busy"])
         user.wait(f"{task} complete", lambda now: now["finished"])
-        time.sleep(0.5)
-        rows = user.results()
-        check(len(rows) == 1 and rows[0]["completed"] == "1", f"{task}: results {rows}")
-        row = rows[0] if rows else {}
-        check(row.get("task") == task and row.get("auto_animation") == "1", f"{task}: {row}")
-        check(row.get("participant_id") == "p7" and row.get("grip_source") == "mouse", f"{task}: {row}")
+        check_row(check, user, task, "p7", auto_animation="1")
     finally:
         check("SCRIPT ERROR" not in user.close(), f"script errors in {task}")
         shutil.rmtree(user.folder)
@@ -216,7 +283,7 @@ def main():
     parser.add_argument("godot")
     parser.add_argument("--display", default=os.environ.get("DISPLAY", ""))
     parser.add_argument("--only", default="", help="a part of the name of what to run")
-    parser.add_argument("--quick", action="store_true", help="one task by clicks, not all three")
+    parser.add_argument("--quick", action="store_true", help="one object by hand, not all of a task; every task by clicks")
     arguments = parser.parse_args()
     if not arguments.display:
         parser.error("no display: run under Xvfb, or give --display")
@@ -228,9 +295,10 @@ def main():
         if not condition:
             print(f"FAIL {message}")
 
-    parts = {"hub_by_grip": hub_by_grip, "object_by_mouse": object_by_mouse}
-    for task in list(SCENES)[2:] if arguments.quick else SCENES:
-        parts[task] = lambda godot, display, check, task=task: task_by_clicks(godot, display, task, check)
+    parts = {"hub_by_grip": hub_by_grip, "objects_by_mouse": functools.partial(
+        objects_by_mouse, how_many=1 if arguments.quick else None)}
+    for task in SCENES:
+        parts[task] = functools.partial(task_by_clicks, task=task)
     for name, part in parts.items():
         if arguments.only not in name:
             continue

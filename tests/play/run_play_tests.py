@@ -34,16 +34,16 @@ SIMULATED_LIMIT_S = 240.0  # the demo's own limit, on simulated time
 WEIGHT_TOLERANCE = 0.05
 WIDTH_TOLERANCE_MM = 1.0
 SQUEEZE_FELT_NM = 0.010
-DETENT_TOLERANCE = 0.2
+DETENT_TOLERANCE = {"match": 0.2}  # by kind of thing; see match_stick.gd
+DETENT_TOLERANCE_ELSE = 0.1
 RELEASE_TOLERANCE = 0.25
 # By task: of the things with their target, and by level where the levels differ.
 POSITION_TOLERANCE_MM = {
     "pick_and_place": (8.0, 8.0, 5.0), "robot_linking": (4.0, 4.0, 3.0), "match_linking": (5.0, 4.0, 4.0)}
 ROTATION_TOLERANCE_DEG = {
     "pick_and_place": (10.0, 10.0, 6.0), "robot_linking": (6.0, 6.0, 4.0), "match_linking": (8.0, 6.0, 6.0)}
-# By level. Where things lie turned the flat pads meet them up to 4 degrees askew, and their rims show inside: the
-# aim of 0.5 mm is met at level 1 only.
-PENETRATION_LIMIT_MM = (0.5, 1.0, 1.0)
+# Of the pads as they were drawn.
+PENETRATION_LIMIT_MM = 0.5
 JITTER_LIMIT_MM = 0.2
 # The device counts as grasping between these angles.
 GRASPED_DEG = (20.0, 55.0)
@@ -121,7 +121,8 @@ def width_felt(row):
 
 
 def detent_felt(row):
-    return within(number(row, "detent_felt_n_m"), number(row, "detent_expected_n_m"), DETENT_TOLERANCE)
+    tolerance = DETENT_TOLERANCE.get(row["kind"], DETENT_TOLERANCE_ELSE)
+    return within(number(row, "detent_felt_n_m"), number(row, "detent_expected_n_m"), tolerance)
 
 
 class Play(Run):
@@ -173,7 +174,7 @@ def check_good_run(checks, run):
         return
     checks.check(run.code == 0, f"{name}: exit code {run.code}, not 0")
     inside = number(summary, "max_penetration_mm")
-    checks.check(inside <= PENETRATION_LIMIT_MM[run.level - 1], f"{name}: a pad {inside} mm inside a body")
+    checks.check(inside <= PENETRATION_LIMIT_MM, f"{name}: a pad {inside} mm inside a body")
     linking = run.task != "pick_and_place"
     checks.check(
         not linking or any(row["release_felt_n"] for row in objects), f"{name}: nothing pulled off")
@@ -232,19 +233,20 @@ def check_bad_arguments(checks, godot):
         checks.check(named in run.output, f"{words}: the message does not name {named}")
 
 
-def check_parts(checks, godot):
-    """The demo's own mathematics, inside Godot; its counts are added."""
-    command = [godot, "--headless", "--path", DEMO, "-s", os.path.join(HERE, "check_parts.gd")]
+def check_parts(checks, godot, script):
+    """The demo's own mathematics, or free play, inside Godot; its counts are added."""
+    command = [godot, "--headless", "--audio-driver", "Dummy", "--fixed-fps", "60", "--path", DEMO,
+               "-s", os.path.join(HERE, script)]
     try:
         output = subprocess.run(
             command, timeout=RUN_LIMIT_S, text=True, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
         ).stdout
     except subprocess.TimeoutExpired:
-        output = "FAIL parts: not finished in time"
+        output = f"FAIL {script}: not finished in time"
     totals = re.findall(r"^(\d+) passed, (\d+) failed$", output, re.M)
     print("\n".join(line for line in output.splitlines() if line.startswith("FAIL")), end="")
-    checks.check(len(totals) == 1, f"parts: no totals\n{output[-2000:]}")
+    checks.check(len(totals) == 1, f"{script}: no totals\n{output[-2000:]}")
     for passed, failed in totals:
         checks.passed += int(passed)
         checks.failed += int(failed)
@@ -277,7 +279,8 @@ def in_parallel(calls):
 def run_some(godot, seeds):
     """What a change is tested with: one level of each task."""
     checks = Checks()
-    check_parts(checks, godot)
+    check_parts(checks, godot, "check_parts.gd")
+    check_parts(checks, godot, "check_free_play.gd")
     good = [(task, level, seed) for task, level in zip(TASKS, LEVELS) for seed in range(1, seeds + 1)]
     calls = [lambda key=key: Play(godot, *key) for key in good]
     calls.append(lambda: Play(godot, *good[0], name="again"))

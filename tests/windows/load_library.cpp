@@ -1,11 +1,13 @@
 // Loads the add-on's DLL as an engine would, and calls its entry with an engine that offers nothing: it must answer
 // "no", not crash. Then asks for HID devices: a system that has none, or no working HID library, must be told apart
 // from a crash too. Built and run by the Windows tests alone.
+#include <algorithm>
 #include <cstdio>
 
 #include <windows.h>
 
 #include "device/hid/hid_bus.h"
+#include "device/real_time_thread.h"
 
 namespace {
 
@@ -27,7 +29,7 @@ void check(bool good, const char *what) {
 } // namespace
 
 int main(int argument_count, char **arguments) {
-    int checks = 2;
+    int checks = 3;
     for (int i = 1; i < argument_count; ++i) {
         checks += 3;
         const HMODULE library = LoadLibraryA(arguments[i]);
@@ -48,6 +50,20 @@ int main(int argument_count, char **arguments) {
                 static_cast<unsigned>(devices.size()));
     check(spidar::usable(status) || status == spidar::Status::hid_unavailable,
           "the HID library starts, or says that it does not");
+    const bool granted = spidar::request_real_time();
+    std::int64_t early_ns = 0;
+    std::int64_t late_ns = 0;
+    constexpr int kSleeps = 200;
+    for (int i = 0; i < kSleeps; ++i) {
+        const std::int64_t deadline_ns = spidar::monotonic_ns() + 1'000'000;
+        spidar::sleep_until_ns(deadline_ns);
+        const std::int64_t now_ns = spidar::monotonic_ns();
+        early_ns = std::max(early_ns, deadline_ns - now_ns);
+        late_ns += now_ns - deadline_ns;
+    }
+    std::printf("sleeps of 1 ms: %lld us late in the mean; real-time priority %s\n",
+                static_cast<long long>(late_ns / kSleeps / 1000), granted ? "granted" : "refused");
+    check(early_ns <= 0, "no sleep ends before its deadline");
     std::printf("%d passed, %d failed\n", checks - failures, failures);
     return failures == 0 ? 0 : 1;
 }

@@ -1,6 +1,11 @@
 @tool
 extends EditorPlugin
-## Adds one menu item: the physics settings that small held things need. The nodes work without this plugin.
+## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
+## small held things need. The nodes work without this plugin.
+
+const CalibrationInspector := preload("calibration/calibration_inspector.gd")
+const GizmoPlugin := preload("gizmo/gizmo_plugin.gd")
+const ViewMenu := preload("gizmo/view_menu.gd")
 
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
 ## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
@@ -10,12 +15,31 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
+var _calibration: CalibrationInspector = CalibrationInspector.new()
+var _gizmos: GizmoPlugin = null
+var _view_menu: ViewMenu = null
+
 
 func _enter_tree() -> void:
+	_calibration.history = get_undo_redo()
+	add_inspector_plugin(_calibration)
 	add_tool_menu_item(MENU_ITEM, _ask)
+	_gizmos = GizmoPlugin.new()
+	add_node_3d_gizmo_plugin(_gizmos)
+	_gizmos.start()
+	_view_menu = ViewMenu.new()
+	_view_menu.options = _gizmos.options
+	add_control_to_container(CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
 
 
 func _exit_tree() -> void:
+	_calibration.close_all()
+	remove_inspector_plugin(_calibration)
+	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
+	_view_menu.queue_free()
+	_gizmos.stop()
+	remove_node_3d_gizmo_plugin(_gizmos)
+	_gizmos = null
 	remove_tool_menu_item(MENU_ITEM)
 
 

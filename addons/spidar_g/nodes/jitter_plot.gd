@@ -67,8 +67,22 @@ func _draw() -> void:
 			var height: float = clampf(part, 0.0, 1.0) * area.size.y
 			draw_rect(Rect2(area.position.x + i * width, area.end.y - height, width - 1.0, height),
 				LATE_COLOUR if begin_us >= LATE_US else BAR_COLOUR)
-		var decade: float = log(begin_us) / log(10.0)
+	var placed: Dictionary[String, Vector2] = labels(area)
+	for text: String in placed:
+		draw_string(font, placed[text], text, HORIZONTAL_ALIGNMENT_LEFT, -1, PlotStrip.FONT_SIZE, PlotStrip.TEXT)
+
+
+## One label a decade, in us, and where it begins: under its bar, whole within the plot.
+func labels(area: Rect2) -> Dictionary[String, Vector2]:
+	var font: Font = get_theme_default_font()
+	var placed: Dictionary[String, Vector2] = {}
+	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
+	var count: int = bars().size()
+	for i: int in count:
+		var decade: float = log(bucket_begin_us(first + i)) / log(10.0)
 		if absf(decade - roundf(decade)) < HALF_BAR_DECADES:
-			draw_string(font, Vector2(area.position.x + i * width - 22, size.y - 3),
-				"%d" % int(round(pow(10.0, roundf(decade)))), HORIZONTAL_ALIGNMENT_CENTER, 44,
-				PlotStrip.FONT_SIZE, PlotStrip.TEXT)
+			var text: String = "%d" % int(round(pow(10.0, roundf(decade))))
+			var wide: float = font.get_string_size(text, HORIZONTAL_ALIGNMENT_LEFT, -1, PlotStrip.FONT_SIZE).x
+			var middle: float = area.position.x + i * area.size.x / count
+			placed[text] = Vector2(clampf(middle - 0.5 * wide, 0.0, size.x - wide), size.y - 3)
+	return placed

@@ -28,6 +28,7 @@ const HeldLoad := preload("held_load.gd")
 const HoldJoint := preload("hold_joint.gd")
 const JawSensor := preload("jaw_sensor.gd")
 const PadShape := preload("pad_shape.gd")
+const ShownPads := preload("shown_pads.gd")
 
 ## Closing to within this of a body's width counts as touching it, rad.
 const TOUCH_TOLERANCE: float = 0.01
@@ -82,12 +83,15 @@ var _judge: GraspJudge = GraspJudge.new()
 var _stop: GraspStop = GraspStop.new()
 var _load: HeldLoad = HeldLoad.new()
 var _pad: PadShape = PadShape.new()
+var _shown_pads: ShownPads = ShownPads.new()
 var _hold: HoldJoint = null
 var _held_width_m: float = 0.0
 var _overload_s: float = 0.0
 var _published: bool = false
 var _load_requested: bool = false
 var _fallback_config: SpidarGConfig = null
+## With physics in a thread of its own nobody may look into its space between two physics frames.
+var _space_is_away: bool = ProjectSettings.get_setting("physics/3d/run_on_separate_thread", false)
 
 
 func _enter_tree() -> void:
@@ -130,12 +134,23 @@ func get_held_width_m() -> float:
 	return _held_width_m if _hold != null else 0.0
 
 
-## Middle of a pad's inner face in the world, side 0 at -x of the grip: as shown, stopped by what it meets or holds.
+## Middle of a pad's inner face in the world, side 0 at -x of the grip: see [method get_pad_transform].
 func get_pad_position(side: int) -> Vector3:
+	return get_pad_transform(side).origin
+
+
+## A pad in the world, x outward from the middle of its inner face, side 0 at -x of the grip: as shown, turned with the
+## body that it holds and never inside what it meets. Looked up in the physics space by this call.
+func get_pad_transform(side: int) -> Transform3D:
 	if spidar == null:
-		return global_position
+		return global_transform
 	var grip: Transform3D = _hold.carried_grip() if _hold != null else spidar.get_grip_transform()
-	return _pad.transform_of(side, grip, _shown_gap_m()).origin + _contacts.shown_shift()
+	var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())
+	at.origin += _contacts.shown_shift()
+	if _space_is_away and not Engine.is_in_physics_frame():
+		return at
+	_shown_pads.collision_mask = collision_mask
+	return _shown_pads.place(_space(), _pad.shape_for(spidar.workspace_scale), at, get_pad_radius_m())
 
 
 ## Radius of a pad, scene metres.

@@ -51,7 +51,7 @@ var _stale: bool = true
 var _drawn_grip: Transform3D = Transform3D.IDENTITY
 var _drawn_frame: Transform3D = Transform3D.IDENTITY
 var _drawn_angle: float = NAN
-var _drawn_pads: PackedVector3Array = PackedVector3Array()
+var _drawn_pads: Array[Transform3D] = [Transform3D.IDENTITY, Transform3D.IDENTITY]
 var _drawn_tensions: PackedFloat64Array = PackedFloat64Array()
 var _drawn_force: Vector3 = Vector3.ZERO
 
@@ -66,6 +66,12 @@ static func tension_colour(tension_n: float, max_n: float) -> Color:
 	if part < 2.0:
 		return FAIR_COLOUR.lerp(MIDDLE_COLOUR, part - 1.0)
 	return MIDDLE_COLOUR.lerp(HIGH_COLOUR, part - 2.0)
+
+
+## Middle of a pad's inner face in the world as it was last drawn, side 0 at -x of the grip, x outward; the identity
+## before.
+func get_drawn_pad(side: int) -> Transform3D:
+	return _drawn_pads[side]
 
 
 func _enter_tree() -> void:
@@ -98,7 +104,7 @@ func _process(_delta: float) -> void:
 	if grip_moved:
 		_draw_grip(grip, angle)
 	_draw_tensions(grip_moved)
-	_draw_pads(grip)
+	_draw_pads()
 	_draw_force(grip.origin, grip_moved)
 	_stale = false
 
@@ -117,9 +123,12 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 	_drawn_angle = angle
 	_parts.grip.visible = show_grip
 	_parts.strings.visible = show_strings
-	_parts.place_grip(
-		grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
-	)
+	if show_grip:
+		_parts.place_grip(
+			grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
+		)
+	if not show_strings:
+		return
 	for string: int in ViewParts.STRINGS:
 		_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
 	for end: int in 4:
@@ -128,6 +137,8 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 
 
 func _draw_tensions(forced: bool) -> void:
+	if not show_strings:
+		return
 	var tensions: PackedFloat64Array = spidar.get_string_tensions()
 	if not forced and tensions == _drawn_tensions:
 		return
@@ -136,17 +147,21 @@ func _draw_tensions(forced: bool) -> void:
 		_parts.colour_string(string, tension_colour(tensions[string], _max_tension()))
 
 
-func _draw_pads(grip: Transform3D) -> void:
+func _draw_pads() -> void:
 	_parts.pads.visible = show_pads and _hand != null
 	if not _parts.pads.visible:
 		return
-	var now: PackedVector3Array = [_hand.get_pad_position(0), _hand.get_pad_position(1), grip.basis.x]
-	if now != _drawn_pads or _stale:
-		_drawn_pads = now
-		_parts.place_pads(grip.basis, now[0], now[1], _hand.get_pad_radius_m())
+	for side: int in 2:
+		var pad: Transform3D = _hand.get_pad_transform(side)
+		if pad != _drawn_pads[side] or _stale:
+			_drawn_pads[side] = pad
+			_parts.place_pad(side, pad, _hand.get_pad_radius_m())
 
 
 func _draw_force(from: Vector3, forced: bool) -> void:
+	if not show_force:
+		_parts.arrow.visible = false
+		return
 	var wrench: PackedFloat64Array = spidar.get_achieved_wrench()
 	var force: Vector3 = Vector3.ZERO
 	if wrench.size() >= 3:
@@ -154,7 +169,7 @@ func _draw_force(from: Vector3, forced: bool) -> void:
 	if not forced and force == _drawn_force:
 		return
 	_drawn_force = force
-	_parts.arrow.visible = show_force and force.length() > LEAST_FORCE_N
+	_parts.arrow.visible = force.length() > LEAST_FORCE_N
 	if _parts.arrow.visible:
 		_parts.place_arrow(from, force * (force_arrow_m_n * spidar.workspace_scale))
 

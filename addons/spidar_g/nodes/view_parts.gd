@@ -106,14 +106,12 @@ func place_grip(at: Transform3D, pole1: Transform3D, pole2: Transform3D, closed_
 		)
 
 
-func place_pads(basis_of_grip: Basis, left: Vector3, right: Vector3, radius: float) -> void:
-	# The mesh's dome points along +Y; a pad's points away from the other pad.
+## at: x outward from the middle of the pad's inner face.
+func place_pad(side: int, at: Transform3D, radius: float) -> void:
+	# The mesh's dome points along +Y.
 	var size: Basis = Basis.from_scale(Vector3.ONE * radius)
-	_pad_meshes[0].global_transform = Transform3D(
-		basis_of_grip * Basis(Vector3.BACK, 0.5 * PI) * size, left
-	)
-	_pad_meshes[1].global_transform = Transform3D(
-		basis_of_grip * Basis(Vector3.BACK, -0.5 * PI) * size, right
+	_pad_meshes[side].global_transform = Transform3D(
+		at.basis * Basis(Vector3.BACK, -0.5 * PI) * size, at.origin
 	)
 
 

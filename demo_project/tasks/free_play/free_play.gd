@@ -1,17 +1,25 @@
 class_name FreePlay
 extends DemoTask
 ## Nothing to achieve: one sample of everything that can be felt. Hard and soft blocks, a heavy and a light box of
-## the same size, a rough and a smooth floor, a ball on a spring, and sockets that snap.
+## the same size, a rough and a smooth floor, a ball on a spring, a socket that snaps, and six blocks of air, one for each
+## kind of force that the device gives by itself.
 
 const SPRING_N_M := 80.0
 const SPRING_MOST_N := 4.0
 const BOX_M := Vector3(0.032, 0.044, 0.032)
 const FLOOR_M := Vector3(0.080, 0.006, 0.070)
-## Row at the back, row at the front; text lies before each.
-const BACK_Z_M := -0.070
-const FRONT_Z_M := 0.055
+## Rows from the back to the front; text lies before each.
+const BACK_Z_M := -0.100
+const ZONES_Z_M := -0.022
+const FRONT_Z_M := 0.070
+const ZONE_PITCH_M := 0.048
+const ZONE_COLOURS: Array[Color] = [
+	DemoPalette.MUSTARD, DemoPalette.CORAL, DemoPalette.PLUM, DemoPalette.SAGE, DemoPalette.BLUE, DemoPalette.TEAL
+]
 
 var linker := Linker.new()
+
+var zones: Array[FieldZone] = []
 
 var _ball: TaskBody
 var _ball_home := Vector3.ZERO
@@ -46,6 +54,7 @@ func _lay_out() -> void:
 	soft.set_meta(&"spidar_stiffness_n_m", 120.0)
 	_add_ball(0.068)
 	_add_post(0.125)
+	_add_zones()
 	_add_floor("rough floor", -0.085, 1.2, DemoPalette.MUSTARD)
 	_add_floor("smooth floor", 0.005, 0.02, DemoPalette.TEAL)
 	_add_peg(0.110)
@@ -92,6 +101,23 @@ func _add_post(x: float) -> void:
 	)
 	_items.add_child(post)
 	_say("fixed post", Vector2(x, BACK_Z_M + 0.028))
+
+
+func _add_zones() -> void:
+	zones.clear()
+	for index in FieldZone.Kind.size():
+		var x := (index - 0.5 * (FieldZone.Kind.size() - 1)) * ZONE_PITCH_M
+		var zone := FieldZone.make(index as FieldZone.Kind, ZONE_COLOURS[index])
+		zone.position = Vector3(x, 0.5 * FieldZone.SIZE_M.y + 0.001, ZONES_Z_M)
+		_items.add_child(zone)
+		zones.append(zone)
+		_say(FieldZone.TEXTS[index], Vector2(x, ZONES_Z_M + 0.5 * FieldZone.SIZE_M.z + 0.010))
+
+
+func _physics_process(delta: float) -> void:
+	super(delta)
+	for zone in zones:
+		zone.act(_spidar, _tool_hand.get_held_body() != null)
 
 
 func _add_floor(text: String, x: float, friction: float, colour: Color) -> void:

@@ -119,3 +119,25 @@ func test_stepped_mode_gives_one_simulated_second_in_sixty_ticks() -> void:
 
 func _thread_count() -> int:
 	return DirAccess.get_directories_at("/proc/%d/task" % OS.get_process_id()).size()
+
+
+## By the thread's name, which the tests of the editor look for too.
+func test_a_threaded_device_has_one_thread_and_takes_it_along() -> void:
+	if not OS.has_feature("linux"):
+		check(true, "threads have no names here")
+		return
+	check_equal(_servo_threads(), 0, "none before")
+	var device := SpidarG.new()
+	add(device)
+	check(await until(func() -> bool: return _servo_threads() == 1), "one while it runs: %d" % _servo_threads())
+	device.free()
+	check_equal(_servo_threads(), 0, "none after")
+
+
+func _servo_threads() -> int:
+	var count: int = 0
+	for task: String in DirAccess.get_directories_at("/proc/self/task"):
+		var file: FileAccess = FileAccess.open("/proc/self/task/%s/comm" % task, FileAccess.READ)
+		if file != null and file.get_line() == "spidar_servo":
+			count += 1
+	return count

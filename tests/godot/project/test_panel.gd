@@ -1,6 +1,8 @@
 ## The diagnosis panel and the monitors: they show what the device says, and rest while nobody looks.
 extends "res://test_case.gd"
 
+const PlotStrip := preload("res://addons/spidar_g/nodes/plot_strip.gd")
+
 const PANEL: String = "res://addons/spidar_g/nodes/spidar_g_panel.tscn"
 
 
@@ -127,3 +129,18 @@ func test_monitors_are_there_while_wanted() -> void:
 	check(Performance.has_custom_monitor(&"spidar_g Second/faults"), "the second's stay")
 	second.free()
 	check(not Performance.has_custom_monitor(&"spidar_g Second/faults"), "until it goes")
+
+
+## The last one stands near the plot's end: it was cut to 1000 there.
+func test_every_decade_of_the_histogram_has_its_whole_label() -> void:
+	var plot: Control = load("res://addons/spidar_g/nodes/jitter_plot.gd").new()
+	add(plot)
+	for width: float in [180.0, 240.0, 612.0]:
+		plot.size = Vector2(width, 90.0)
+		var placed: Dictionary[String, Vector2] = plot.labels(Rect2(4.0, 18.0, width - 8.0, 56.0))
+		check_equal(placed.keys(), ["1", "10", "100", "1000", "10000"], "the decades, %d wide" % width)
+		var font: Font = plot.get_theme_default_font()
+		for text: String in placed:
+			var wide: float = font.get_string_size(text, HORIZONTAL_ALIGNMENT_LEFT, -1, PlotStrip.FONT_SIZE).x
+			var left: float = placed[text].x
+			check(left >= 0.0 and left + wide <= width, "%s whole, %d wide: at %.1f" % [text, width, left])

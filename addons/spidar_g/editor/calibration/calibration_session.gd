@@ -1,0 +1,312 @@
+@tool
+extends RefCounted
+## One calibration in the making: which step, what runs, what was found. Knows no controls, so that it is tested without.
+
+## What the panel shows has changed, other than by a new reading.
+signal changed
+
+enum Step { WIRING, ZERO, RULER, MOTION, WEIGHTS, RESULT }
+
+const STRINGS: int = 8
+const STEP_NAMES: Array[String] = ["Wiring", "Zero at home", "Lengths by ruler", "Free motion", "Motor gain", "Result"]
+## Poses after which the free motion is enough: the expected error falls with their square root.
+const ENOUGH_POSES: int = 320
+## A first estimate of the accuracy, then one each so many poses.
+const ESTIMATE_EVERY: int = 80
+## A length counts as read off a ruler of half millimetres.
+const RULER_STEP_M: float = 0.0005
+
+var calibrator: SpidarGCalibrator = SpidarGCalibrator.new()
+## In simulated time, moved on by update(): for tests.
+var stepped: bool = false
+var step: Step = Step.WIRING
+## What went wrong or was done last; empty: nothing.
+var message: String = ""
+var message_is_problem: bool = false
+## SpidarGCalibrator.Verdict of each string; -1: not checked.
+var wiring: PackedInt32Array = [-1, -1, -1, -1, -1, -1, -1, -1]
+var moving: bool = false
+var place: int = -1
+
+var _wants_open: bool = false
+var _config: SpidarGConfig
+var _calibration: SpidarGCalibration
+var _queue: Array[int] = []
+var _task: SpidarGCalibrator.Task = SpidarGCalibrator.TASK_IDLE
+var _weight_n: float = 0.0
+var _task_runs: bool = false
+var _estimated_at: int = 0
+var _final: bool = false
+var _was_computing: bool = false
+
+
+## Asks for the device; update() sees to it. What was measured before is forgotten.
+func open_device(config: SpidarGConfig, calibration: SpidarGCalibration) -> void:
+	_config = config
+	_calibration = calibration
+	_wants_open = true
+	_forget()
+	_try_open()
+
+
+## Motors off, device closed. What was measured stays.
+func close_device() -> void:
+	_wants_open = false
+	stop()
+	calibrator.close()
+	_say("")
+
+
+func is_open() -> bool:
+	return calibrator.get_device_state() == SpidarGCalibrator.DEVICE_OPEN and get_readings() > 0
+
+
+## Being opened, open or being closed: it is to be updated.
+func is_busy() -> bool:
+	var state: SpidarGCalibrator.DeviceState = calibrator.get_device_state()
+	var at_rest: bool = state == SpidarGCalibrator.DEVICE_CLOSED or state == SpidarGCalibrator.DEVICE_FAILED
+	return _wants_open or not at_rest or calibrator.is_computing()
+
+
+func get_readings() -> int:
+	return calibrator.get_live()["readings"]
+
+
+func is_simulated() -> bool:
+	return calibrator.get_live()["simulated"]
+
+
+## Each frame while is_busy().
+func update(delta_s: float) -> void:
+	if _wants_open and calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED:
+		_try_open()
+	if stepped and is_open():
+		calibrator.advance(delta_s)
+	elif not calibrator.poll() and calibrator.get_device_state() == SpidarGCalibrator.DEVICE_FAILED and _wants_open:
+		_wants_open = false
+		_complain()
+	if is_open():
+		_run_queue()
+		_watch_motion()
+	_watch_computation()
+
+
+## Motors off, hand home, nothing collected any more.
+func stop() -> void:
+	_queue.clear()
+	_task_runs = false
+	if moving:
+		stop_motion()
+	calibrator.start_task(SpidarGCalibrator.TASK_IDLE)
+	calibrator.move_simulated_hand(SpidarGCalibrator.HAND_HOME)
+	changed.emit()
+
+
+func is_task_running() -> bool:
+	return _task_runs or not _queue.is_empty()
+
+
+## Pulls one string after the other and looks whose encoder winds in.
+func check_wiring() -> void:
+	wiring.fill(-1)
+	_start_queue(SpidarGCalibrator.TASK_WIRING, range(STRINGS), 0.0)
+
+
+## All strings at 0.5 N, as a real device needs while it is moved by hand; or motors off.
+func set_taut(taut: bool) -> void:
+	_report(calibrator.start_task(SpidarGCalibrator.TASK_TAUT if taut else SpidarGCalibrator.TASK_IDLE))
+
+
+func read_zero() -> void:
+	_report(calibrator.take_zero(), "Home read. Take the grip out, put it back and read again: the spread shows.")
+
+
+func clear_zero() -> void:
+	calibrator.clear_zero()
+	_say("")
+
+
+func read_length(string: int, length_m: float) -> void:
+	_report(calibrator.take_length(string, length_m))
+
+
+func clear_lengths(string: int) -> void:
+	calibrator.clear_lengths(string)
+	_say("")
+
+
+## Simulated device: the hand goes to the next of its places.
+func move_to_next_place() -> void:
+	place = (place + 1) % STRINGS
+	_report(calibrator.move_simulated_hand(SpidarGCalibrator.HAND_PLACE, place))
+
+
+## Simulated device: what the ruler shows along a string (m).
+func read_ruler(string: int) -> float:
+	var ruler: PackedFloat64Array = calibrator.get_live().get("ruler_m", PackedFloat64Array())
+	return snappedf(ruler[string], RULER_STEP_M) if string < ruler.size() else 0.0
+
+
+func start_motion() -> void:
+	if calibrator.get_zero()["repeats"] == 0:
+		_say("Read the zero first: the fit begins there.", true)
+		return
+	calibrator.clear_poses()
+	_estimated_at = 0
+	_final = false
+	moving = true
+	calibrator.move_simulated_hand(SpidarGCalibrator.HAND_FREE_MOTION)
+	calibrator.set_collecting(true)
+	_say("Move and turn the grip through the whole workspace, opening and closing it." if not is_simulated() else "")
+
+
+func stop_motion() -> void:
+	moving = false
+	calibrator.set_collecting(false)
+	calibrator.move_simulated_hand(SpidarGCalibrator.HAND_HOME)
+	changed.emit()
+
+
+## 0 to 1.
+func get_progress() -> float:
+	return clampf(float(calibrator.get_coverage()["poses"]) / ENOUGH_POSES, 0.0, 1.0)
+
+
+func weigh(string: int, weight_n: float) -> void:
+	_start_queue(SpidarGCalibrator.TASK_WEIGHING, [string], weight_n)
+
+
+## Simulated device: nobody has to hang the weight on the next string.
+func weigh_all(weight_n: float) -> void:
+	_start_queue(SpidarGCalibrator.TASK_WEIGHING, range(STRINGS), weight_n)
+
+
+## What there is to accept now; null, with the reason as message: nothing.
+func make_calibration() -> SpidarGCalibration:
+	var made: SpidarGCalibration = calibrator.make_calibration()
+	if made == null:
+		_complain()
+	else:
+		_say("")
+	return made
+
+
+func go_to(next: int) -> void:
+	if is_task_running() or moving:
+		stop()
+	step = clampi(next, 0, Step.size() - 1) as Step
+	_say("")
+
+
+## What may be said of a step before the next one: true, and it is done.
+func is_done(of: Step) -> bool:
+	match of:
+		Step.WIRING:
+			return wiring.count(SpidarGCalibrator.VERDICT_DONE) + wiring.count(SpidarGCalibrator.VERDICT_WRONG_SIGN) == STRINGS
+		Step.ZERO:
+			return calibrator.get_zero()["status"] >= 0
+		Step.RULER:
+			return range(STRINGS).all(func(i: int) -> bool: return calibrator.get_lengths(i)["status"] >= 0)
+		Step.WEIGHTS:
+			return range(STRINGS).all(func(i: int) -> bool: return calibrator.get_weights(i)["repeats"] > 0)
+	return calibrator.get_result().get("usable", false)
+
+
+func _try_open() -> void:
+	if calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED or (
+		calibrator.get_device_state() == SpidarGCalibrator.DEVICE_FAILED
+	):
+		if not calibrator.open(_config, _calibration, stepped):
+			_wants_open = false
+			_complain()
+
+
+func _forget() -> void:
+	wiring.fill(-1)
+	_queue.clear()
+	_task_runs = false
+	moving = false
+	place = -1
+	_final = false
+	_say("")
+
+
+func _start_queue(task: SpidarGCalibrator.Task, strings: Array, weight_n: float) -> void:
+	_queue.assign(strings)
+	_task = task
+	_weight_n = weight_n
+	calibrator.move_simulated_hand(SpidarGCalibrator.HAND_HOME)
+	_say("")
+
+
+## One string after the other; a simulated hand is waited for.
+func _run_queue() -> void:
+	if _task_runs:
+		var told: Dictionary = calibrator.get_task()
+		if told["verdict"] == SpidarGCalibrator.VERDICT_RUNNING:
+			return
+		_task_runs = false
+		_take_verdict(told)
+		changed.emit()
+	if _queue.is_empty() or (is_simulated() and not calibrator.get_live()["hand_has_arrived"]):
+		return
+	var string: int = _queue.pop_front()
+	_task_runs = calibrator.start_task(_task, string, _weight_n)
+	if not _task_runs:
+		_queue.clear()
+		_complain()
+
+
+func _take_verdict(told: Dictionary) -> void:
+	var verdict: int = told["verdict"]
+	var string: int = told["string"]
+	var sound: bool = verdict == SpidarGCalibrator.VERDICT_DONE
+	if told["task"] == SpidarGCalibrator.TASK_WIRING:
+		wiring[string] = verdict
+	if not sound:
+		_say("String %d: %s" % [string + 1, told["text"]], true)
+		if verdict >= SpidarGCalibrator.VERDICT_MOVED_TOO_FAST or _task == SpidarGCalibrator.TASK_WEIGHING:
+			_queue.clear()
+	elif not calibrator.get_problem().is_empty():
+		_complain()
+
+
+func _watch_motion() -> void:
+	if not moving:
+		return
+	var poses: int = calibrator.get_coverage()["poses"]
+	if poses >= ENOUGH_POSES and not calibrator.is_computing():
+		stop_motion()
+		_final = true
+		_report(calibrator.compute())
+	elif poses - _estimated_at >= ESTIMATE_EVERY and not calibrator.is_computing():
+		_estimated_at = poses
+		calibrator.compute()
+
+
+func _watch_computation() -> void:
+	var computing: bool = calibrator.is_computing()
+	if _was_computing and not computing:
+		if _final:
+			var result: Dictionary = calibrator.get_result()
+			var usable: bool = result["usable"]
+			_say("Calibrated. Look at the result, then accept it." if usable else result["refusal"], not usable)
+		changed.emit()
+	_was_computing = computing
+
+
+func _report(good: bool, done: String = "") -> void:
+	if good:
+		_say(done)
+	else:
+		_complain()
+
+
+func _complain() -> void:
+	_say(calibrator.get_problem(), true)
+
+
+func _say(text: String, problem: bool = false) -> void:
+	message = text
+	message_is_problem = problem
+	changed.emit()

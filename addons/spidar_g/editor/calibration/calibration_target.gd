@@ -1,0 +1,81 @@
+@tool
+extends RefCounted
+## What is calibrated: a SpidarG node, or a SpidarGCalibration by itself. Every change is one action that can be undone.
+
+const NAMES: PackedStringArray = [
+	"string_offsets", "string_scales", "zero_counts", "effective_radii", "torque_constants", "tension_gains", "max_currents"
+]
+## What practice errors are drawn from: a thumb's width of offset, a drum wound thick or thin, motors a tenth off.
+const PRACTICE_OFFSET_M: float = 0.005
+const PRACTICE_COMMON_GAIN: float = 0.03
+const PRACTICE_GAIN: float = 0.005
+const PRACTICE_TENSION: float = 0.12
+
+var node: SpidarG
+## Edited by itself; null for a node.
+var resource: SpidarGCalibration
+
+
+func get_config() -> SpidarGConfig:
+	return node.config if is_instance_valid(node) else null
+
+
+func get_calibration() -> SpidarGCalibration:
+	return node.calibration if is_instance_valid(node) and resource == null else resource
+
+
+## A node takes the new resource; a resource takes its values, so that all who use it have them.
+func accept(history: Object, made: SpidarGCalibration) -> void:
+	history.call("create_action", "Calibrate SPIDAR-G")
+	if resource == null:
+		history.call("add_do_property", node, "calibration", made)
+		history.call("add_undo_property", node, "calibration", node.calibration)
+	else:
+		for property: String in NAMES:
+			# Copies: what the history holds must not change with the resource.
+			history.call("add_do_property", resource, property, made.get(property).duplicate())
+			history.call("add_undo_property", resource, property, resource.get(property).duplicate())
+	history.call("commit_action")
+
+
+func set_preset(history: Object, preset: int) -> void:
+	_change_config(history, "Choose SPIDAR-G Preset", {"preset": preset})
+
+
+## Errors that only the simulated device knows, for practice and for tests.
+func draw_practice_errors(history: Object, random: RandomNumberGenerator) -> void:
+	var offsets: PackedFloat64Array = []
+	var gains: PackedFloat64Array = []
+	var tensions: PackedFloat64Array = []
+	var common: float = random.randf_range(-PRACTICE_COMMON_GAIN, PRACTICE_COMMON_GAIN)
+	for _string: int in 8:
+		offsets.append(clampf(random.randfn(0.0, PRACTICE_OFFSET_M), -4.0 * PRACTICE_OFFSET_M, 4.0 * PRACTICE_OFFSET_M))
+		gains.append(common + clampf(random.randfn(0.0, PRACTICE_GAIN), -4.0 * PRACTICE_GAIN, 4.0 * PRACTICE_GAIN))
+		tensions.append(1.0 + random.randf_range(-PRACTICE_TENSION, PRACTICE_TENSION))
+	_change_config(
+		history,
+		"Give the Simulated SPIDAR-G Unknown Errors",
+		{
+			"transport": SpidarGConfig.TRANSPORT_SIMULATED,
+			"simulated_offset_errors": offsets,
+			"simulated_gain_errors": gains,
+			"simulated_tension_gains": tensions,
+		}
+	)
+
+
+func _change_config(history: Object, action: String, values: Dictionary[String, Variant]) -> void:
+	if not is_instance_valid(node):
+		return
+	history.call("create_action", action)
+	if node.config == null:
+		var config: SpidarGConfig = SpidarGConfig.new()
+		for property: String in values:
+			config.set(property, values[property])
+		history.call("add_do_property", node, "config", config)
+		history.call("add_undo_property", node, "config", null)
+	else:
+		for property: String in values:
+			history.call("add_do_property", node.config, property, values[property])
+			history.call("add_undo_property", node.config, property, node.config.get(property))
+	history.call("commit_action")
