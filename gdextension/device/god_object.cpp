@@ -20,7 +20,7 @@ constexpr int kMostExchanges = 48;
 
 struct Problem {
     std::size_t count = 0;
-    std::array<Values, kMost> gram; // the first `count` rows and columns
+    std::array<Values, kMost> gram{};
     Values depth{};
 };
 
@@ -34,7 +34,7 @@ Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
         }
     }
     // LDL^T without square roots.
-    std::array<Values, kMost> l; // below the diagonal of the first n
+    std::array<Values, kMost> l{};
     Values pivot{};
     Values y{};
     for (std::size_t r = 0; r < n; ++r) {
