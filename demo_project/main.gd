@@ -71,8 +71,8 @@ func _open(scene_name: String) -> void:
 		_report = (load("res://common/screen_report.gd") as Script).call(&"new")
 		_report.set(&"path", _arguments.report)
 		add_child(_report)
-	if _report != null and scene_name != "experiment":
-		_report.set(&"task", _scene)
+	if _report != null:
+		_report.set(&"scene", _scene)
 
 
 func _make(scene_name: String) -> Node:

@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "gdextension/device": (
         r'"core/', r'"device/', r"<glm/", r"<hidapi", STANDARD,
         r"<(pthread|sched|time|unistd|fcntl|errno|dlfcn|windows)\.h>", r"<sys/[a-z]+\.h>",
-        r"<[a-z]+intrin\.h>", r'"spidar_(version|sources)\.h"',
+        r"<mach/[a-z_]+\.h>", r"<[a-z]+intrin\.h>", r'"spidar_(version|sources)\.h"',
     ),
     "gdextension/godot": (
         r'"core/', r'"device/', r'"godot/', r'"spidar_version\.h"', r"<glm/", r"<godot_cpp/",

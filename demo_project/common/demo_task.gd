@@ -10,6 +10,8 @@ signal ended(reason: String)
 
 ## A scripted play that takes longer than this has gone wrong.
 const TIME_LIMIT_S := 240.0
+## And for each carry that was asked for.
+const CARRY_LIMIT_S := 15.0
 ## The device needs its arming time before it can be felt; this is more than enough.
 const READY_LIMIT_S := 5.0
 const DROP_HEIGHT_M := 0.015
@@ -82,6 +84,17 @@ func _make_player() -> TaskPlayer:
 	return TaskPlayer.new()
 
 
+func _make_carry_player() -> TaskPlayer:
+	var carry_player := CarryPlayer.new()
+	carry_player.carries = arguments.carries
+	carry_player.seed_number = arguments.seed_number
+	return carry_player
+
+
+func _time_limit_s() -> float:
+	return TIME_LIMIT_S + CARRY_LIMIT_S * arguments.carries
+
+
 func _enter_tree() -> void:
 	# Before the device opens: a scripted play steps simulated time, so that equal seeds play equally.
 	var spidar: SpidarG = $SpidarG
@@ -98,13 +111,13 @@ func _ready() -> void:
 	_tool_hand.body_released.connect(_on_body_released)
 	_spidar.grasped.connect(_on_closed)
 	_spidar.released.connect(func() -> void: _attempt_open = false)
-	if arguments.scripted() and DisplayServer.get_name() == "headless":
+	if arguments.scripted() and DisplayServer.get_name() == "headless" and not arguments.display:
 		_hud.mode = Hud.Mode.OFF # Nobody is there to read it.
 	_hud.setup(_spidar, _tool_hand)
 	_controls.setup(_spidar, _hud, _mouse_hand, settings, task_name())
 	_controls.restart_wanted.connect(_restart)
 	_controls.leave_wanted.connect(left.emit)
-	player = _make_player()
+	player = _make_player() if arguments.carries == 0 else _make_carry_player()
 	add_child(player)
 	add_child(sound)
 	_lay_out()
@@ -143,7 +156,7 @@ func _physics_process(delta: float) -> void:
 	_placed_for_s = _placed_for_s + delta if placed == bodies.size() else 0.0
 	if _placed_for_s >= DWELL_S and not arguments.scripted():
 		_finish("")
-	elif arguments.scripted() and logger.task_time_s > TIME_LIMIT_S:
+	elif arguments.scripted() and logger.task_time_s > _time_limit_s():
 		_scripted_hand.stopped = true
 
 
@@ -214,8 +227,9 @@ func _start_script() -> void:
 		if arguments.freeze_pose:
 			_spidar.inject_simulated_fault(SpidarG.FAULT_FROZEN_COUNTS)
 		await player.play()
+		reason = player.verdict()
 		if _scripted_hand.stopped:
-			reason = "time limit of %d s simulated time" % int(TIME_LIMIT_S)
+			reason = "time limit of %d s simulated time" % int(_time_limit_s())
 	_stop_clock()
 	_hud.show_result("Played by script in %.1f s" % logger.task_time_s)
 	await _pictures.take("done")

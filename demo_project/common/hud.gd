@@ -44,6 +44,7 @@ var _result := ""
 func setup(spidar: SpidarG, tool_hand: SpidarGHand) -> void:
 	_spidar = spidar
 	_tool_hand = tool_hand
+	process_mode = Node.PROCESS_MODE_ALWAYS # A pause has to be told, too.
 	if spidar.config != null:
 		_dial.band_from_rad = spidar.config.grasp_enter_angle
 		_dial.band_to_rad = spidar.config.over_closed_leave_angle
@@ -86,6 +87,14 @@ func show_task(
 			1000.0 * bodies[0].position_tolerance_m, rad_to_deg(bodies[0].rotation_tolerance_rad)
 		]
 	_placed.text = text
+
+
+## Where nothing is timed or placed.
+func show_free(title: String) -> void:
+	_title.text = title
+	_time.visible = false
+	_placed.visible = false
+	(%Task as Control).size.y = 0.0 # as low as its text
 
 
 func _process(delta: float) -> void:

@@ -9,7 +9,7 @@ const LEVELS := 3
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
-	+ "              [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
+	+ "              [--carries N] [--display] [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
 	+ "       ... -- --participant N --out DIR [--trials K] [--things K] [--level L]    (simulated)\n"
 	+ "       ... -- [--task TASK] [--level L] [--seed N] [--report FILE]    (interactive)"
 )
@@ -26,6 +26,10 @@ var hand := HANDS[0]
 var seed_number := 1
 ## Absolute folder for the results.
 var out_dir := ""
+## Carry things about so many times, and back, instead of playing the task; 0: play it.
+var carries := 0
+## Keep the HUD up to date although nobody sees it: what a frame costs is measured with it.
+var display := false
 ## Save pictures of the run into out_dir.
 var pictures := false
 ## Absolute path of a file that says where things are on the screen; for a scripted user. Empty: none.
@@ -63,11 +67,13 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 				pictures = true
 			"--movie":
 				movie = true
+			"--display":
+				display = true
 			"--cut-output":
 				cut_output = true
 			"--freeze-pose":
 				freeze_pose = true
-			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report", "--participant", "--trials", "--things":
+			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report", "--participant", "--trials", "--things", "--carries":
 				index += 1
 				if index >= words.size():
 					problem = "%s needs a value after it" % word
@@ -101,7 +107,7 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 			if not value.is_valid_int() or value.to_int() < 0:
 				problem = "--seed %s: must be a whole number of 0 or more" % value
 			seed_number = value.to_int()
-		"--participant", "--trials", "--things":
+		"--participant", "--trials", "--things", "--carries":
 			if not value.is_valid_int() or value.to_int() < 1:
 				problem = "%s %s: must be a whole number of 1 or more" % [word, value]
 			set(word.trim_prefix("--"), value.to_int())
@@ -118,6 +124,8 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 func _find_conflict() -> String:
 	if scripted() and out_dir == "":
 		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
+	if carries > 0 and task != "pick_and_place":
+		return "--carries needs --play pick_and_place: elsewhere things link on the way"
 	if simulates() and (scripted() or out_dir == ""):
 		return "--participant needs --out DIR, and no --play"
 	if simulates():

@@ -6,7 +6,8 @@ extends Node
 const PERIOD_S := 0.1
 
 var path := ""
-var task: DemoTask
+## What is open: a task, the menu, or the experiment with a task or without.
+var scene: Node
 
 var _left_s := 0.0
 var _count := 0
@@ -18,31 +19,44 @@ func _ready() -> void:
 
 func _process(delta: float) -> void:
 	_left_s -= delta
-	if _left_s > 0.0 or not is_instance_valid(task) or not task.is_node_ready():
+	if _left_s > 0.0 or not is_instance_valid(scene) or not scene.is_node_ready():
 		return
 	_left_s = PERIOD_S
 	_count += 1
+	var report := {
+		"count": _count,
+		"scene": scene.name,
+		"buttons": _buttons(),
+		"paused": get_tree().paused,
+		"bodies": [],
+		"knobs": [],
+	}
+	var task := scene as DemoTask
+	if scene is Experiment:
+		task = (scene as Experiment).open_task()
+	if task != null and task.is_node_ready():
+		_tell_of(task, report)
+	_write(report)
+
+
+func _tell_of(task: DemoTask, report: Dictionary) -> void:
 	var camera := get_viewport().get_camera_3d()
 	var spidar: SpidarG = task.get_node(^"SpidarG")
 	var tool_hand: SpidarGHand = task.get_node(^"SpidarG/SpidarGHand")
 	var held := tool_hand.get_held_body()
-	var report := {
-		"count": _count,
-		"scene": task.name,
+	report.merge({
+		"task": task.task_name(),
 		"grip": _point(camera, spidar.get_grip_transform().origin),
 		"grasp_angle_deg": rad_to_deg(spidar.get_grasp_angle()),
 		"forces": spidar.forces_enabled,
 		"held": "" if held == null else String(held.name),
 		"busy": (task.get_node(^"AutoAnimator") as AutoAnimator).busy,
 		"finished": task.is_finished(),
-		"paused": get_tree().paused,
 		"level": task.settings.level,
 		"hud": ((task.get_node(^"Hud") as Hud).mode),
+		"hint": (task.get_node(^"Hud/%Hint") as Label).text,
 		"help": (task.get_node(^"Hud/Screen/Help") as Control).visible,
-		"buttons": _buttons(),
-		"bodies": [],
-		"knobs": [],
-	}
+	})
 	for body in task.bodies:
 		(report["bodies"] as Array).append({
 			"name": body.name,
@@ -56,13 +70,12 @@ func _process(delta: float) -> void:
 				"name": child.name,
 				"at": _point(camera, (child as HubKnob).to_global(Vector3(0.0, 0.022, 0.0))),
 			})
-	_write(report)
 
 
-## Middles of the menu's buttons on the screen, by what they say.
+## Middles of the buttons on the screen, by what they say.
 func _buttons() -> Dictionary:
 	var found := {}
-	for child in task.find_children("*", "Button", true, false):
+	for child in scene.find_children("*", "Button", true, false):
 		var button := child as Button
 		if button.is_visible_in_tree():
 			var at := get_viewport().get_final_transform() * button.get_global_rect().get_center()

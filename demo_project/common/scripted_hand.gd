@@ -75,6 +75,12 @@ func turn_grasp_to(goal_rad: float, duration_s: float) -> void:
 		await _step(true)
 
 
+## One tick on the way, too fast for a correction by eye.
+func follow(pose: Transform3D) -> void:
+	wanted = pose
+	await _step(false)
+
+
 ## One tick with the grasp target moved by this much.
 func nudge_grasp(by_rad: float) -> void:
 	grasp_angle_rad += by_rad

@@ -60,6 +60,11 @@ func play() -> void:
 			await _rise(body)
 
 
+## What went wrong in the play, beside what is checked of each thing; empty: nothing.
+func verdict() -> String:
+	return ""
+
+
 ## The order in which the bodies are taken.
 func order() -> Array[TaskBody]:
 	return bodies

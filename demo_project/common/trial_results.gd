@@ -28,7 +28,10 @@ func save_scripted(abort_reason: String) -> int:
 	var arguments := _task.arguments
 	var table := _object_table()
 	var total := _task.bodies.size()
-	var passed := abort_reason == "" and total > 0 and _placed == total and _all_felt
+	var in_place := _placed == total or arguments.carries > 0 # What is carried about goes back to its start.
+	var passed := abort_reason == "" and total > 0 and in_place and _all_felt
+	if _task.player is CarryPlayer:
+		_task.logger.drops = (_task.player as CarryPlayer).dropped
 	var condition := "simulated_forces"
 	if arguments.cut_output:
 		condition = "simulated_output_cut"

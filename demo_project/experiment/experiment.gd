@@ -53,6 +53,11 @@ func _ready() -> void:
 	_next()
 
 
+## The task of the trial in progress, or null.
+func open_task() -> DemoTask:
+	return _task
+
+
 func _physics_process(_delta: float) -> void:
 	if _task != null and _trace != null and _task.is_running():
 		var spidar: SpidarG = _task.get_node(^"SpidarG")

@@ -5,6 +5,7 @@
 #include <godot_cpp/godot.hpp>
 
 #include "godot/class_documentation.h"
+#include "godot/project_options.h"
 #include "godot/spidar_g.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_calibrator.h"
@@ -20,6 +21,7 @@ void initialize(godot::ModuleInitializationLevel level) {
         GDREGISTER_CLASS(SpidarGCalibrator);
         GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
+        spidar::register_project_options();
     }
     if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {
         spidar::load_class_documentation();

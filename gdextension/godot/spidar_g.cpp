@@ -19,9 +19,6 @@ using spidar::Status;
 
 namespace {
 
-// A node scale this near to 1 is rounding, not intent.
-constexpr double kNodeScaleTolerance = 1e-3;
-
 [[nodiscard]] bool in_editor() {
     return Engine::get_singleton()->is_editor_hint();
 }
@@ -110,54 +107,6 @@ void SpidarG::set_workspace_scale(double scale) {
     update_gizmos();
 }
 
-const SpidarGConfig &SpidarG::config_or_default() const {
-    return config_.is_valid() ? *config_.ptr() : *default_config_.ptr();
-}
-
-std::string SpidarG::read_resources() {
-    const SpidarGConfig &config = config_or_default();
-    std::string problem = config.own_problem();
-    spidar::ServoSettings settings = config.servo_settings();
-    spidar::PlantSettings plant = config.plant_settings();
-    if (problem.empty() && calibration_.is_valid()) {
-        problem = calibration_->apply_to(settings);
-    }
-    if (problem.empty()) {
-        problem = spidar::validate(settings);
-    }
-    if (problem.empty()) {
-        problem = spidar::validate(plant);
-    }
-    if (problem.empty()) {
-        settings_ = settings;
-        plant_ = plant;
-    }
-    return problem;
-}
-
-godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
-    godot::PackedStringArray warnings;
-    if (!problem_.empty()) {
-        warnings.push_back(spidar::to_godot(problem_));
-    }
-    if (config_.is_null()) {
-        warnings.push_back(
-            String("No config: the paper's device (48 cm frame, 4 cm half poles) is assumed. Add a "
-                   "SpidarGConfig to describe yours."));
-    }
-    const godot::Basis basis = get_transform().basis;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double length = static_cast<double>(basis.get_column(axis).length());
-        if (!(std::abs(length - 1.0) <= kNodeScaleTolerance)) {
-            warnings.push_back(
-                String("The node is scaled; a device is not. Set its scale to 1 and use "
-                       "workspace_scale to enlarge the device's movements."));
-            break;
-        }
-    }
-    return warnings;
-}
-
 bool SpidarG::may_run() const {
     return enabled_ && is_inside_tree() && !in_editor();
 }
@@ -169,6 +118,8 @@ std::string SpidarG::name_for_messages() const {
 void SpidarG::open_device() {
     close_device();
     restart_pending_ = false;
+    read_project();
+    set_process_input(options_.panic_key != 0);
     problem_ = read_resources();
     // Even a refused device is retried when a resource changes.
     set_physics_process_internal(true);
@@ -234,10 +185,14 @@ void SpidarG::_notification(int what) {
     case NOTIFICATION_ENTER_TREE:
         if (may_run()) {
             open_device();
+        } else if (in_editor()) {
+            read_project();
+            problem_ = read_resources();
         }
         break;
     case NOTIFICATION_EXIT_TREE:
         close_device();
+        set_process_input(false);
         set_process_internal(false);
         set_physics_process_internal(false);
         break;

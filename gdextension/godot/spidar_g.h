@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <godot_cpp/classes/input_event.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/core/binder_common.hpp>
@@ -16,6 +17,7 @@
 #include "device/hid/hid_transport.h"
 #include "device/servo_loop.h"
 #include "device/simulated_transport.h"
+#include "godot/project_options.h"
 #include "godot/spidar_g_calibration.h"
 #include "godot/spidar_g_config.h"
 #include "godot/world_frame.h"
@@ -197,6 +199,8 @@ public:
     bool simulated_buttons(int mask);
 
     void _notification(int what);
+    // The project's panic key.
+    void _input(const godot::Ref<godot::InputEvent> &event) override;
 
 protected:
     static void _bind_methods();
@@ -212,6 +216,8 @@ private:
     static void bind_enums();
 
     void resource_changed();
+    // The project's settings as they are now; they count from the next opening on.
+    void read_project();
     // Reads config and calibration into settings_. Empty: fine; else the problem, and settings_ keep their values.
     std::string read_resources();
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
@@ -249,7 +255,9 @@ private:
     [[nodiscard]] std::string name_for_messages() const;
 
     godot::Ref<SpidarGConfig> config_;
-    godot::Ref<SpidarGConfig> default_config_; // stands in when there is none
+    godot::Ref<SpidarGConfig>
+        default_config_; // stands in when there is none: the project's, or the paper's device
+    spidar::ProjectOptions options_; // as they were when the device was opened
     godot::Ref<SpidarGCalibration> calibration_;
     bool enabled_ = true;
     DriveMode drive_mode_ = DRIVE_THREADED;

@@ -80,7 +80,10 @@ std::unique_ptr<spidar::HidTransport> SpidarG::open_hid(Status &status, std::str
 
 std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std::string &problem) {
     using Choice = SpidarGConfig::Transport;
-    const auto choice = static_cast<Choice>(config_or_default().get_transport());
+    auto choice = static_cast<Choice>(config_or_default().get_transport());
+    if (choice == Choice::TRANSPORT_AUTOMATIC && !options_.use_hardware) {
+        choice = Choice::TRANSPORT_SIMULATED;
+    }
     fallback_.clear();
     if (choice == Choice::TRANSPORT_DEVICE && drive_mode_ == DRIVE_STEPPED) {
         status = Status::invalid_settings;

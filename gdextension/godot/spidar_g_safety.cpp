@@ -1,6 +1,8 @@
 // Safety as the game sees it: panic stop, zero, signs of life, hand-off when the player looks away, events.
 #include "godot/spidar_g.h"
 
+#include <godot_cpp/classes/input_event_key.hpp>
+
 #include "godot/type_conversions.h"
 
 namespace {
@@ -13,6 +15,14 @@ constexpr double kStalled_s = 0.1;
 void SpidarG::panic_stop() {
     if (loop_) {
         loop_->panic_stop();
+    }
+}
+
+void SpidarG::_input(const godot::Ref<godot::InputEvent> &event) {
+    const godot::Ref<godot::InputEventKey> key{godot::Variant(event)};
+    if (key.is_valid() && key->is_pressed() && !key->is_echo() &&
+        static_cast<int>(key->get_physical_keycode()) == options_.panic_key) {
+        panic_stop();
     }
 }
 

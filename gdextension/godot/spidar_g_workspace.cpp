@@ -12,6 +12,7 @@
 #include "core/wrench_closure.h"
 #include "device/tension_diagnosis.h"
 #include "device/workspace_guard.h"
+#include "godot/project_options.h"
 #include "godot/type_conversions.h"
 
 using godot::PackedFloat64Array;
@@ -74,7 +75,10 @@ bool is_finite(const char *method, const DofArray &wrench) {
 } // namespace
 
 SpidarGWorkspace::SpidarGWorkspace() {
-    default_config_.instantiate();
+    default_config_ = spidar::project_config();
+    if (default_config_.is_null()) {
+        default_config_.instantiate();
+    }
 }
 
 void SpidarGWorkspace::set_config(const godot::Ref<SpidarGConfig> &config) {

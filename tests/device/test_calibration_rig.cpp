@@ -167,7 +167,8 @@ TEST_CASE("rig: the scripted hand of the simulated device covers the workspace")
     low.fill(INT32_MAX);
     high.fill(INT32_MIN);
     int samples = 0;
-    for (int k = 0; k < 20; ++k) {
+    constexpr int kSeconds = 10;
+    for (int k = 0; k < kSeconds; ++k) {
         f.step(1.0);
         for (; f.rig->next_sample(counts); ++samples) {
             for (std::size_t i = 0; i < kStringCount; ++i) {
@@ -176,7 +177,7 @@ TEST_CASE("rig: the scripted hand of the simulated device covers the workspace")
             }
         }
     }
-    CHECK(samples == doctest::Approx(20.0 / kSampleInterval_s).epsilon(0.1));
+    CHECK(samples == doctest::Approx(kSeconds / kSampleInterval_s).epsilon(0.1));
     for (std::size_t i = 0; i < kStringCount; ++i) {
         CHECK((high[i] - low[i]) * f.plant.metres_per_count > 0.2);
     }

@@ -31,6 +31,7 @@ STEP_LIMIT_S = 150  # a loaded machine draws few frames a second
 # Of the research on self-calibration, for 300 poses with 0.1 mm of noise: rms of the offsets (m), of the scales.
 OFFSET_LIMIT_M = 0.117e-3
 SCALE_LIMIT = 5.7e-4
+TEXT_PRECISION = 1e-14  # of Godot's text form of a double
 GAIN_LIMIT = 0.02  # of a motor: friction and ramp
 NOMINAL_M_PER_COUNT = 2.0 * math.pi * 0.008 / 2000.0
 HOME_LENGTH_M = math.sqrt(0.24 ** 2 + 0.24 ** 2 + 0.2 ** 2)  # half sizes of the paper's frame, one less the pole
@@ -259,8 +260,9 @@ def run(godot, display, pictures, check):
     again = Editor(godot, display)
     try:
         loaded = again.wait("the project opened again", lambda report: report["nodes"], START_LIMIT_S)
-        check(device(loaded)["scales"] == accepted["scales"] and device(loaded)["offsets"] == accepted["offsets"],
-              "the same calibration after the project was opened again")
+        same = all(math.isclose(read, kept, rel_tol=TEXT_PRECISION) for name in ("scales", "offsets", "found_gains")
+                   for read, kept in zip(device(loaded)[name], accepted[name], strict=True))
+        check(same, "the same calibration after the project was opened again")
     finally:
         again.close()
 

@@ -5,7 +5,7 @@ extends SceneTree
 const TICK_S := 1.0 / 60.0
 const ARMING_LIMIT_TICKS := 300
 const REACH_TICKS := 90
-const OUTSIDE_M := Vector3(0.0, 0.055, 0.0)
+const OUTSIDE_M := Vector3(0.0, 0.045, 0.0)
 ## Of a force against what the zone asks for.
 const TOLERANCE_N := 0.15
 ## Strings that only pull draw the grip a little to the middle; towards the rim of the frame so much.

@@ -172,7 +172,7 @@ def hub_by_grip(godot, display, check):
         user.press("h", "no help", lambda report: not report["help"])
         for mode in (0, 1, 2):  # off, short, full; full at the start
             user.press("Tab", f"display {mode}", lambda report, mode=mode: report["hud"] == mode)
-        user.press("p", "pause", lambda report: report["paused"])
+        user.press("p", "pause", lambda report: report["paused"] and "Paused" in report["hint"])
         user.press("p", "no pause", lambda report: not report["paused"])
         user.press("Escape", "back in the hub", lambda report: report["scene"].startswith("Hub"))
         panic_with_a_button_in_focus(user)
@@ -191,6 +191,25 @@ def panic_with_a_button_in_focus(user):
     user.press("f", "forces on", lambda report: report["forces"])
     user.press("space", "forces off", lambda report: not report["forces"])
     user.wait("the level as it was", lambda report: report["level"] == clicked)
+
+
+def trial_broken_off(godot, display, check):
+    """The experiment's first screens by mouse; Backspace breaks a trial off, and it is done again."""
+    user = User(godot, display, [], {"participant": '"5"'})
+    try:
+        user.wait("the hub", lambda report: report["scene"] == "Hub", START_LIMIT_S)
+        user.press("7", "the instruction", lambda report: "Start" in report["buttons"])
+        user.click(user.see()["buttons"]["Start"])
+        task = user.wait("the practice", lambda report: report.get("task"))["task"]
+        user.press("BackSpace", "the end of the practice", lambda report: "Go on" in report["buttons"])
+        check("task" not in user.see(), "the task is still open")
+        user.click(user.see()["buttons"]["Go on"])
+        again = user.wait("the practice again", lambda report: report.get("task"))
+        check(again["task"] == task and not again["finished"], f"{task} was broken off, not {again['task']}")
+        user.press("Escape", "back in the hub", lambda report: report["scene"].startswith("Hub"))
+    finally:
+        check("SCRIPT ERROR" not in user.close(), "script errors in the experiment")
+        shutil.rmtree(user.folder)
 
 
 def objects_by_mouse(godot, display, check, how_many=None):
@@ -295,7 +314,7 @@ def main():
         if not condition:
             print(f"FAIL {message}")
 
-    parts = {"hub_by_grip": hub_by_grip, "objects_by_mouse": functools.partial(
+    parts = {"hub_by_grip": hub_by_grip, "trial_broken_off": trial_broken_off, "objects_by_mouse": functools.partial(
         objects_by_mouse, how_many=1 if arguments.quick else None)}
     for task in SCENES:
         parts[task] = functools.partial(task_by_clicks, task=task)

@@ -2,9 +2,10 @@
 """Plays the demo's tasks by script, headless, and reads what they left: python3 run_play_tests.py GODOT [--seeds N]
 
 For every task and seed: everything placed, every weight, width and detent felt, nothing dropped, no pad inside a
-body. The same seed twice gives the same bytes. With the motors' output cut nothing may be felt; with the encoders
-frozen nothing may be placed; both must end with code 1. --all-levels plays every level of every task, seed after
-seed, until --limit-s is used up, and says how many seeds that were.
+body. Things carried about and shaken may not be dropped. The same seed twice gives the same bytes. With the motors'
+output cut nothing may be felt; with the encoders frozen nothing may be placed; both must end with code 1.
+--all-levels plays every level of every task, with a trembling and a clumsy hand too, seed after seed, until --limit-s is
+used up, and says how many seeds that were; then it carries 100 things about.
 """
 
 import argparse
@@ -30,6 +31,8 @@ TASKS = ("pick_and_place", "robot_linking", "match_linking")
 LEVELS = (1, 2, 3)
 RUN_LIMIT_S = 300  # a run takes seconds; a script error hangs Godot
 SIMULATED_LIMIT_S = 240.0  # the demo's own limit, on simulated time
+CARRIES_IN_ALL = 100
+CARRIES_A_RUN = 25
 # The demo judges its own checks; these are the issue's figures, judged here a second time from the numbers.
 WEIGHT_TOLERANCE = 0.05
 WIDTH_TOLERANCE_MM = 1.0
@@ -196,6 +199,19 @@ def check_good_run(checks, run):
         checks.check(len(masses) >= 3 and len(widths) >= 3, f"{name}: masses {masses} widths {widths}")
 
 
+def check_carries(checks, run, carries):
+    """So many things picked up, led about, shaken and put back; none left the fingers before they opened."""
+    summary, objects = (run.rows("summary.csv") or [{}])[0], run.rows("objects.csv")
+    checks.check(run.code == 0, f"{run.name}: exit code {run.code}, not 0: {summary.get('abort_reason')}")
+    checks.check("SCRIPT ERROR" not in run.output, f"{run.name}: script error\n{run.output[-2000:]}")
+    checks.check(summary.get("drops") == "0", f"{run.name}: {summary.get('drops')} dropped")
+    tries = sum(int(row["attempts"]) for row in objects)
+    checks.check(tries >= carries, f"{run.name}: went for {tries} things, not {carries}")
+    checks.check(number(summary, "grasp_successes") >= carries, f"{run.name}: {summary.get('grasp_successes')} held")
+    inside = number(summary, "max_penetration_mm")
+    checks.check(inside <= PENETRATION_LIMIT_MM, f"{run.name}: a pad {inside} mm inside a body")
+
+
 def check_output_cut(checks, run):
     summary, objects = check_tables(checks, run)
     checks.check(run.code == 1, f"{run.name}: exit code {run.code}, not 1")
@@ -226,6 +242,8 @@ def check_bad_arguments(checks, godot):
         (["--play", TASKS[0], "--out", "relative/folder"], "--out"),
         (["--play", TASKS[0], "--level", "4", "--out", "{out}"], "--level"),
         (["--play", TASKS[0], "--hand", "third", "--out", "{out}"], "--hand"),
+        (["--play", TASKS[0], "--carries", "0", "--out", "{out}"], "--carries"),
+        (["--play", TASKS[1], "--carries", "2", "--out", "{out}"], "--carries"),
         (["--frobnicate"], "--frobnicate"),
     ):
         run = Run(godot, "bad_arguments", words)
@@ -281,6 +299,7 @@ def run_some(godot, seeds):
     checks = Checks()
     check_parts(checks, godot, "check_parts.gd")
     check_parts(checks, godot, "check_free_play.gd")
+    check_parts(checks, godot, "check_hidden.gd")
     good = [(task, level, seed) for task, level in zip(TASKS, LEVELS) for seed in range(1, seeds + 1)]
     calls = [lambda key=key: Play(godot, *key) for key in good]
     calls.append(lambda: Play(godot, *good[0], name="again"))
@@ -293,6 +312,7 @@ def run_some(godot, seeds):
     first, again = plays[0], plays[len(good)]
     for run in plays[: len(good)] + plays[-2:]:
         check_good_run(checks, run)
+    check_carries(checks, Play(godot, TASKS[0], 3, 1, "--carries", "4"), 4)
     for name in ("summary.csv", "objects.csv"):
         same = again.bytes_of(name) == first.bytes_of(name) != b""
         checks.check(same, f"{name} of {first.name} differs from run to run")
@@ -317,12 +337,19 @@ def run_all_levels(godot, seeds, limit_s):
         seed += 1
         calls = [
             lambda task=task, level=level: Play(godot, task, level, seed) for task in TASKS for level in LEVELS]
-        calls.append(lambda: Play(godot, TASKS[seed % 3], 1, seed, "--hand", "clumsy"))
+        for shift, hand in enumerate(("trembling", "clumsy")):
+            key = TASKS[(seed + shift) % 3], LEVELS[seed // 3 % 3], seed
+            calls.append(lambda key=key, hand=hand: Play(godot, *key, "--hand", hand))
         for run in in_parallel(calls):
             check_good_run(checks, run)
             carries += sum(int(row["attempts"]) for row in run.rows("objects.csv"))
             if run.steady:
                 note_worst(worst, run)
+    carry_calls = [
+        lambda number=number: Play(godot, TASKS[0], LEVELS[number % 3], number + 1, "--carries", str(CARRIES_A_RUN))
+        for number in range(CARRIES_IN_ALL // CARRIES_A_RUN)]
+    for run in in_parallel(carry_calls):
+        check_carries(checks, run, CARRIES_A_RUN)
     print(f"{seed} of {seeds} seeds within {limit_s:.0f} s, {carries} carries; worst: " + ", ".join(
         f"{key} {value:.3f}" for key, value in worst.items()))
     return checks

@@ -86,13 +86,18 @@ def draw(table, out):
 
     def bars(axes, figure, measure, title, unit):
         width = 0.8 / len(CONDITIONS)
-        for index, condition in enumerate(CONDITIONS):
-            shown = [(place, *pick(table, figure, task, condition, measure)) for place, task in enumerate(TASKS)]
-            shown = [one for one in shown if not math.isnan(one[1])]  # the mouse is not compared with itself
-            if shown:
-                axes.bar([place + (index - 1.5) * width for place, _, _ in shown], [value for _, value, _ in shown],
-                         width, yerr=[error for _, _, error in shown], color=COLOURS[condition],
-                         label=condition.replace("_", " "), capsize=2)
+        rows = {}
+        for condition in CONDITIONS:
+            values = [(place, *pick(table, figure, task, condition, measure)) for place, task in enumerate(TASKS)]
+            values = [one for one in values if not math.isnan(one[1])]  # the mouse is not compared with itself
+            if values:
+                rows[condition] = values
+        for index, (condition, values) in enumerate(rows.items()):
+            beside = (index - 0.5 * (len(rows) - 1)) * width
+            axes.bar([place + beside for place, _, _ in values], [value for _, value, _ in values],
+                     width, yerr=[error for _, _, error in values], color=COLOURS[condition],
+                     label=condition.replace("_", " "), capsize=2)
+        axes.set_ylim(0, None if any(value > 0 for values in rows.values() for _, value, _ in values) else 1)
         axes.set_xticks(range(len(TASKS)), [task.replace("_", " ") for task in TASKS])
         axes.set_title(title)
         axes.set_ylabel(unit)
@@ -103,10 +108,11 @@ def draw(table, out):
         axes.set_ylim(0, 105)
 
     def save(figure, name, note=""):
-        figure.axes[0].legend(fontsize=8)
+        handles, labels = max((axes.get_legend_handles_labels() for axes in figure.axes), key=lambda both: len(both[0]))
+        figure.legend(handles, labels, fontsize=8, ncol=len(CONDITIONS), loc="upper center", frameon=False)
         if note:
             figure.text(0.5, 0.005, note, ha="center", fontsize=7)
-        figure.tight_layout(rect=(0, 0.03, 1, 1))
+        figure.tight_layout(rect=(0, 0.03, 1, 0.94))
         figure.savefig(os.path.join(out, name), dpi=110)
         pyplot.close(figure)
 

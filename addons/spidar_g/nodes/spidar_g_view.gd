@@ -127,13 +127,12 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 		_parts.place_grip(
 			grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
 		)
-	if not show_strings:
-		return
-	for string: int in ViewParts.STRINGS:
-		_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
-	for end: int in 4:
-		var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
-		_parts.place_knot(end, spidar.get_pole_end(target))
+		for end: int in 4:
+			var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
+			_parts.place_knot(end, spidar.get_pole_end(target))
+	if show_strings:
+		for string: int in ViewParts.STRINGS:
+			_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
 
 
 func _draw_tensions(forced: bool) -> void:

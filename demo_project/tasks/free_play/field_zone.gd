@@ -5,7 +5,7 @@ extends Node3D
 ## From left to right: where strings give the finest forces, in the middle, is what is felt in motion.
 enum Kind { VIBRATION, SPRING, VISCOUS, DETENTS, FORCE, WRENCH }
 
-const SIZE_M := Vector3(0.044, 0.064, 0.040)
+const SIZE_M := Vector3(0.044, 0.050, 0.040)
 ## Effects last so long beyond the frame that asked for them.
 const RENEWED_FOR_S := 0.1
 const VISCOUS_N_S_M := 2.0

@@ -8,7 +8,12 @@ const SPRING_N_M := 80.0
 const SPRING_MOST_N := 4.0
 const BOX_M := Vector3(0.032, 0.044, 0.032)
 const FLOOR_M := Vector3(0.080, 0.006, 0.070)
-## Rows from the back to the front; text lies before each.
+## Text stands above the things at the back, and before the others.
+const ABOVE_M := 0.012
+const LOW_M := 0.006
+## Nearer than in pick and place: there is more to read.
+const VIEW_DEG := 28.0
+## Rows from the back to the front.
 const BACK_Z_M := -0.100
 const ZONES_Z_M := -0.022
 const FRONT_Z_M := 0.070
@@ -41,15 +46,17 @@ func _ready() -> void:
 	add_child(linker)
 	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
+	($CameraRig as CameraRig).see(VIEW_DEG, 0.0)
+	_hud.show_free(title())
 	linker.sound_with(sound)
 	_tool_hand.carrying.connect(_on_carrying)
 
 
 func _lay_out() -> void:
 	linker.clear()
-	_add_box("hard, light: 40 g", -0.125, 0.040, DemoPalette.BLUE)
-	_add_box("hard, heavy: 300 g", -0.062, 0.300, DemoPalette.PLUM)
-	var soft := _add_box("soft: 60 g", 0.0, 0.060, DemoPalette.CORAL)
+	_add_box("light, 40 g", -0.125, 0.040, DemoPalette.BLUE)
+	_add_box("heavy, 300 g", -0.062, 0.300, DemoPalette.PLUM)
+	var soft := _add_box("soft, 60 g", 0.0, 0.060, DemoPalette.CORAL)
 	soft.set_meta(&"spidar_squeeze_nm_rad", 0.10)
 	soft.set_meta(&"spidar_stiffness_n_m", 120.0)
 	_add_ball(0.068)
@@ -57,7 +64,7 @@ func _lay_out() -> void:
 	_add_zones()
 	_add_floor("rough floor", -0.085, 1.2, DemoPalette.MUSTARD)
 	_add_floor("smooth floor", 0.005, 0.02, DemoPalette.TEAL)
-	_add_peg(0.110)
+	_add_peg(0.136)
 
 
 func _add_box(
@@ -73,7 +80,7 @@ func _add_box(
 	body.add_piece(shape, mesh, Transform3D.IDENTITY, colour)
 	body.position = Vector3(x, 0.5 * BOX_M.y, z)
 	_items.add_child(body)
-	_say(text, Vector2(x, z + 0.028))
+	_say(text, Vector3(x, BOX_M.y + ABOVE_M, z) if z == BACK_Z_M else Vector3(x, LOW_M, z + 0.028))
 	return body
 
 
@@ -90,7 +97,7 @@ func _add_ball(x: float) -> void:
 	_ball.position = Vector3(x, shape.radius, BACK_Z_M)
 	_items.add_child(_ball)
 	_ball_home = _ball.global_position
-	_say("on a spring: %.0f N/m" % SPRING_N_M, Vector2(x, BACK_Z_M + 0.028))
+	_say("on a spring", Vector3(x, 2.0 * shape.radius + ABOVE_M, BACK_Z_M))
 
 
 func _add_post(x: float) -> void:
@@ -100,7 +107,7 @@ func _add_post(x: float) -> void:
 		post, Vector3(0.020, 0.060, 0.020), Vector3(0.0, 0.030, 0.0), DemoPalette.STAND
 	)
 	_items.add_child(post)
-	_say("fixed post", Vector2(x, BACK_Z_M + 0.028))
+	_say("fixed post", Vector3(x, 0.060 + ABOVE_M, BACK_Z_M))
 
 
 func _add_zones() -> void:
@@ -111,7 +118,7 @@ func _add_zones() -> void:
 		zone.position = Vector3(x, 0.5 * FieldZone.SIZE_M.y + 0.001, ZONES_Z_M)
 		_items.add_child(zone)
 		zones.append(zone)
-		_say(FieldZone.TEXTS[index], Vector2(x, ZONES_Z_M + 0.5 * FieldZone.SIZE_M.z + 0.010))
+		_say(FieldZone.TEXTS[index], Vector3(x, LOW_M, ZONES_Z_M + 0.5 * FieldZone.SIZE_M.z + 0.008))
 
 
 func _physics_process(delta: float) -> void:
@@ -126,7 +133,7 @@ func _add_floor(text: String, x: float, friction: float, colour: Color) -> void:
 	floor_body.set_meta(&"spidar_friction", friction)
 	StandBuilder.add_block(floor_body, FLOOR_M, Vector3(0.0, 0.5 * FLOOR_M.y, 0.0), colour)
 	_items.add_child(floor_body)
-	_say(text, Vector2(x, FRONT_Z_M + 0.5 * FLOOR_M.z + 0.010))
+	_say(text, Vector3(x, LOW_M, FRONT_Z_M + 0.5 * FLOOR_M.z + 0.008))
 
 
 ## A peg and a cap that snaps onto it.
@@ -139,7 +146,7 @@ func _add_peg(x: float) -> void:
 	peg.add_child(LinkSocket.make(&"cap", false, Transform3D(Basis(), Vector3(0.0, 0.030, 0.0))))
 	_items.add_child(peg)
 	linker.add_carrier(peg)
-	var cap := _add_box("cap: snaps onto the peg", x, 0.060, DemoPalette.BONE, FRONT_Z_M + 0.030)
+	var cap := _add_box("snaps onto the peg", x, 0.060, DemoPalette.BONE, FRONT_Z_M + 0.030)
 	cap.add_child(
 		LinkSocket.make(&"cap", true, Transform3D(Basis(), Vector3(0.0, -0.5 * BOX_M.y - 0.0005, 0.0)))
 	)
@@ -153,13 +160,14 @@ func _on_carrying(_delta: float) -> void:
 	_tool_hand.add_load((SPRING_N_M * way).limit_length(SPRING_MOST_N))
 
 
-func _say(text: String, at: Vector2) -> void:
+func _say(text: String, at: Vector3) -> void:
 	var label := Label3D.new()
 	label.text = text
-	label.rotation.x = -0.5 * PI
-	label.position = Vector3(at.x, 0.0008, at.y)
-	label.pixel_size = 0.00018
-	label.font_size = 40
-	label.outline_size = 0
+	label.billboard = BaseMaterial3D.BILLBOARD_ENABLED
+	label.position = at
+	label.pixel_size = 0.0002
+	label.font_size = 44
+	label.outline_size = 8
+	label.outline_modulate = DemoPalette.STAND
 	label.modulate = DemoPalette.TEXT
 	_items.add_child(label)

@@ -4,12 +4,13 @@ extends LinkingTask
 ## Kim, Koike and Sato's experiment 3 ("SPIDAR-G", section 7.2).
 
 const STAND_Z_M := -0.045
-## On the table, before the robot. Further out than this the least tension of the strings alone closes the jaws with
-## 7 N mm or more, and a squeeze up to that is not felt.
-const SLOTS_M: Array[Vector2] = [
-	Vector2(-0.085, 0.008), Vector2(0.085, 0.008), Vector2(-0.080, 0.070), Vector2(0.0, 0.070),
-	Vector2(0.080, 0.070), Vector2(-0.042, 0.132), Vector2(0.042, 0.132),
+## On the table, before the robot and near its middle: further out the least tension of the strings alone presses nearly
+## closed jaws open with 7 N mm and more, and a squeeze up to that is not felt. Fingers that open for torso or head reach
+## 53 mm, and come in 36 mm in front: hence the spaces.
+const THIN_SLOTS_M: Array[Vector2] = [
+	Vector2(-0.068, 0.030), Vector2(0.068, 0.030), Vector2(-0.068, 0.105), Vector2(0.068, 0.105)
 ]
+const WIDE_SLOTS_M: Array[Vector2] = [Vector2(0.0, 0.030), Vector2(0.0, 0.105)]
 const JITTER_M := 0.003
 ## By level: how far the parts are turned, and the stand.
 const YAW_RAD: PackedFloat64Array = [0.0, deg_to_rad(15.0), deg_to_rad(30.0)]
@@ -56,17 +57,19 @@ func _lay_out() -> void:
 	_items.add_child(robot)
 	var bracket := RobotDesign.build_stand(robot)
 	linker.add_carrier(bracket)
-	var slots := _shuffled(SLOTS_M.duplicate(), random)
+	var thin_slots := _shuffled(THIN_SLOTS_M.duplicate(), random)
+	var wide_slots := _shuffled(WIDE_SLOTS_M.duplicate(), random)
 	var torso := RobotDesign.torso()
 	if arguments.level == 1:
 		torso.freeze = true # Stands already; nobody has to place it.
 		_add_part(torso, robot, robot.transform * torso.place)
 	else:
-		_add_part(torso, robot, _start_in(slots.pop_back(), torso, random, YAW_RAD[index]))
+		_add_part(torso, robot, _start_in(wide_slots.pop_back(), torso, random, YAW_RAD[index]))
 		bodies.append(torso)
 	var limbs: Array[RobotPart] = RobotDesign.limbs()
 	limbs.assign(_shuffled(limbs, random))
 	for limb in limbs:
+		var slots := wide_slots if limb.width_m > RobotDesign.ARM_M.x else thin_slots
 		_add_part(limb, robot, _start_in(slots.pop_back(), limb, random, YAW_RAD[index]))
 		bodies.append(limb)
 	limbs[0].felt.checks_release = true

@@ -232,6 +232,12 @@ std::string CalibrationWorksheet::refusal(const SelfCalibrationResult &result) {
                with_unit(kMostParity_m, "m") +
                ": check the wiring, the preset and the frame's size, and that no string slips.";
     }
+    if (!(result.grip_error_rms_m <= kMostGripError_m)) {
+        return "From these poses the grip would be known to " +
+               with_unit(result.grip_error_rms_m, "m") + " only, limit " +
+               with_unit(kMostGripError_m, "m") +
+               ": move it through more of the workspace, and turn, open and close it.";
+    }
     const int left_out =
         result.rejected_outliers + result.rejected_singular + result.rejected_unsolved;
     if (result.used < left_out) {

@@ -18,6 +18,8 @@ inline constexpr std::size_t kMostPoses = 3000;
 // What the eight lengths may contradict each other by after a fit. Noise and stretch of a sound device stay below
 // 0.2 mm; a slipping string, a wrong frame or a wrong preset is millimetres.
 inline constexpr double kMostParity_m = 0.0005;
+// Expected error of the grip above which a motion has told too little: ten times what 300 varied poses leave.
+inline constexpr double kMostGripError_m = 0.0005;
 // Ruler scales further than this from nominal are slips of the pen or another string (paper: 4.3 % by winding).
 inline constexpr double kMostScaleError = 0.2;
 // Lengths nearer together than this tell no scale: half a millimetre of reading error would be 1 % of it.

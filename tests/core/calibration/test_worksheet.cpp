@@ -177,3 +177,20 @@ TEST_CASE("worksheet: a wrong frame is refused with the contradiction") {
     SelfCalibrationResult few;
     CHECK(CalibrationWorksheet::refusal(few) == describe(Status::too_few_samples));
 }
+
+TEST_CASE("worksheet: a motion that is too small is refused, however well it fits") {
+    Draw draw(13);
+    const DeviceModel truth = wrong_device(draw);
+    CalibrationWorksheet sheet;
+    sheet.begin(paper_device(), MotorCalibration{});
+    REQUIRE(sheet.add_zero(counts_at(truth, home(), 0.0, draw)).empty());
+    for (int k = 0; k < 400; ++k) {
+        sheet.add_pose(counts_at(truth, random_pose(draw, truth.grip, 0.02, 0.0, 0.0), 1e-4, draw));
+    }
+    const SelfCalibrationResult found =
+        self_calibrate(sheet.measured(), sheet.poses(), sheet.settings());
+    CAPTURE(found.grip_error_rms_m);
+    REQUIRE(usable(found.status));
+    CHECK(found.parity_rms_m < kMostParity_m);
+    CHECK(CalibrationWorksheet::refusal(found).find("move it through more") != std::string::npos);
+}

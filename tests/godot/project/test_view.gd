@@ -72,6 +72,29 @@ func test_a_hidden_view_does_not_follow_and_catches_up() -> void:
 	check_near(view._parts._poles[0].global_position.x, 0.05, 0.001, "shown: caught up")
 
 
+func test_a_grip_that_is_not_shown_does_not_follow_and_catches_up() -> void:
+	var device: SpidarG = ideal_device()
+	var view := View.new()
+	device.add_child(view)
+	add(device)
+	await go_to(device, Vector3.ZERO)
+	view.show_grip = false
+	await frames(2)
+	var pole: Vector3 = view._parts._poles[0].global_position
+	await go_to(device, Vector3(0.05, 0.0, 0.0))
+	check_equal(view._parts._poles[0].global_position, pole, "a pole that is not shown is not placed")
+	view.show_grip = true
+	await frames(2)
+	check_near(view._parts._poles[0].global_position.x, 0.05, 0.001, "shown: caught up")
+
+
+func go_to(device: SpidarG, where: Vector3) -> void:
+	for _i: int in 60:
+		device.simulated_hand_target(Transform3D(Basis.IDENTITY, where), 0.0)
+		await physics_frames(1)
+	await frames(2)
+
+
 func test_a_view_without_a_device_draws_nothing() -> void:
 	var lonely := View.new()
 	add(lonely)
