@@ -229,8 +229,7 @@ int bench_step(std::vector<BenchRow> &rows) {
          {StepCase{"step, forces off", false, false, 0},
           StepCase{"step, forces off", true, false, 0},
           StepCase{"step, nothing asked", false, true, 0, false},
-          StepCase{"step, wrench", false, true, 0},
-          StepCase{"step, wrench", true, true, 0},
+          StepCase{"step, wrench", false, true, 0}, StepCase{"step, wrench", true, true, 0},
           StepCase{"step, wrench and 4 contacts", true, true, 4},
           StepCase{"step, wrench and 8 contacts", true, true, kMaxContacts}}) {
         good = run_step_case(settings, step_case, ticks, daqp, rows) && good;
