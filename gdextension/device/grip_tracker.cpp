@@ -27,7 +27,7 @@ Status GripTracker::configure(const ServoSettings &settings) noexcept {
     }
     *this = GripTracker();
     kinematics_ = kinematics;
-    strings_ = settings.strings;
+    lengths_of_.configure(settings.strings, settings.corrections);
     cutoff_rad_s_ = 2.0 * std::numbers::pi * settings.velocity_cutoff_hz;
     grip_.pose = rest_pose(settings.grip);
     grip_.frame = frame_of(grip_.pose, Mat3(1.0));
@@ -45,7 +45,7 @@ void GripTracker::restart() noexcept {
 }
 
 void GripTracker::set_zero(const CountArray &counts) noexcept {
-    strings_.zero_count = counts;
+    lengths_of_.set_zero(counts);
     restart();
 }
 
@@ -84,17 +84,18 @@ bool GripTracker::at_rest() const noexcept {
 }
 
 GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged,
-                                        double dt_s) noexcept {
+                                        const StringArray &tensions_n, double dt_s) noexcept {
     Update result;
     moved_ = Displacement();
-    if (unchanged && solved_) {
+    const bool stretches = lengths_of_.follow(tensions_n, dt_s);
+    if (unchanged && solved_ && !stretches) {
         result.skipped = true;
         since_pose_s_ = 0.0;
         grip_.status = solved_status_;
         come_to_rest(dt_s);
         return result;
     }
-    const StringArray lengths_m = lengths_from_counts(strings_, counts);
+    const StringArray lengths_m = lengths_of_.lengths(counts);
     const KinematicsResult solution = kinematics_.update(lengths_m);
     result.status = solution.status;
     result.cold_start = solution.cold_start;

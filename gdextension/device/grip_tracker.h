@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/forward_kinematics.h"
+#include "device/length_correction.h"
 #include "device/motion_filter.h"
 #include "device/servo_settings.h"
 #include "device/servo_snapshot.h"
@@ -24,8 +25,9 @@ public:
         bool cold_start = false;
         bool moved = false; // the pose changed
     };
-    // A plausible sample. `unchanged`: the same counts as the last good one.
-    Update update(const CountArray &counts, bool unchanged, double dt_s) noexcept;
+    // A plausible sample. `unchanged`: the same counts as the last good one. tensions_n: commanded in the last cycle.
+    Update update(const CountArray &counts, bool unchanged, const StringArray &tensions_n,
+                  double dt_s) noexcept;
     // No usable sample in this cycle: pose held. The twist is held too, until stale: then it falls to zero.
     void hold(Status why, double dt_s, bool stale) noexcept;
 
@@ -44,7 +46,7 @@ private:
     void come_to_rest(double dt_s) noexcept;
 
     ForwardKinematics kinematics_;
-    StringCalibration strings_{};
+    LengthCorrection lengths_of_;
     double cutoff_rad_s_ = 0.0;
     double filter_share_ = 0.0; // of a time step of filtered_dt_s_
     double filtered_dt_s_ = 0.0;

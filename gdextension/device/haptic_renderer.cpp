@@ -91,9 +91,9 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
     return sum + load_;
 }
 
-void HapticRenderer::given(double scale, const Wrench &given, double dt_s) noexcept {
+void HapticRenderer::given(double scale, double dt_s) noexcept {
     contacts_.integrate(scale, dt_s);
-    observer_.hold(given);
+    observer_.hold(Wrench()); // until it is known what the strings give
 }
 
 void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {

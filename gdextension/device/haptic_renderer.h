@@ -26,8 +26,10 @@ public:
     // of now; otherwise nothing that depends on speed acts.
     Wrench render(const GripState &grip, const Displacement &moved, bool trusted,
                   double dt_s) noexcept;
-    // What became of it: `scale` of what render() returned acts until the next cycle, as `given`.
-    void given(double scale, const Wrench &given, double dt_s) noexcept;
+    // What becomes of it until the next cycle: `scale` of what render() returned is asked of the strings,
+    void given(double scale, double dt_s) noexcept;
+    // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
+    void achieved(const Wrench &wrench) noexcept { observer_.hold(wrench); }
 
     void report(ServoSnapshot &snapshot) const noexcept;
 

@@ -34,14 +34,14 @@ std::string validate(const PlantSettings &settings) {
             return problem;
         }
     }
-    if (settings.frame.pulley_radius_m > 0.0) {
-        return "pulley_radius_m is above 0; the simulated device has eyelets, give 0.";
-    }
     constexpr double kRightAngle_rad = 1.5707963267948966;
     const Range ranges[] = {
         {"metres_per_count", settings.metres_per_count, 1e-9, 1e-2, "m"},
         {"string_stiffness_ea_n", settings.string_stiffness_ea_n, 10.0, 3e4, "N"},
         {"string_damping_n_s_m", settings.string_damping_n_s_m, 0.0, 10.0, "N s/m"},
+        {"creep", settings.creep, 0.0, 0.05, "(strain at 10 N)"},
+        {"creep_time_s", settings.creep_time_s, 0.1, 1e4, "s"},
+        {"winding_growth", settings.winding_growth, 0.0, 0.2, "(share of the radius)"},
         {"rotor_mass_kg", settings.rotor_mass_kg, 0.005, 10.0, "kg"},
         {"coulomb_friction_n", settings.coulomb_friction_n, 0.0, 10.0, "N"},
         {"viscous_friction_n_s_m", settings.viscous_friction_n_s_m, 0.0, 10.0, "N s/m"},

@@ -91,6 +91,13 @@ std::string validate(const ServoSettings &settings) {
         problem = validate(settings.strings);
     }
     if (problem.empty()) {
+        problem = validate(settings.corrections);
+    }
+    if (problem.empty() && settings.corrections.pulley_radius_m != 0.0) {
+        problem = complaint({"corrections.pulley_radius_m (frame.pulley_radius_m is the one used)",
+                             settings.corrections.pulley_radius_m, "m", 0.0, 0.0});
+    }
+    if (problem.empty()) {
         problem = validate(settings.motors);
     }
     if (problem.empty()) {

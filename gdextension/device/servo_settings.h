@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/calibration/length_corrections.h"
 #include "core/frame_geometry.h"
 #include "core/grasp_detector.h"
 #include "core/grip_geometry.h"
@@ -49,6 +50,8 @@ struct ServoSettings {
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;
     StringCalibration strings; // must be given: zero scale is refused
+    // Winding and stretch by the tensions of the last cycles; off by default. Its pulley stays 0: `frame` has it.
+    LengthCorrections corrections;
     MotorCalibration motors;
     TensionSettings tension;
     GraspSettings grasp;

@@ -90,7 +90,7 @@ struct ServoSnapshot {
     bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
-    // Work done on the hand in each DOF since the start, by what was asked of the strings.
+    // Work done on the hand in each DOF since the start: commanded tensions times the motion that the lengths show.
     DofGains injected_j{};
     GainClamp clamp; // the last gain that was brought down
     ServoCounters counters;

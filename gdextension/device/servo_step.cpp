@@ -86,7 +86,8 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
         tracker_.hold(Status::zero_needed, dt_s, true);
         return;
     }
-    const GripTracker::Update update = tracker_.update(counts, unchanged, dt_s);
+    const GripTracker::Update update =
+        tracker_.update(counts, unchanged, snapshot_.tensions_n, dt_s);
     ServoCounters &counters = snapshot_.counters;
     counters.kinematics_skipped += update.skipped ? 1U : 0U;
     counters.cold_starts += update.cold_start ? 1U : 0U;
@@ -204,7 +205,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     const bool taut = machine_.state() == DeviceState::taut;
     const bool on = machine_.motors_on() && tracker_.has_pose();
     const bool gives = on && !taut;
-    renderer_.given(gives ? request_scale * ramp : 0.0, gives ? ramp * full : Wrench(), dt_s);
+    renderer_.given(gives ? request_scale * ramp : 0.0, dt_s);
     if (taut) {
         return hold_pretension(dt_s);
     }
@@ -246,6 +247,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
     snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
+    renderer_.achieved(snapshot_.achieved);
     snapshot_.at_min_mask = result.at_min_mask;
     snapshot_.at_max_mask = result.at_max_mask;
     snapshot_.tension_status =

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "core/string_exit.h"
+
 namespace spidar {
 
 namespace {
@@ -88,6 +90,7 @@ SimulatedPlant::SimulatedPlant(const PlantSettings &settings) noexcept : setting
         std::min(kCoulombMaxSlope_n_s_m, settings.coulomb_friction_n / kCoulombBand_m_s);
     hand_.set_firmness(settings.firmness);
     reset(HandTarget{});
+    home_lengths_m_ = string_forces().lengths_m;
 }
 
 void SimulatedPlant::reset(const HandTarget &pose) noexcept {
@@ -117,8 +120,10 @@ void SimulatedPlant::set_hand_target(const HandTarget &target) noexcept {
 void SimulatedPlant::set_currents(const StringArray &currents_a) noexcept {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double asked = currents_a[i] >= 0.0 ? currents_a[i] : 0.0; // NaN: 0
+        const DrumWinding drum{settings_.winding_growth};
+        const double share = drum.radius_share(rotors_m_[i] - home_lengths_m_[i]);
         commanded_n_[i] =
-            newtons_per_ampere_[i] * std::min(asked, settings_.motors.max_current_a[i]);
+            newtons_per_ampere_[i] * std::min(asked, settings_.motors.max_current_a[i]) / share;
     }
 }
 
@@ -133,7 +138,7 @@ void SimulatedPlant::lay_rotors(std::uint8_t mask) noexcept {
     const StringForces now = string_forces();
     for (std::size_t i = 0; i < kStringCount; ++i) {
         if (has_bit(mask, i)) {
-            rotors_m_[i] = now.lengths_m[i];
+            rotors_m_[i] = now.lengths_m[i] / (1.0 + crept_[i]);
             rotor_speeds_m_s_[i] = now.length_rates_m_s[i];
         }
     }
@@ -198,6 +203,9 @@ void SimulatedPlant::step() noexcept {
     }
     if (settings_.elastic) {
         step_rotors(strings);
+        if (settings_.creep > 0.0) {
+            creep(strings);
+        }
     }
     ++steps_;
 }
@@ -206,7 +214,7 @@ void SimulatedPlant::step_rotors(const StringForces &forces) noexcept {
     const double inverse_mass = 1.0 / settings_.rotor_mass_kg;
     for (std::size_t i = 0; i < kStringCount; ++i) {
         double take_up = 0.0;
-        const double slack = rotors_m_[i] - forces.lengths_m[i];
+        const double slack = slack_length_m(i) - forces.lengths_m[i];
         if (slack > 0.0 && !has_bit(broken_, i)) {
             const double closing = rotor_speeds_m_s_[i] - forces.length_rates_m_s[i];
             take_up = std::clamp(kTakeUpStiffness_n_m * slack + take_up_damping_n_s_m_ * closing,
@@ -234,6 +242,14 @@ void SimulatedPlant::step_rotors(const StringForces &forces) noexcept {
     }
 }
 
+void SimulatedPlant::creep(const StringForces &forces) noexcept {
+    constexpr double kTension_n = 10.0;
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        const double final = settings_.creep * forces.tensions_n[i] / kTension_n;
+        crept_[i] += std::min(1.0, kStep_s / settings_.creep_time_s) * (final - crept_[i]);
+    }
+}
+
 SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
     const Poles poles = poles_of(rotation_, grasp_angle_rad_, settings_.grip.pole_half_length_m);
     const std::array<Vec3, 2> r{poles.r1, poles.r2};
@@ -256,15 +272,20 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
         const Vec3 velocity =
             rigid ? glm::cross(twist_.angular_rad_s, lever) : tie.sign * end_velocity[pole];
         const Vec3 to_motor = settings_.frame.motors_m[i] - (position_m_ + lever);
-        const double length = std::max(kShortestString_m, std::sqrt(glm::dot(to_motor, to_motor)));
+        double length = std::max(kShortestString_m, std::sqrt(glm::dot(to_motor, to_motor)));
+        Vec3 direction = (1.0 / length) * to_motor;
+        if (settings_.frame.pulley_radius_m > 0.0) {
+            const StringPath path = string_path(settings_.frame, i, position_m_ + lever);
+            length = std::max(kShortestString_m, path.length_m);
+            direction = -path.direction;
+        }
         const double inverse = 1.0 / length;
-        const Vec3 direction = inverse * to_motor;
         const double rate = -glm::dot(direction, twist_.linear_m_s + velocity);
         double tension = 0.0;
         if (has_bit(broken_, i)) {
             // Nothing to pull with.
         } else if (settings_.elastic) {
-            const double stretch = length - rotors_m_[i];
+            const double stretch = length - slack_length_m(i);
             if (stretch > 0.0) {
                 tension = std::max(0.0, settings_.string_stiffness_ea_n * inverse * stretch +
                                             settings_.string_damping_n_s_m *
@@ -314,8 +335,12 @@ CountArray SimulatedPlant::counts() const noexcept {
     constexpr double kMax = std::numeric_limits<std::int32_t>::max();
     const StringForces now = string_forces();
     CountArray result{};
+    const DrumWinding drum{settings_.winding_growth};
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        const double length = settings_.elastic ? rotors_m_[i] : now.lengths_m[i];
+        const double paid_out_m = settings_.elastic ? rotors_m_[i] : now.lengths_m[i];
+        const double length =
+            drum.growth > 0.0 ? home_lengths_m_[i] + drum.turned_m(paid_out_m - home_lengths_m_[i])
+                              : paid_out_m;
         const double counts = std::round(
             (length * (1.0 + settings_.length_gain_error[i]) + settings_.length_offset_error_m[i]) /
             settings_.metres_per_count);
@@ -358,7 +383,7 @@ double SimulatedPlant::mechanical_energy_j() const noexcept {
     if (settings_.elastic) {
         const StringForces now = string_forces();
         for (std::size_t i = 0; i < kStringCount; ++i) {
-            const double stretch = std::max(0.0, now.lengths_m[i] - rotors_m_[i]);
+            const double stretch = std::max(0.0, now.lengths_m[i] - slack_length_m(i));
             if (!has_bit(broken_, i)) {
                 energy +=
                     0.5 * settings_.string_stiffness_ea_n / now.lengths_m[i] * stretch * stretch;

@@ -11,6 +11,7 @@
 #include "core/motor_calibration.h"
 #include "core/string_calibration.h"
 #include "core/types.h"
+#include "device/drum_winding.h"
 #include "device/simulated_hand.h"
 
 namespace spidar {
@@ -31,6 +32,10 @@ struct PlantSettings {
     bool elastic = true;
     double string_stiffness_ea_n = 3000.0; // k = EA / length
     double string_damping_n_s_m = 0.3;
+    // What a string grows by under 10 N held for ever, relative to its length, and how long that takes. Elastic only.
+    double creep = 0.0; // an estimate for a braid: 0.002
+    double creep_time_s = 60.0;
+    double winding_growth = 0.0;  // DrumWinding::growth; the paper's drums: 0.046
     double rotor_mass_kg = 0.017; // rotor inertia / radius^2
     double coulomb_friction_n = 0.05;
     double viscous_friction_n_s_m = 0.3;
@@ -121,6 +126,11 @@ private:
     void step() noexcept;
     [[nodiscard]] StringForces string_forces() const noexcept;
     void step_rotors(const StringForces &forces) noexcept;
+    void creep(const StringForces &forces) noexcept;
+    // String i without tension.
+    [[nodiscard]] double slack_length_m(std::size_t i) const noexcept {
+        return rotors_m_[i] * (1.0 + crept_[i]);
+    }
     void lay_rotors(std::uint8_t mask) noexcept;
     [[nodiscard]] bool diverged() const noexcept;
 
@@ -132,6 +142,7 @@ private:
 
     // Precomputed.
     StringArray newtons_per_ampere_{};
+    StringArray home_lengths_m_{};    // where nothing is wound off the drums yet
     double current_gain_ = 1.0;       // share of the way to the commanded tension in one step
     double rotor_viscous_gain_ = 1.0; // 1 / (1 + b dt / m)
     double coulomb_speed_change_ = 0.0;
@@ -147,6 +158,7 @@ private:
     StringArray rotor_speeds_m_s_{};
     StringArray commanded_n_{};
     StringArray motor_tensions_n_{}; // after the current lag
+    StringArray crept_{};            // strain
     std::uint64_t steps_ = 0;
     double carry_steps_ = 0.0;
     double energy_to_hand_j_ = 0.0;

@@ -214,7 +214,7 @@ constexpr FaultRow kRows[] = {
     {9, "NaN in a wrench", 1.0, 0.0, nan_wrench},
     {10, "infinity or 1e308 in a wrench", 1.0, 0.0, infinite_wrench},
     {11, "huge finite wrench", 17.0, 0.0, huge_wrench},
-    {12, "wrench step", 25.0, 0.0, wrench_step},
+    {12, "wrench step", 16.0, 0.0, wrench_step},
     {14, "stiffness and damping over their caps", 1.0, 0.0, stiff_contact},
     {38, "wrenches that strings cannot give", 1.0, 0.0, impossible_wrenches},
 };

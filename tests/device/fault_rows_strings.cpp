@@ -73,7 +73,7 @@ Answer jammed_drum(HandFirmness hand) {
 
 Answer broken_string(HandFirmness hand) {
     Answer worst = of_each_string(hand, SimulatedFault::broken_string);
-    CHECK(worst.response_ms <= 150.0);
+    CHECK(worst.response_ms <= 100.0);
     const Answer slipped = of_each_string(hand, SimulatedFault::slipped_string);
     worst.response_ms = slipped.response_ms < 0.0
                             ? slipped.response_ms
@@ -187,11 +187,11 @@ Answer impossible_lengths(HandFirmness) {
 }
 
 constexpr FaultRow kRows[] = {
-    {18, "stuck encoder", 400.0, 0.0, stuck_encoder},
+    {18, "stuck encoder", 100.0, 0.0, stuck_encoder},
     {19, "reversed or swapped strings", 2500.0, 0.0, wrong_wiring},
-    {20, "jammed drum: slack or caught string", 250.0, 0.0, jammed_drum},
+    {20, "jammed drum: slack or caught string", 100.0, 0.0, jammed_drum},
     {21, "broken or slipped string", 1000.0, 0.0, broken_string},
-    {22, "lengths that no pose has", 20.0, 0.0, impossible_lengths},
+    {22, "lengths that no pose has", 16.0, 0.0, impossible_lengths},
     {36, "zero taken 30 mm beside home", 2500.0, 0.0, not_at_home},
 };
 

@@ -117,9 +117,3 @@ TEST_CASE("rigid device: a grasp torque is left out, flagged with its own status
     rig.run(plant, 100);
     CHECK(rig.step.snapshot().tension_status != Status::grasp_unavailable);
 }
-
-TEST_CASE("rigid device: the simulated device has eyelets and says so of pulleys") {
-    PlantSettings settings;
-    settings.frame.pulley_radius_m = 0.004;
-    CHECK(validate(settings).find("pulley_radius_m") == 0);
-}

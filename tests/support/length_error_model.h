@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/calibration/string_scale_fit.h"
+#include "device/drum_winding.h"
 #include "support/motion_samples.h"
 
 namespace spidar::test {
@@ -28,7 +29,6 @@ struct LengthErrors {
 };
 
 inline constexpr double kTurn_m = 0.05; // 2 pi * 8 mm
-inline constexpr double kFullWrap_m = 0.7;
 inline constexpr double kCreepTension_n = 10.0;
 
 class StringModel {
@@ -80,10 +80,9 @@ public:
             zero_m_ = unstretched;
             zeroed_ = true;
         }
-        // Paid out since the zero: the drum shrinks as string leaves it, m = s c - k s^2 c^2 / 2.
+        // Paid out since the zero: the drum shrinks as string leaves it.
         const double wound = unstretched - zero_m_ + lay(unstretched);
-        const double k = errors_.build_up / kFullWrap_m;
-        const double paid_out = 2.0 * wound / (1.0 + std::sqrt(1.0 - 2.0 * k * wound));
+        const double paid_out = DrumWinding{errors_.build_up}.turned_m(wound);
         return static_cast<std::int32_t>(std::lround(paid_out / scale_));
     }
 

@@ -17,7 +17,8 @@ static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: 
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
-static_assert(count_members<ServoSettings>() == 12, "ServoSettings changed: list its fields here");
+static_assert(count_members<LengthCorrections>() == 6, "LengthCorrections changed: list them");
+static_assert(count_members<ServoSettings>() == 13, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
 void for_each_field(Settings &settings, Visit &&visit) requires
@@ -41,6 +42,13 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit_array("strings.offset_m", settings.strings.offset_m, visit);
     visit_array("strings.scale_m_per_count", settings.strings.scale_m_per_count, visit);
     visit_array("strings.zero_count", settings.strings.zero_count, visit);
+    auto &corrections = settings.corrections;
+    visit_array("corrections.winding_curvature_1_m", corrections.winding_curvature_1_m, visit);
+    visit_array("corrections.axial_stiffness_n", corrections.axial_stiffness_n, visit);
+    visit_array("corrections.hidden_length_m", corrections.hidden_length_m, visit);
+    visit("corrections.pulley_radius_m", 0, corrections.pulley_radius_m);
+    visit_vector("corrections.swivel_axis", 0, corrections.swivel_axis, visit);
+    visit_array("corrections.calibration_tension_n", corrections.calibration_tension_n, visit);
     visit_array("motors.effective_radius_m", settings.motors.effective_radius_m, visit);
     visit_array("motors.torque_constant_nm_a", settings.motors.torque_constant_nm_a, visit);
     visit_array("motors.tension_gain", settings.motors.tension_gain, visit);

@@ -1,0 +1,29 @@
+// Counts -> lengths in the servo loop, with what the calibration knows of
+// winding and stretch. The stretch follows the commanded tensions slowly: it
+// takes the sag out of a held force, and adds nothing to the loop that keeps a
+// wall still.
+#pragma once
+
+#include "core/calibration/length_corrections.h"
+
+namespace spidar {
+
+class LengthCorrection {
+public:
+    void configure(const StringCalibration &strings, const LengthCorrections &corrections) noexcept;
+    void set_zero(const CountArray &counts) noexcept { strings_.zero_count = counts; }
+
+    // Once a cycle. tensions_n: commanded in the last one. True when the lengths
+    // of unchanged counts change.
+    bool follow(const StringArray &tensions_n, double dt_s) noexcept;
+    [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
+
+private:
+    StringCalibration strings_{};
+    LengthCorrections corrections_{};
+    bool wound_ = false;
+    bool stretched_ = false;
+    StringArray tensions_n_{}; // followed
+};
+
+} // namespace spidar
