@@ -121,7 +121,7 @@ func _ready() -> void:
 	_spidar.released.connect(func() -> void: _attempt_open = false)
 	if arguments.scripted() and DisplayServer.get_name() == "headless" and not arguments.display:
 		_hud.mode = Hud.Mode.OFF # Nobody is there to read it.
-	_hud.setup(_spidar, _tool_hand, GOALS[task_name()])
+	_hud.setup(_spidar, _tool_hand, GOALS.get(task_name(), ""))
 	_controls.setup(_spidar, _hud, _mouse_hand, settings, task_name())
 	_controls.restart_wanted.connect(_restart)
 	_controls.leave_wanted.connect(left.emit)
