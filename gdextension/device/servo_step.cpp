@@ -210,7 +210,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         return hold_pretension(dt_s);
     }
     if (!on) {
-        settled_ = true;
+        settled_ = snapshot_.tensions_n == StringArray{}; // as in the cycle before
         clear_outputs();
         return {};
     }
