@@ -2,6 +2,7 @@
 // switch the motors off. Each part has a file of its own.
 #pragma once
 
+#include "device/bounce_monitor.h"
 #include "device/device_event.h"
 #include "device/hand_presence.h"
 #include "device/shake_monitor.h"
@@ -30,6 +31,7 @@ public:
         bool moved = false;       // with another pose
         bool motors_on = false;
         bool rendering = false; // a wrench is asked for
+        Wrench contact_push{};  // the part of it that contacts ask for
     };
 
     Status configure(const ServoSettings &settings) noexcept;
@@ -61,6 +63,7 @@ private:
     SafetySettings safety_{};
     SpeedGuard speed_;
     ShakeMonitor shake_;
+    BounceMonitor bounce_;
     StringMonitor strings_;
     ThermalBudget heat_;
     WorkspaceGuard workspace_;
