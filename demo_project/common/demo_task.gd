@@ -18,6 +18,14 @@ const DROP_HEIGHT_M := 0.015
 const HOME_ABOVE_TABLE_M := 0.12
 ## Everything must stay placed for this long.
 const DWELL_S := 0.5
+## What there is to do, by task_name(): told by the help and by an experiment.
+const GOALS: Dictionary[String, String] = {
+	"pick_and_place": "Put each thing on the outline of its own shape and colour.",
+	"robot_linking": "Build the robot: each part snaps in where its ghost is.",
+	"match_linking": "Link the matches into the shape shown.",
+	"free_play": "Touch, hold and lift what is there.",
+	"": "Touch a block and close on it, or choose in the menu.",
+}
 
 var arguments := PlayArguments.new()
 var settings := DemoSettings.new()
@@ -113,7 +121,7 @@ func _ready() -> void:
 	_spidar.released.connect(func() -> void: _attempt_open = false)
 	if arguments.scripted() and DisplayServer.get_name() == "headless" and not arguments.display:
 		_hud.mode = Hud.Mode.OFF # Nobody is there to read it.
-	_hud.setup(_spidar, _tool_hand)
+	_hud.setup(_spidar, _tool_hand, GOALS.get(task_name(), ""))
 	_controls.setup(_spidar, _hud, _mouse_hand, settings, task_name())
 	_controls.restart_wanted.connect(_restart)
 	_controls.leave_wanted.connect(left.emit)

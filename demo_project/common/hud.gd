@@ -41,9 +41,10 @@ var _result := ""
 @onready var _help: Control = %Help
 
 
-func setup(spidar: SpidarG, tool_hand: SpidarGHand) -> void:
+func setup(spidar: SpidarG, tool_hand: SpidarGHand, goal: String) -> void:
 	_spidar = spidar
 	_tool_hand = tool_hand
+	(%Help.get_node(^"Rows/Heading") as Label).text = goal
 	process_mode = Node.PROCESS_MODE_ALWAYS # A pause has to be told, too.
 	if spidar.config != null:
 		_dial.band_from_rad = spidar.config.grasp_enter_angle
@@ -52,7 +53,11 @@ func setup(spidar: SpidarG, tool_hand: SpidarGHand) -> void:
 
 
 func next_mode() -> void:
-	mode = ((mode + 1) % Mode.size()) as Mode
+	show_mode(((mode + 1) % Mode.size()) as Mode)
+
+
+func show_mode(mode_: Mode) -> void:
+	mode = mode_
 	_apply_mode()
 
 

@@ -8,8 +8,13 @@ signal linked(socket: LinkSocket, mate: LinkSocket)
 ## pull_n: the force at which it came off.
 signal unlinked(socket: LinkSocket, mate: LinkSocket, pull_n: float)
 
-## Sums over all sockets of the held body: the stable limit of a request renewed at game rate.
+## Sums over all sockets of the held body. While attracted, the stable limit of a request renewed at game rate; in its seat
+## the body hangs on a spring of the device's own loop, which does not lag.
 const STIFFNESS_N_M := 150.0
+const SPRING_ID := 71
+const TRANSLATION_DOF := 0b111
+## Renewed each frame; a game that hangs lets go.
+const SPRING_S := 0.1
 ## Attraction begins here and is full at FULL_M.
 const CAPTURE_M := 0.012
 const FULL_M := 0.009
@@ -140,6 +145,7 @@ func _on_released(_body: RigidBody3D) -> void:
 			link.lock(self)
 			links.append(link)
 	_latched.clear()
+	_hang_on_seat()
 	_held = null
 
 
@@ -152,6 +158,7 @@ func _on_carrying(delta: float) -> void:
 		var arm := hanging.global_position - _spidar.get_grip_transform().origin
 		var weight := hanging.mass * hanging.get_gravity()
 		_hand.add_load(weight, (arm / _spidar.workspace_scale).cross(weight))
+	_hang_on_seat()
 	if _latched.is_empty():
 		_seated_s = 0.0
 		_caught = wanted
@@ -172,7 +179,8 @@ func _draw(socket: LinkSocket, at: Transform3D) -> void:
 		var far_m := at.origin.distance_to(mate.global_position) / scale_m
 		if far_m <= latch_m and _turn(socket, at, mate) <= latch_rad:
 			_latch(socket, mate)
-		_pull(socket, at, mate, smoothstep(CAPTURE_M, FULL_M, far_m), ATTRACTION_N)
+		if not _latched.has(socket):
+			_pull(socket, at, mate, smoothstep(CAPTURE_M, FULL_M, far_m))
 		return
 	var pull_n := _stiffness() * at.origin.distance_to(mate.global_position) / scale_m
 	if pull_n > RELEASE_N or pull_n > _stiffness() * RELEASE_M:
@@ -181,7 +189,7 @@ func _draw(socket: LinkSocket, at: Transform3D) -> void:
 		_caught = _held.global_transform
 		unlinked.emit(socket, mate, pull_n)
 	else:
-		_pull(socket, at, mate, 1.0, RELEASE_N)
+		_turn_into(socket, at, mate)
 
 
 func _latch(socket: LinkSocket, mate: LinkSocket) -> void:
@@ -198,23 +206,47 @@ func _latch(socket: LinkSocket, mate: LinkSocket) -> void:
 	linked.emit(socket, mate)
 
 
-## What the hand feels of one socket's pull, and what a loose mate feels of it.
-func _pull(
-	socket: LinkSocket, at: Transform3D, mate: LinkSocket, share: float, limit_n: float
-) -> void:
+## What the hand feels of one socket's attraction, and what a loose mate feels of it.
+func _pull(socket: LinkSocket, at: Transform3D, mate: LinkSocket, share: float) -> void:
 	var scale_m := _spidar.workspace_scale
 	var way := (mate.global_position - at.origin) / scale_m
-	var force := (share * _stiffness() * way).limit_length(limit_n)
-	var arm := (at.origin - _spidar.get_grip_transform().origin) / scale_m
-	var moment := arm.cross(force)
-	if not socket.turns_freely:
-		var turn := (mate.global_basis.orthonormalized() * at.basis.orthonormalized().inverse())
-		var rotation_vector := _rotation_vector(turn.get_rotation_quaternion())
-		moment += (share * TURN_STIFFNESS_NM_RAD * rotation_vector).limit_length(TURN_LIMIT_NM)
-	_hand.add_load(force, moment)
+	var force := (share * _stiffness() * way).limit_length(ATTRACTION_N)
+	_hand.add_load(force, _moment(socket, at, mate, force, share))
 	var loose := mate.carrier() as RigidBody3D
 	if loose != null and not loose.freeze and not _is_fixed(loose, _held):
 		loose.apply_force(-force, mate.global_position - loose.global_position)
+
+
+## Of a socket in its seat: what its share of the spring turns the grip with, beside the spring itself.
+func _turn_into(socket: LinkSocket, at: Transform3D, mate: LinkSocket) -> void:
+	var force := _stiffness() * (mate.global_position - at.origin) / _spidar.workspace_scale
+	_hand.add_load(Vector3.ZERO, _moment(socket, at, mate, force, 1.0))
+
+
+func _moment(
+	socket: LinkSocket, at: Transform3D, mate: LinkSocket, force: Vector3, share: float
+) -> Vector3:
+	var arm := (at.origin - _spidar.get_grip_transform().origin) / _spidar.workspace_scale
+	if socket.turns_freely:
+		return arm.cross(force)
+	var turn := (mate.global_basis.orthonormalized() * at.basis.orthonormalized().inverse())
+	var rotation_vector := _rotation_vector(turn.get_rotation_quaternion())
+	return arm.cross(force) + (
+		(share * TURN_STIFFNESS_NM_RAD * rotation_vector).limit_length(TURN_LIMIT_NM)
+	)
+
+
+## The spring to where the grip would be with the sockets in their seats, in the servo loop: renewed at game rate it came
+## two frames late, 0.1 N too weak on the way out and too strong on the way back.
+func _hang_on_seat() -> void:
+	if _latched.is_empty():
+		_spidar.clear_effect(SPRING_ID)
+		return
+	var centre := _spidar.get_grip_transform()
+	centre.origin -= stretch_m() * _spidar.workspace_scale
+	_spidar.set_spring_effect(
+		SPRING_ID, centre, 0.0, STIFFNESS_N_M, 0.0, 0.0, TRANSLATION_DOF, SPRING_S
+	)
 
 
 func _stiffness() -> float:

@@ -54,6 +54,7 @@ func _tell_of(task: DemoTask, report: Dictionary) -> void:
 		"finished": task.is_finished(),
 		"level": task.settings.level,
 		"hud": ((task.get_node(^"Hud") as Hud).mode),
+		"goal": (task.get_node(^"Hud/Screen/Help/Rows/Heading") as Label).text,
 		"hint": (task.get_node(^"Hud/%Hint") as Label).text,
 		"help": (task.get_node(^"Hud/Screen/Help") as Control).visible,
 	})

@@ -13,11 +13,6 @@ const TEXTS: Dictionary[String, String] = {
 	"mouse": "You use mouse and keyboard. H shows the keys.",
 	"mouse_auto": "You use the mouse. Click on a thing to have it picked up, and on its target to have it put there.",
 }
-const TASK_TEXTS: Dictionary[String, String] = {
-	"pick_and_place": "Put each thing on the outline of its own shape and colour.",
-	"robot_linking": "Build the robot: each part snaps in where its ghost is.",
-	"match_linking": "Link the matches into the shape shown.",
-}
 
 var arguments := PlayArguments.new()
 var settings := DemoSettings.new()
@@ -92,7 +87,7 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_screen.show_text(
 				step.task.replace("_", " ").capitalize(),
-				TASK_TEXTS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
+				DemoTask.GOALS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
 				"Start", _next
 			)
 		ExperimentPlan.Kind.BREAK:

@@ -46,8 +46,7 @@ func may_replay() -> bool:
 
 func _ready() -> void:
 	super()
-	_hud.mode = Hud.Mode.OFF
-	_hud.setup(_spidar, _tool_hand)
+	_hud.show_mode(Hud.Mode.OFF)
 	_menu.setup(settings)
 	_menu.chosen.connect(_on_chosen)
 	_menu.applied.connect(_on_applied)

@@ -25,6 +25,8 @@ public:
     // A grasp angle that is not finite changes nothing. dt_s: time since the last call.
     GraspPhase update(double grasp_angle_rad, double dt_s) noexcept;
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
+    // No change of phase is waiting for its dwell.
+    [[nodiscard]] bool settled() const noexcept { return candidate_ == phase_; }
     void reset() noexcept;
 
 private:

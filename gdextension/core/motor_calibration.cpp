@@ -44,18 +44,31 @@ bool in_range(double value, double highest) {
 
 MotorCommand currents_from_tensions(const MotorCalibration &calibration,
                                     const StringArray &tensions_n) noexcept {
-    MotorCommand command;
+    return currents_from_tensions(motor_scale(calibration), tensions_n);
+}
+
+MotorScale motor_scale(const MotorCalibration &calibration) noexcept {
+    MotorScale scale;
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        const double per_ampere = tension_per_ampere(calibration, i);
-        if (!(tensions_n[i] >= 0.0) || !(per_ampere > 0.0)) {
-            continue; // stays 0 A
-        }
-        const double wanted = tensions_n[i] / per_ampere;
-        const double limit = current_limit(calibration, i);
-        if (!(wanted <= limit)) {
-            command.current_limited = true;
-        }
-        command.current_a[i] = wanted <= limit ? wanted : limit;
+        scale.tension_per_ampere_n_a[i] = tension_per_ampere(calibration, i);
+        scale.limit_a[i] = current_limit(calibration, i);
+    }
+    return scale;
+}
+
+MotorCommand currents_from_tensions(const MotorScale &scale,
+                                    const StringArray &tensions_n) noexcept {
+    MotorCommand command;
+    StringArray wanted_a{};
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        wanted_a[i] = tensions_n[i] / scale.tension_per_ampere_n_a[i];
+    }
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        // No tension, or no calibration: 0 A, whatever the division gave.
+        const bool pulls = tensions_n[i] >= 0.0 && scale.tension_per_ampere_n_a[i] > 0.0;
+        const bool within = wanted_a[i] <= scale.limit_a[i];
+        command.current_a[i] = !pulls ? 0.0 : within ? wanted_a[i] : scale.limit_a[i];
+        command.current_limited = command.current_limited || (pulls && !within);
     }
     return command;
 }

@@ -24,8 +24,18 @@ struct MotorCommand {
     bool current_limited = false; // one or more motors at max_current_a
 };
 
+// What currents_from_tensions() makes of a calibration, once: newtons of real tension an ampere gives (0 where the calibration
+// is no positive number) and the current's limit.
+struct MotorScale {
+    StringArray tension_per_ampere_n_a{};
+    StringArray limit_a{};
+};
+[[nodiscard]] MotorScale motor_scale(const MotorCalibration &calibration) noexcept;
+
 // Never NaN, never negative, never above max_current_a: a tension that is not >= 0 gives 0 A.
 [[nodiscard]] MotorCommand currents_from_tensions(const MotorCalibration &calibration,
+                                                  const StringArray &tensions_n) noexcept;
+[[nodiscard]] MotorCommand currents_from_tensions(const MotorScale &scale,
                                                   const StringArray &tensions_n) noexcept;
 // Inverse, for a device model that is handed currents.
 [[nodiscard]] StringArray tensions_from_currents(const MotorCalibration &calibration,

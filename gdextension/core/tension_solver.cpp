@@ -159,13 +159,18 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
         last_result_.skipped = true;
         return last_result_;
     }
-    problem_.matrix = matrix;
+    // Column by column, by vector moves: GCC copies the whole by `rep movs`, which takes a fifth of a warm solve.
+    std::size_t string = 0;
+#pragma GCC unroll 8
+    for (const DofArray &column : matrix.columns) {
+        problem_.matrix.columns[string++] = column;
+    }
+    problem_.matrix.grasp_row_vanishes = matrix.grasp_row_vanishes;
     problem_.wrench = wrench;
     aim();
-    TensionSolution solution;
     // The fast path certifies its answer, so it refuses whatever is not finite.
-    if (solve_fast(problem_, warm_ ? &last_active_ : nullptr, solution)) {
-        return remember(solution);
+    if (solve_fast(problem_, warm_ ? &last_active_ : nullptr, fast_)) {
+        return remember(fast_);
     }
     return update_carefully(wrench);
 }

@@ -112,6 +112,7 @@ private:
     StringArray last_tensions_n_{};
     ActiveSet last_active_{};
     TensionResult last_result_{};
+    TensionSolution fast_{};           // scratch: not cleared for each solve
     std::uint8_t working_mask_ = 0xFF; // strings that are not broken
     bool warm_ = false;                // last_active_ is worth starting from
     bool has_last_ = false;            // last_tensions_n_ is known: the change term counts

@@ -65,6 +65,12 @@ void fill_general(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGe
 WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
                            const GripPose &pose) noexcept {
     WrenchMatrix matrix;
+    set_wrench_matrix(matrix, frame, grip, pose);
+    return matrix;
+}
+
+void set_wrench_matrix(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
+                       const GripPose &pose) noexcept {
     const bool rigid = grip.kind == GripKind::rigid;
     const Vec3 cross = glm::cross(pose.r1_m, pose.r2_m);
     const double area = glm::length(cross);
@@ -78,17 +84,22 @@ WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
     } else {
         fill_crossed(matrix, frame, grip, pose, normal);
     }
-    return matrix;
 }
 
 DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept {
-    DofArray wrench{};
+    Lanes x = both(0.0);
+    Lanes y = both(0.0);
+    Lanes z = both(0.0);
+    double last = 0.0;
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
-        for (std::size_t k = 0; k < wrench.size(); ++k) {
-            wrench[k] += matrix.columns[i][k] * tensions_n[i];
-        }
+        const DofArray &column = matrix.columns[i];
+        const Lanes tension = both(tensions_n[i]);
+        x += Lanes{column[0], column[1]} * tension;
+        y += Lanes{column[2], column[3]} * tension;
+        z += Lanes{column[4], column[5]} * tension;
+        last += column[6] * tensions_n[i];
     }
-    return wrench;
+    return {x[0], x[1], y[0], y[1], z[0], z[1], last};
 }
 
 StringArray apply_transposed(const WrenchMatrix &matrix, const DofArray &rates) noexcept {

@@ -21,6 +21,10 @@ struct WrenchMatrix {
 [[nodiscard]] WrenchMatrix wrench_matrix(const FrameGeometry &frame, const GripGeometry &grip,
                                          const GripPose &pose) noexcept;
 
+// The same in place: no copy of 450 bytes.
+void set_wrench_matrix(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
+                       const GripPose &pose) noexcept;
+
 // A * tensions, in the paper's order (g, not grasp_torque).
 [[nodiscard]] DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept;
 

@@ -338,7 +338,11 @@ void ContactRenderer::integrate(double scale, double dt_s) noexcept {
 int ContactRenderer::report(std::array<ContactReport, kMaxContacts> &reports) const noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
         const Track &track = tracks_[i];
-        reports[i] = {track.plane.id, track.impulse_ns, track.grasp_impulse_nms, track.touching};
+        ContactReport &report = reports[i];
+        report.id = track.plane.id;
+        report.impulse_ns = track.impulse_ns;
+        report.grasp_impulse_nms = track.grasp_impulse_nms;
+        report.touching = track.touching;
     }
     return static_cast<int>(count_);
 }

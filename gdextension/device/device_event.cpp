@@ -109,6 +109,7 @@ const EventDescription &describe(DeviceEventKind kind) noexcept {
 void EventLog::begin_cycle(double time_s) noexcept {
     now_s_ = time_s;
     count_ = 0;
+    silent_ = true;
 }
 
 void EventLog::tell(DeviceEventKind kind, int string, double value) noexcept {
@@ -116,6 +117,7 @@ void EventLog::tell(DeviceEventKind kind, int string, double value) noexcept {
     if (index >= memory_.size()) {
         return;
     }
+    silent_ = false;
     Memory &memory = memory_[index];
     // Faults are latched: each is told at once.
     const bool quiet = memory.told && now_s_ - memory.told_s < kQuiet_s &&

@@ -84,6 +84,8 @@ public:
 
     void begin_cycle(double time_s) noexcept;
     void tell(DeviceEventKind kind, int string = -1, double value = 0.0) noexcept;
+    // Nothing was told in this cycle, not even again.
+    [[nodiscard]] bool silent() const noexcept { return silent_; }
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return {events_.data(), count_};
     }
@@ -98,6 +100,7 @@ private:
     std::size_t count_ = 0;
     std::array<Memory, kDeviceEventKinds> memory_{};
     double now_s_ = 0.0;
+    bool silent_ = true;
 };
 
 } // namespace spidar

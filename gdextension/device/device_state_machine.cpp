@@ -240,6 +240,13 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
     return outcome;
 }
 
+bool DeviceStateMachine::at_rest() const noexcept {
+    const bool wanted = forces_were_enabled_ && !stay_disarmed_;
+    const bool full = tension_scale_ >= 1.0 && wrench_scale_ >= 1.0;
+    return !(arm_pending_s_ > 0.0) && ((state_ == DeviceState::active && wanted && full) ||
+                                       (state_ == DeviceState::connected && !wanted));
+}
+
 bool DeviceStateMachine::motors_on() const noexcept {
     switch (state_) {
     case DeviceState::arming:

@@ -60,6 +60,8 @@ public:
     [[nodiscard]] double scale() const noexcept { return tension_scale_ * wrench_scale_; }
     [[nodiscard]] bool motors_on() const noexcept;
     [[nodiscard]] bool zero_known() const noexcept { return zero_known_; }
+    // The next advance() without an edge, and with forces enabled or not as now, changes nothing.
+    [[nodiscard]] bool at_rest() const noexcept;
     // TAUT, zero taken: the motion of the grip is being checked.
     [[nodiscard]] bool checking_zero() const noexcept {
         return state_ == DeviceState::taut && zero_taken_;

@@ -12,6 +12,13 @@
 
 namespace spidar {
 
+namespace {
+
+// Far under what an encoder count in a second is (m/s, rad/s).
+constexpr double kRest = 1e-10;
+
+} // namespace
+
 Status GripTracker::configure(const ServoSettings &settings) noexcept {
     ForwardKinematics kinematics;
     const Status status = kinematics.configure(settings.frame, settings.grip);
@@ -43,11 +50,37 @@ void GripTracker::set_zero(const CountArray &counts) noexcept {
 }
 
 void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
-    const double alpha = -std::expm1(-cutoff_rad_s_ * dt_s);
+    if (dt_s != filtered_dt_s_) {
+        filtered_dt_s_ = dt_s;
+        filter_share_ = -std::expm1(-cutoff_rad_s_ * dt_s);
+    }
+    const double alpha = filter_share_;
     Twist &twist = grip_.twist;
     twist.linear_m_s += alpha * (raw.linear_m_s - twist.linear_m_s);
     twist.angular_rad_s += alpha * (raw.angular_rad_s - twist.angular_rad_s);
     twist.grasp_rate_rad_s += alpha * (raw.grasp_rate_rad_s - twist.grasp_rate_rad_s);
+}
+
+// The pose did not change: the twist falls to exactly nothing.
+void GripTracker::come_to_rest(double dt_s) noexcept {
+    if (at_rest()) {
+        return;
+    }
+    filter_twist(Twist(), dt_s);
+    const Twist &twist = grip_.twist;
+    const auto rests = [](const Vec3 &v) {
+        return std::abs(v.x) <= kRest && std::abs(v.y) <= kRest && std::abs(v.z) <= kRest;
+    };
+    if (rests(twist.linear_m_s) && rests(twist.angular_rad_s) &&
+        std::abs(twist.grasp_rate_rad_s) <= kRest) {
+        grip_.twist = Twist();
+    }
+}
+
+bool GripTracker::at_rest() const noexcept {
+    const Twist &twist = grip_.twist;
+    return twist.linear_m_s == Vec3(0.0) && twist.angular_rad_s == Vec3(0.0) &&
+           twist.grasp_rate_rad_s == 0.0;
 }
 
 GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged,
@@ -59,7 +92,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
         result.skipped = true;
         since_pose_s_ = 0.0;
         grip_.status = solved_status_;
-        filter_twist(Twist(), dt_s);
+        come_to_rest(dt_s);
         return result;
     }
     const StringArray lengths_m = lengths_of_.lengths(counts);
@@ -111,13 +144,15 @@ void GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
 }
 
 double GripTracker::fastest_point_m_s() const noexcept {
-    double fastest_m_s = 0.0;
-    for (const ContactTarget point :
-         {ContactTarget::centre, ContactTarget::pole1_plus, ContactTarget::pole1_minus,
-          ContactTarget::pole2_plus, ContactTarget::pole2_minus}) {
-        fastest_m_s = std::max(fastest_m_s, glm::length(grip_point_velocity(grip_, point)));
-    }
-    return fastest_m_s;
+    // Both ends of a pole at once: |v + c| and |v - c|, c what its turning adds.
+    const Vec3 &v = grip_.twist.linear_m_s;
+    const auto ends_square = [&](ContactTarget end) {
+        const Vec3 c = grip_point_velocity(grip_, end) - v;
+        return glm::dot(c, c) + 2.0 * std::abs(glm::dot(v, c));
+    };
+    const double pole1 = ends_square(ContactTarget::pole1_plus);
+    const double pole2 = ends_square(ContactTarget::pole2_plus);
+    return std::sqrt(glm::dot(v, v) + std::max(pole1, pole2));
 }
 
 } // namespace spidar

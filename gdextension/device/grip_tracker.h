@@ -35,16 +35,21 @@ public:
     // In the last cycle, unfiltered; nothing when the pose was held or found anew.
     [[nodiscard]] const Displacement &moved() const noexcept { return moved_; }
     [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
+    // The twist is exactly zero.
+    [[nodiscard]] bool at_rest() const noexcept;
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest of P0 and the four pole ends (unit: m/s).
     [[nodiscard]] double fastest_point_m_s() const noexcept;
 
 private:
     void filter_twist(const Twist &raw, double dt_s) noexcept;
+    void come_to_rest(double dt_s) noexcept;
 
     ForwardKinematics kinematics_;
     LengthCorrection lengths_of_;
     double cutoff_rad_s_ = 0.0;
+    double filter_share_ = 0.0; // of a time step of filtered_dt_s_
+    double filtered_dt_s_ = 0.0;
     GripState grip_{};
     Displacement moved_{};
     StringArray lengths_m_{};

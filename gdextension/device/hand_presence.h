@@ -26,12 +26,15 @@ public:
         moved_ = false;
         still_s_ = 0.0;
     }
+    // The pose is that of the last update().
+    void wait(double dt_s) noexcept { still_s_ += dt_s; }
     void update(const GripPose &pose, double dt_s) noexcept {
-        const double moved_m = std::max({glm::distance(pose.position_m, anchor_.position_m),
-                                         glm::distance(pose.r1_m, anchor_.r1_m),
-                                         glm::distance(pose.r2_m, anchor_.r2_m)});
+        const auto square = [](const Vec3 &apart) { return glm::dot(apart, apart); };
+        const double moved_m2 =
+            std::max({square(pose.position_m - anchor_.position_m),
+                      square(pose.r1_m - anchor_.r1_m), square(pose.r2_m - anchor_.r2_m)});
         still_s_ += dt_s;
-        if (known_ && !(moved_m > kMove_m)) {
+        if (known_ && !(moved_m2 > kMove_m * kMove_m)) {
             return;
         }
         moved_ = known_;

@@ -104,9 +104,23 @@ void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {
     snapshot.clamp = last_clamp_;
 }
 
-bool HapticRenderer::idle() const noexcept {
-    return contacts_.empty() && effects_.empty() && !coupling_.live() && !wrench_.live() &&
-           motion_.settled() && controller_.settled();
+bool HapticRenderer::has_seen(const HapticCommand &command) const noexcept {
+    return command.wrench_sequence == wrench_sequence_ &&
+           command.contacts_sequence == contacts_sequence_ &&
+           command.coupling_sequence == coupling_sequence_ &&
+           command.effects_sequence == effects_sequence_;
+}
+
+bool HapticRenderer::at_rest() const noexcept {
+    return contacts_.empty() && effects_.empty() && !coupling_.live() && motion_.settled() &&
+           controller_.settled();
+}
+
+// What is over or empty has an age too: a game that comes back is judged by it.
+void HapticRenderer::wait(double dt_s) noexcept {
+    wrench_.age(dt_s);
+    contacts_.age(dt_s);
+    effects_.age(dt_s);
 }
 
 } // namespace spidar

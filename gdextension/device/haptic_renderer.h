@@ -36,8 +36,15 @@ public:
 
     void report(ServoSnapshot &snapshot) const noexcept;
 
-    // Nothing is asked and nothing moves: render() gives the same again, and changes nothing, until that changes.
-    [[nodiscard]] bool idle() const noexcept;
+    // Nothing new in this command.
+    [[nodiscard]] bool has_seen(const HapticCommand &command) const noexcept;
+    // Nothing but a raw wrench is asked, and nothing moves: while that is steady, render() gives the same again and
+    // changes nothing.
+    [[nodiscard]] bool at_rest() const noexcept;
+    // Of the raw wrench, over the next time step.
+    [[nodiscard]] bool steady(double dt_s) const noexcept { return wrench_.steady(dt_s); }
+    // In place of take(), render() and given(), at rest.
+    void wait(double dt_s) noexcept;
 
 private:
     void note(const GainClamp &clamp, ServoCounters &counters) noexcept;

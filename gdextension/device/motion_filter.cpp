@@ -54,9 +54,12 @@ void MotionFilter::reset() noexcept {
 void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
     const Lanes now{moved.linear_m.x,    moved.linear_m.y,    moved.linear_m.z, moved.angular_rad.x,
                     moved.angular_rad.y, moved.angular_rad.z, moved.grasp_rad,  0.0};
-    const double alpha = -std::expm1(-cutoff_rad_s_ * dt_s);
+    if (dt_s != filtered_dt_s_) {
+        filtered_dt_s_ = dt_s;
+        filter_share_ = -std::expm1(-cutoff_rad_s_ * dt_s);
+    }
+    const double alpha = filter_share_;
     const double per_s = 1.0 / dt_s;
-    bool moving = false;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const double offset =
             c0_ * now[i] + c1_ * moved_[i] - a1_ * offset_[i] - a2_ * last_offset_[i];
@@ -65,7 +68,10 @@ void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
         last_offset_[i] = offset_[i];
         offset_[i] = offset;
         moved_[i] = now[i];
-        moving = moving || std::abs(now[i]) > kRestMove || std::abs(offset) > kRestMove ||
+    }
+    bool moving = false;
+    for (std::size_t i = 0; i < kLanes && !moving; ++i) {
+        moving = std::abs(moved_[i]) > kRestMove || std::abs(offset_[i]) > kRestMove ||
                  std::abs(last_offset_[i]) > kRestMove || std::abs(velocity_[i]) > kRestSpeed;
     }
     settled_ = false;

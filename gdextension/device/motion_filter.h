@@ -46,6 +46,8 @@ private:
     using Lanes = std::array<double, kLanes>;
 
     double cutoff_rad_s_ = 0.0;
+    double filter_share_ = 0.0; // of a time step of filtered_dt_s_
+    double filtered_dt_s_ = 0.0;
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
     // offset = filtered - measured position = (c0 + c1 / z) / (1 + a1 / z + a2 / z^2) moved

@@ -9,6 +9,8 @@ namespace {
 
 // A slow part below this (N, N m) is over: nobody feels it end.
 constexpr double kNoForce = 1e-5;
+// What is stored below this (a millimetre against that force) is forgotten with it.
+constexpr double kNoEnergy_j = 1e-8;
 
 DofGains lanes(const Wrench &w) noexcept {
     return {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
@@ -54,6 +56,9 @@ void PassivityController::reset() noexcept {
 Wrench PassivityController::correct(const Wrench &asked, const Displacement &moved,
                                     const Twist &velocity, double dt_s) noexcept {
     const DofGains force = lanes(asked);
+    if (settled_ && force == DofGains{}) {
+        return asked; // nothing held, nothing stored: motion alone changes nothing
+    }
     const DofGains move = lanes(moved);
     const DofGains speed = lanes(velocity);
     const double blend = dt_s / (dt_s + kSlow_s);
@@ -72,8 +77,8 @@ Wrench PassivityController::correct(const Wrench &asked, const Displacement &mov
             acting_ = acting_ || speed[i] != 0.0;
         }
         changing_[i] = out[i] - slow_[i];
-        moving = moving || force[i] != 0.0 || move[i] != 0.0 || speed[i] != 0.0 ||
-                 std::abs(slow_[i]) > kNoForce;
+        moving = moving || force[i] != 0.0 || std::abs(slow_[i]) > kNoForce ||
+                 std::abs(store_j_[i]) > kNoEnergy_j;
     }
     settled_ = false;
     if (!moving) {

@@ -41,7 +41,7 @@ public:
                    double dt_s) noexcept;
     // Damping of the last cycle was not zero.
     [[nodiscard]] bool acting() const noexcept { return acting_; }
-    // Nothing changes any more while nothing is asked and the grip rests.
+    // Nothing changes any more while nothing is asked, wherever the grip moves.
     [[nodiscard]] bool settled() const noexcept { return settled_; }
 
 private:

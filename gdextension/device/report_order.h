@@ -25,6 +25,11 @@ public:
         }
         return false;
     }
+    // Would this one be accepted with none missing?
+    [[nodiscard]] bool follows(std::uint16_t sequence) const noexcept {
+        const bool unnumbered = sequence == 0 && last_ == 0;
+        return known_ && (unnumbered || static_cast<std::uint16_t>(sequence - last_) == 1);
+    }
     // Lost before the report accepted last.
     [[nodiscard]] int missed() const noexcept { return missed_; }
 

@@ -44,6 +44,12 @@ public:
         heat_.spend(tensions_n, dt_s);
     }
 
+    // Nothing is scaled down, and watch() of the same sample changes nothing but the age of the hand's last move.
+    [[nodiscard]] bool at_rest() const noexcept {
+        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && strings_.settled();
+    }
+    // In place of watch(), at rest.
+    void wait(double dt_s) noexcept { hand_.wait(dt_s); }
     // What is left of the wrench, 0..1. Falls to zero within 20 ms, comes back within 50.
     [[nodiscard]] double wrench_scale() const noexcept { return scale_; }
     // False: the velocity is not to be damped with.

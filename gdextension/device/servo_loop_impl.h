@@ -21,7 +21,6 @@ namespace spidar {
 inline constexpr std::uint64_t kMostCyclesAtOnce = 1'000'000;
 // Measured time steps of real devices stay within these: a wake-up too early or a suspended computer.
 inline constexpr double kShortestStepPart = 0.25; // of the period
-inline constexpr double kLongestStep_s = 0.05;
 inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 // A cycle this late is counted; so many in a hundred are told.
 inline constexpr std::int64_t kLate_ns = 1'000'000;

@@ -49,6 +49,7 @@ struct ServoCounters {
     std::uint64_t ticks = 0;
     std::uint64_t kinematics_skipped = 0; // counts unchanged
     std::uint64_t tension_skipped = 0;    // same pose and request, all settled: the last tensions
+    std::uint64_t steps_skipped = 0;      // at rest, nothing new: the last answer, whole
     std::uint64_t cold_starts = 0;
     std::uint64_t bad_samples = 0; // count jumps and impossible lengths
     std::uint64_t read_timeouts = 0;

@@ -9,10 +9,6 @@ namespace spidar {
 
 namespace {
 
-// Longer steps than this are a suspended computer, not a servo cycle.
-constexpr double kLongestStep_s = 0.05;
-// Shorter ones than any servo has would make speeds without bound out of one encoder count.
-constexpr double kShortestStep_s = 1e-6;
 // The wrench falls to zero in this time when reports fail to come, and returns in that.
 constexpr double kLinkFade_s = 0.020;
 constexpr double kLinkRecovery_s = 0.050;
@@ -52,6 +48,7 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
                            fresh.nominal_dt_s_);
     fresh.grasp_.configure(settings.grasp);
     fresh.renderer_.configure(settings);
+    fresh.motors_ = motor_scale(settings.motors);
     fresh.max_tension_n_ = tension.max_tension_n;
     fresh.machine_.configure(safety.arming_time_s);
     fresh.gate_.configure(limits_n, safety.tension_slew_n_per_ms);
@@ -63,6 +60,7 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
 void ServoStep::acknowledge(const HapticCommand &command) noexcept {
     take_edges(command);
     renderer_.acknowledge(command);
+    resting_ = false;
 }
 
 ServoStep::Edges ServoStep::take_edges(const HapticCommand &command) noexcept {
@@ -212,6 +210,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         return hold_pretension(dt_s);
     }
     if (!on) {
+        settled_ = snapshot_.tensions_n == StringArray{}; // as in the cycle before
         clear_outputs();
         return {};
     }
@@ -220,7 +219,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         motors_were_on_ = true;
     }
     if (!matrix_valid_) {
-        matrix_ = wrench_matrix(settings_.frame, settings_.grip, tracker_.grip().pose);
+        set_wrench_matrix(matrix_, settings_.frame, settings_.grip, tracker_.grip().pose);
         matrix_valid_ = true;
     }
     // The ramp scales the tensions, not the request: pretension and wrench rise together, and A (ramp tau) is
@@ -235,6 +234,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     if (gate.slewed && ramp >= 1.0) {
         solver_.set_last_tensions(gate.tensions_n);
     }
+    settled_ = result.skipped && !gate.slewed && !gate.clamped;
     snapshot_.counters.slewed_ticks += gate.slewed ? 1U : 0U;
     if (gate.clamped) {
         ++snapshot_.counters.gate_clamps;
@@ -242,7 +242,8 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     }
     monitor_.spend(gate.tensions_n, dt_s);
     snapshot_.counters.tension_skipped += result.skipped ? 1U : 0U;
-    snapshot_.counters.saturated_ticks += result.status == Status::wrench_limited ? 1U : 0U;
+    saturated_ = result.status == Status::wrench_limited;
+    snapshot_.counters.saturated_ticks += saturated_ ? 1U : 0U;
     snapshot_.tensions_n = gate.tensions_n;
     snapshot_.requested = ramp * full;
     snapshot_.achieved = from_paper(spidar::apply(matrix_, gate.tensions_n));
@@ -273,6 +274,11 @@ void ServoStep::publish_state() noexcept {
 DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
                              const HapticCommand &command, double dt_s,
                              bool may_arm_itself) noexcept {
+    if (resting_ && may_rest(read_status, reading, command, dt_s, may_arm_itself)) {
+        rest(reading, command, dt_s);
+        return last_drive_;
+    }
+    resting_ = false;
     simulated_ = may_arm_itself;
     fresh_ = false;
     moved_ = false;
@@ -311,6 +317,10 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
     DriveCommand output = drive(dt_s);
     output.clear_faults = edges.clear_fault && !output.motors_on;
     publish_state();
+    if (fresh_ && !moved_ && comes_to_rest(edges)) {
+        resting_ = true;
+        last_drive_ = output;
+    }
     return output;
 }
 
@@ -319,6 +329,7 @@ void ServoStep::report_write(Status write_status) noexcept {
         return;
     }
     ++snapshot_.counters.write_failures;
+    resting_ = false;
     lose(write_status);
     tracking_ = false;
     clear_outputs();

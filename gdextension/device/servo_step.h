@@ -19,6 +19,14 @@
 
 namespace spidar {
 
+// Longer steps than this are a suspended computer, not a servo cycle.
+inline constexpr double kLongestStep_s = 0.05;
+// Shorter ones than any servo has would make speeds without bound out of one encoder count.
+inline constexpr double kShortestStep_s = 1e-6;
+
+// A device clock that went back by more than this is not a late report but a new start.
+inline constexpr std::uint64_t kClockBack_us = 50'000;
+
 // Everything that evolves from tick to tick lives in here.
 class ServoStep {
 public:
@@ -36,8 +44,12 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
-    // The next step skips no solve of tensions. It changes no output, only counters().tension_skipped.
-    void forget_settled() noexcept { solver_.forget_settled(); }
+    // The next step skips nothing but kinematics. It changes no output, only the counters tension_skipped and
+    // steps_skipped.
+    void forget_settled() noexcept {
+        solver_.forget_settled();
+        resting_ = false;
+    }
 
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
@@ -68,6 +80,12 @@ private:
     void tell_fault(Status why, int string) noexcept;
     void raise(Status why, int string) noexcept;
     void lose(Status why) noexcept;
+    // servo_step_rest.cpp: would the next step give what the last one gave?
+    [[nodiscard]] bool comes_to_rest(const Edges &edges) const noexcept;
+    [[nodiscard]] bool may_rest(Status read_status, const DeviceReading &reading,
+                                const HapticCommand &command, double dt_s,
+                                bool may_arm_itself) const noexcept;
+    void rest(const DeviceReading &reading, const HapticCommand &command, double dt_s) noexcept;
     DriveCommand drive(double dt_s) noexcept;
     DriveCommand hold_pretension(double dt_s) noexcept;
     [[nodiscard]] DriveCommand command_for(const StringArray &tensions_n) const noexcept;
@@ -79,6 +97,7 @@ private:
     ServoSettings settings_{};
     double nominal_dt_s_ = 0.001;
     double max_tension_n_ = 0.0;
+    MotorScale motors_;
     SampleGuard guard_;
     GripTracker tracker_;
     GraspDetector grasp_;
@@ -99,6 +118,11 @@ private:
     bool fresh_ = false;     // a good sample in this cycle
     bool moved_ = false;     // with another pose
     bool rendering_ = false; // a wrench was asked for in the last cycle
+    bool resting_ = false;   // all that evolves in time stands still
+    bool settled_ = false;   // the last tensions were the ones before, unlimited
+    bool saturated_ = false; // and limited by strings at a bound
+    bool forces_enabled_ = false;
+    DriveCommand last_drive_; // valid while resting_
     bool simulated_ = false;
     bool device_zeroed_ = true; // as the device said last
     DeviceState told_state_ = DeviceState::closed;

@@ -7,9 +7,6 @@ namespace spidar {
 
 namespace {
 
-// A device clock that went back by more than this is not a late report but a new start.
-constexpr std::uint64_t kClockBack_us = 50'000;
-
 DeviceEventKind kind_of(Status fault) noexcept {
     switch (fault) {
     case Status::read_timeout:
@@ -178,6 +175,7 @@ void ServoStep::take_zero(const CountArray &counts) noexcept {
 void ServoStep::advance_state(const HapticCommand &command, const Edges &edges,
                               const DeviceReading &reading, double dt_s) noexcept {
     since_beat_s_ = edges.heartbeat ? 0.0 : std::min(1e6, since_beat_s_ + dt_s);
+    forces_enabled_ = command.forces_enabled;
     DeviceStateMachine::Inputs inputs;
     inputs.forces_enabled = command.forces_enabled;
     inputs.arm = edges.arm;
@@ -234,7 +232,7 @@ DriveCommand ServoStep::hold_pretension(double dt_s) noexcept {
 DriveCommand ServoStep::command_for(const StringArray &tensions_n) const noexcept {
     DriveCommand command;
     command.motors_on = true;
-    command.currents_a = currents_from_tensions(settings_.motors, tensions_n).current_a;
+    command.currents_a = currents_from_tensions(motors_, tensions_n).current_a;
     for (std::size_t i = 0; i < tensions_n.size(); ++i) {
         command.tensions_n[i] = tensions_n[i] / settings_.motors.tension_gain[i];
     }

@@ -22,6 +22,10 @@ constexpr double kHandMotion_s = 0.012;
 // The forces come back to full within this, once the grip is calm.
 constexpr double kRecovery_s = 1.0;
 constexpr double kLeastScale = 0.25;
+// Of a grip at rest: so little is nothing.
+constexpr double kStill_m_s = 1e-9;
+// A swing so long ago is no longer in a row.
+constexpr double kLongAgo_s = 2.0 * kLongestHalfPeriod_s;
 
 } // namespace
 
@@ -45,7 +49,10 @@ void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexc
     for (std::size_t k = 0; k < channels_.size(); ++k) {
         Channel &channel = channels_[k];
         channel.slow += gain * (speeds[k] - channel.slow);
-        channel.since_s += dt_s;
+        if (speeds[k] == 0.0 && std::abs(channel.slow) < kStill_m_s) {
+            channel.slow = 0.0;
+        }
+        channel.since_s = std::min(kLongAgo_s, channel.since_s + dt_s);
         const double swing = speeds[k] - channel.slow;
         if (!(std::abs(swing) >= kSwing_m_s)) {
             continue;
@@ -75,6 +82,14 @@ void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexc
         scale_ = std::min(1.0, scale_ + dt_s / kRecovery_s);
         unstable_ = false;
     }
+}
+
+bool ShakeMonitor::settled() const noexcept {
+    bool still = scale_ >= 1.0 && !unstable_;
+    for (const Channel &channel : channels_) {
+        still = still && channel.slow == 0.0 && channel.since_s >= kLongAgo_s;
+    }
+    return still;
 }
 
 } // namespace spidar

@@ -23,6 +23,9 @@ public:
     // Largest swing of the shaking that was found last (unit: m/s at the pole ends).
     [[nodiscard]] double swing_m_s() const noexcept { return swing_m_s_; }
 
+    // Full scale, and nothing changes any more while the grip rests.
+    [[nodiscard]] bool settled() const noexcept;
+
     static constexpr double kCalm_s = 2.0;
 
 private:

@@ -32,7 +32,9 @@ public:
     }
 
     // Half a step of slack: sums of time steps carry rounding.
-    [[nodiscard]] bool fast(double dt_s) const noexcept { return fast_s_ + 0.5 * dt_s >= kHold_s; }
+    [[nodiscard]] bool fast(double dt_s) const noexcept {
+        return fast_s_ > 0.0 && fast_s_ + 0.5 * dt_s >= kHold_s;
+    }
     [[nodiscard]] bool too_fast() const noexcept { return too_fast_; }
 
 private:

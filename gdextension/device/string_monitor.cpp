@@ -1,5 +1,6 @@
 #include "device/string_monitor.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spidar {
@@ -8,6 +9,8 @@ namespace {
 
 // The parity error that is usual at a place changes over centimetres of motion: tenths of a second.
 constexpr double kUsual_s = 0.15;
+// Nearer than this to the usual it is the usual.
+constexpr double kSame_m = 1e-9;
 // A disagreement that stays this long is no disturbance.
 constexpr double kSuspicion_s = 0.100;
 constexpr double kLarge_s = 0.050;
@@ -104,7 +107,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
             still = {counts[i], parity_m, 0.0};
             continue;
         }
-        still.still_s += dt_s;
+        still.still_s = std::min(kStill_s, still.still_s + dt_s);
         if (still.still_s >= kStill_s && parity_m - still.parity_m > kStuckParity_m + stretch_m) {
             stuck = static_cast<int>(i);
         }
@@ -121,12 +124,20 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         string_ = stuck;
     }
     if (!(suspicious_s_ > 0.0)) {
-        usual_m_ = rise_m < 0.0 ? parity_m : usual_m_ + rise_m * (dt_s / (dt_s + kUsual_s));
+        usual_m_ = rise_m < kSame_m ? parity_m : usual_m_ + rise_m * (dt_s / (dt_s + kUsual_s));
     }
     large_s_ = parity_m > fault_m_ + stretch_m ? large_s_ + dt_s : 0.0;
     above_s_ = parity_m > fade_m_ + stretch_m ? above_s_ + dt_s : 0.0;
     faulty_ =
         faulty_ || above_s_ >= kAbove_s || suspicious_s_ >= kSuspicion_s || large_s_ >= kLarge_s;
+}
+
+bool StringMonitor::settled() const noexcept {
+    const bool calm = started_ && !faulty_ && named_.fault == StringFault::none &&
+                      suspicious_s_ == 0.0 && large_s_ == 0.0 && above_s_ == 0.0 &&
+                      usual_m_ == parity_m_;
+    return calm && std::all_of(still_.begin(), still_.end(),
+                               [](const Still &still) { return still.still_s >= kStill_s; });
 }
 
 } // namespace spidar

@@ -26,6 +26,8 @@ public:
     [[nodiscard]] bool faulty() const noexcept { return faulty_; }
     // What the observer found; fault none while it is not sure or the error is small.
     [[nodiscard]] const FaultEvidence &named() const noexcept { return named_; }
+    // No suspicion, and nothing changes any more while the counts stay.
+    [[nodiscard]] bool settled() const noexcept;
     // 0-7: the string that stands still or that the observer names; -1 when not known.
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double parity_m() const noexcept { return parity_m_; }

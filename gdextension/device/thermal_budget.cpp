@@ -13,15 +13,17 @@ void ThermalBudget::configure(const SafetySettings &safety) noexcept {
 
 void ThermalBudget::spend(const StringArray &tensions_n, double dt_s) noexcept {
     const double gain = std::min(1.0, dt_s * rate_1_s_);
-    warmest_ = 0.0;
     for (std::size_t i = 0; i < heat_.size(); ++i) {
         const double square = tensions_n[i] * tensions_n[i] * share_per_n2_;
         heat_[i] += gain * ((square < 1e6 ? square : 0.0) - heat_[i]); // NaN and nonsense: no heat
-        if (heat_[i] > warmest_) {
-            warmest_ = heat_[i];
-            string_ = static_cast<int>(i);
-        }
     }
+    const auto &h = heat_;
+    warmest_ = std::max(std::max(std::max(h[0], h[1]), std::max(h[2], h[3])),
+                        std::max(std::max(h[4], h[5]), std::max(h[6], h[7])));
+}
+
+int ThermalBudget::warmest_string() const noexcept {
+    return static_cast<int>(std::max_element(heat_.begin(), heat_.end()) - heat_.begin());
 }
 
 double ThermalBudget::scale() const noexcept {

@@ -15,7 +15,7 @@ public:
 
     // Share of the warmest motor's budget that is spent: 1 = as warm as it may be.
     [[nodiscard]] double spent() const noexcept { return warmest_; }
-    [[nodiscard]] int warmest_string() const noexcept { return string_; }
+    [[nodiscard]] int warmest_string() const noexcept;
     // 1 up to kDerateFrom of the budget, then down to 0 at all of it, in a straight line.
     [[nodiscard]] double scale() const noexcept;
 
@@ -26,7 +26,6 @@ private:
     double share_per_n2_ = 0.0;
     double rate_1_s_ = 0.0;
     double warmest_ = 0.0;
-    int string_ = 0;
 };
 
 } // namespace spidar

@@ -50,6 +50,9 @@ Wrench WorkspaceGuard::wall(const GripState &grip) const noexcept {
 }
 
 double WorkspaceGuard::scale(const GripState &grip) noexcept {
+    if (grip.conditioning >= kFadeFromPivot) {
+        return 1.0;
+    }
     const double scale = (grip.conditioning - kFadedPivot) / (kFadeFromPivot - kFadedPivot);
     return scale >= 0.0 ? std::min(1.0, scale) : 0.0; // NaN: 0
 }

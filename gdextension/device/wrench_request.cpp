@@ -22,18 +22,22 @@ double factor_for(const Vec3 &v, double limit) noexcept {
     return std::min(1.0, factor);
 }
 
+// So far inside a limit that rounding cannot matter.
+constexpr double kWellWithin = 1.0 - 1e-12;
+
+bool well_within(const Vec3 &v, double limit) noexcept {
+    return v.x * v.x + v.y * v.y + v.z * v.z <= kWellWithin * (limit * limit);
+}
+
 } // namespace
 
-Wrench operator+(const Wrench &a, const Wrench &b) noexcept {
-    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm,
-            a.grasp_torque_nm + b.grasp_torque_nm};
-}
-
-Wrench operator*(double factor, const Wrench &wrench) noexcept {
-    return {factor * wrench.force_n, factor * wrench.moment_nm, factor * wrench.grasp_torque_nm};
-}
-
 double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept {
+    // The usual case, without a root or a division; NaN and overflow fail it.
+    if (well_within(wrench.force_n, safety.max_force_n) &&
+        well_within(wrench.moment_nm, safety.max_moment_nm) &&
+        std::abs(wrench.grasp_torque_nm) <= kWellWithin * safety.max_grasp_torque_nm) {
+        return 1.0;
+    }
     const double factor =
         std::min({factor_for(wrench.force_n, safety.max_force_n),
                   factor_for(wrench.moment_nm, safety.max_moment_nm),

@@ -6,8 +6,13 @@
 
 namespace spidar {
 
-[[nodiscard]] Wrench operator+(const Wrench &a, const Wrench &b) noexcept;
-[[nodiscard]] Wrench operator*(double factor, const Wrench &wrench) noexcept;
+[[nodiscard]] inline Wrench operator+(const Wrench &a, const Wrench &b) noexcept {
+    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm,
+            a.grasp_torque_nm + b.grasp_torque_nm};
+}
+[[nodiscard]] inline Wrench operator*(double factor, const Wrench &wrench) noexcept {
+    return {factor * wrench.force_n, factor * wrench.moment_nm, factor * wrench.grasp_torque_nm};
+}
 
 // The factor (0..1] that brings force, moment and grasp torque inside their limits. One factor for all seven
 // DOF: the direction of the wrench is kept. Holds for every finite wrench, 1e308 too; 0 for one that is not.
@@ -21,7 +26,10 @@ public:
     // Once a cycle, before accept(). True in the cycle in which the request ends.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench value() const noexcept;
-    [[nodiscard]] bool live() const noexcept { return live_; }
+    // Not asked for, or still in full after this time step.
+    [[nodiscard]] bool steady(double dt_s) const noexcept {
+        return !live_ || age_s_ + dt_s <= duration_s_;
+    }
 
 private:
     SafetySettings safety_{};

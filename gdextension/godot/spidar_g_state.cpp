@@ -201,6 +201,7 @@ godot::Dictionary SpidarG::get_statistics() const {
     statistics["ticks"] = whole(count.ticks);
     statistics["kinematics_skipped"] = whole(count.kinematics_skipped);
     statistics["tension_skipped"] = whole(count.tension_skipped);
+    statistics["steps_skipped"] = whole(count.steps_skipped);
     statistics["cold_starts"] = whole(count.cold_starts);
     statistics["bad_samples"] = whole(count.bad_samples);
     statistics["read_timeouts"] = whole(count.read_timeouts);

@@ -97,6 +97,8 @@ BARS = (
     ("tensions, S3 cold / DAQP", 0.11, to_daqp("tension", "ours", "S3", "cold")),
     ("whole servo step, 4 contacts / DAQP's warm solve alone", 0.7,
      to_daqp("step", "step, wrench and 4 contacts", "step", "moving")),
+    ("step at rest with nothing new / whole step, 4 contacts", 0.1,
+     to_method("step", "step, nothing asked", "step", "at rest", "step, wrench and 4 contacts", "moving")),
 )
 
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""The add-on in a real editor: run_view_tests.py GODOT [--actions N] [--seed S] [--part view|idle|actions] [--display]
+"""The add-on in a real editor: run_view_tests.py GODOT [--actions N] [--seed S] [--part view|idle|actions|mouse] [--display]
 
-The 3-D view's checks, what an idle editor pays, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a
-handle, save, close and open scenes, switch the plugin off and on, close and open the project. Fails on a failed
-check, an error, a crash, a servo thread in the editor or an object left behind. The seed is printed: --seed S repeats a
-run. The last line is "N passed, N failed".
+Part mouse drags the handles with a real mouse on $DISPLAY. The others need no display: the 3-D view's checks, what an
+idle editor pays, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a handle,
+save, close and open scenes, switch the plugin off and on, close and open the project. Fails on a failed check, an error,
+a crash, a servo thread in the editor or an object left behind. The seed is printed: --seed S repeats a run. The last
+line is "N passed, N failed".
 """
 
 import argparse
@@ -13,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -23,6 +25,7 @@ SOURCE = os.path.join(HERE, "view")
 PROJECT = os.path.join(os.path.dirname(os.path.dirname(HERE)), "build", "editor", "view")
 SCENES = {"stage.tscn": "Stage", "second.tscn": "Second"}
 TIME_LIMIT_S = 600
+DISPLAYED = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"]
 # What an editor without a display says of itself.
 NOT_OURS = re.compile(r"VK_KHR|V-Sync|vulkan|RID allocations|XDG_|could not be found|Audio")
 ERRORS = re.compile(r"^(?:SCRIPT )?ERROR:.*(?:\n +.*)*", re.M)
@@ -40,7 +43,7 @@ def copy_project():
 
 def edit(godot, *arguments):
     """The editor with the driver's script: what it printed, its exit code. With a display it is shown there."""
-    display = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if "DISPLAY" in os.environ else ["--headless"]
+    display = DISPLAYED if "DISPLAY" in os.environ else ["--headless"]
     command = [godot, *display, "--verbose", "--editor", "--path", PROJECT, "--", *arguments]
     try:
         done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace", stdin=subprocess.DEVNULL,
@@ -70,6 +73,48 @@ def checks(godot, script):
     for problem in problems:
         print(problem)
     return passed, max(failed, len(problems))
+
+
+def xdotool(*words):
+    subprocess.run(["xdotool", *[str(word) for word in words]], check=True, timeout=60)
+
+
+def drag(x, y, to_x, to_y):
+    """With a real mouse, slowly: a busy editor must see where it was pressed."""
+    xdotool("mousemove", x, y, "sleep", 1.0, "mousedown", 1, "sleep", 0.5)
+    for step in range(1, 11):
+        xdotool("mousemove", x + (to_x - x) * step // 10, y + (to_y - y) * step // 10, "sleep", 0.1)
+    xdotool("sleep", 0.5, "mouseup", 1)
+
+
+def mouse_drags(godot, *pictures):
+    """The handles under a real mouse: needs a display and xdotool. (passed, failed)"""
+    told = subprocess.run(["xdotool", "getdisplaygeometry"], check=True, text=True, capture_output=True).stdout
+    command = [godot, *DISPLAYED, "--editor", "--path", PROJECT, "--position", "0,0",
+               "--resolution", "x".join(told.split()), "--", "mouse_drag", *pictures]
+    counts, problems = [], []
+    with subprocess.Popen(command, text=True, errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT) as editor:
+        stop = threading.Timer(TIME_LIMIT_S, editor.kill)
+        stop.start()
+        for line in editor.stdout:
+            words = line.split()
+            if words[:1] == ["MOVE"]:
+                x, y = [int(word) for word in words[1:]]
+                xdotool("search", "--onlyvisible", "--name", "spidar_g in the editor", "windowfocus")
+                xdotool("mousemove", x + 30, y + 30, "sleep", 1.0, "mousemove", x, y)
+            elif words[:1] == ["DRAG"]:
+                drag(*[int(word) for word in words[1:]])
+            elif words[:1] == ["KEY"]:
+                xdotool("key", words[1])
+            elif words[:1] == ["FAIL"] or "SCRIPT ERROR" in line:
+                problems.append(line.strip())
+            counts = COUNTS.findall(line) or counts
+        stop.cancel()
+    for problem in problems:
+        print(problem)
+    passed, failed = (int(n) for n in counts[-1]) if counts else (0, 1)
+    return passed, max(failed, len(problems), editor.returncode != 0)
 
 
 def random_actions(godot, count, seed):
@@ -103,10 +148,11 @@ def main():
     options.add_argument("godot")
     options.add_argument("--actions", type=int, default=200)
     options.add_argument("--seed", type=int, default=int(time.time()) % 1000000)
-    options.add_argument("--part", choices=("view", "idle", "actions"))
+    options.add_argument("--part", choices=("view", "idle", "actions", "mouse"))
+    options.add_argument("--pictures", nargs=2, default=(), metavar="FILE", help="of the mouse part: editor and view")
     options.add_argument("--display", action="store_true", help="use $DISPLAY in place of --headless")
     chosen = options.parse_args()
-    if not chosen.display:
+    if not chosen.display and chosen.part != "mouse":
         os.environ.pop("DISPLAY", None)
     copy_project()
     prepare_project(PROJECT, chosen.godot)
@@ -116,6 +162,9 @@ def main():
             good, bad = checks(chosen.godot, script)
             print(f"{script}: {good} checks, {bad} failed")
             passed, failed = passed + good, failed + bad
+    if chosen.part == "mouse":
+        passed, failed = mouse_drags(chosen.godot, *[os.path.abspath(file) for file in chosen.pictures])
+        print(f"mouse_drag: {passed} checks, {failed} failed")
     if chosen.part in (None, "actions"):
         good, bad = random_actions(chosen.godot, chosen.actions, chosen.seed)
         passed, failed = passed + good, failed + bad

@@ -168,7 +168,7 @@ def hub_by_grip(godot, display, check):
         user.xdotool("mousedown", 1)
         user.wait("robot linking by a grasp of its knob", lambda report: report["scene"] == "RobotLinking")
         user.xdotool("mouseup", 1)
-        user.press("h", "help", lambda report: report["help"])
+        user.press("h", "help", lambda report: report["help"] and "robot" in report["goal"])
         user.press("h", "no help", lambda report: not report["help"])
         for mode in (0, 1, 2):  # off, short, full; full at the start
             user.press("Tab", f"display {mode}", lambda report, mode=mode: report["hud"] == mode)

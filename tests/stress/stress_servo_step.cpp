@@ -282,6 +282,7 @@ private:
         const DriveCommand drive = take(*twin_);
         ServoSnapshot told = now;
         told.counters.tension_skipped = twin_->snapshot().counters.tension_skipped;
+        told.counters.steps_skipped = twin_->snapshot().counters.steps_skipped;
         const bool same =
             drive.motors_on == drive_.motors_on && drive.clear_faults == drive_.clear_faults &&
             drive.tensions_n == drive_.tensions_n && drive.currents_a == drive_.currents_a &&
@@ -310,6 +311,7 @@ struct Total {
     std::uint64_t seen_states = 0;
     std::uint64_t refused = 0;
     std::uint64_t skipped = 0;
+    std::uint64_t rested = 0;
     std::uint64_t saturated = 0;
     std::uint64_t slewed = 0;
     long failures = 0;
@@ -319,6 +321,7 @@ struct Total {
     void add(const ServoCounters &counters) {
         refused += counters.rejected_requests;
         skipped += counters.tension_skipped;
+        rested += counters.steps_skipped;
         saturated += counters.saturated_ticks;
         slewed += counters.slewed_ticks;
     }
@@ -376,19 +379,22 @@ int main(int argc, char **argv) {
         at = end;
     }
     std::printf("stress_servo_step: %ld steps from %ld, seed %ld: %ld active, %ld with a request, "
-                "%ld faults latched, %llu requests refused, %llu solves skipped, %llu saturated, "
+                "%ld faults latched, %llu requests refused, %llu solves and %llu whole steps "
+                "skipped, %llu saturated, "
                 "%llu slewed; largest request %.9f of its limit, with tensions up to %.9f of "
                 "theirs (--first %ld --cases 1); %ld failures\n",
                 cases, first, seed, total.active, total.pulling, total.faults,
                 static_cast<unsigned long long>(total.refused),
                 static_cast<unsigned long long>(total.skipped),
+                static_cast<unsigned long long>(total.rested),
                 static_cast<unsigned long long>(total.saturated),
                 static_cast<unsigned long long>(total.slewed), total.worst.request,
                 total.worst.tension, total.worst_at, total.failures);
     // A long run without forces, faults or skips has tested nothing.
     constexpr long kLong = 100000;
-    const bool tested = cases < kLong || (total.active > cases / 4 && total.faults > 0 &&
-                                          total.pulling > cases / 8 && total.skipped > 0);
+    const bool tested =
+        cases < kLong || (total.active > cases / 4 && total.faults > 0 &&
+                          total.pulling > cases / 8 && total.skipped > 0 && total.rested > 0);
     if (!tested) {
         std::printf("FAILED: too few steps with forces, faults or skips\n");
     }

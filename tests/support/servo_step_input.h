@@ -104,6 +104,10 @@ private:
             settings.strings.zero_count[i] = one_in(8) ? std::numeric_limits<std::int32_t>::max()
                                                        : static_cast<std::int32_t>(dice_.below(9));
         }
+        if (one_in(4)) {
+            settings.corrections.axial_stiffness_n.fill(dice_.between(3e3, 2e4));
+            settings.corrections.winding_curvature_1_m.fill(dice_.between(-0.05, 0.05));
+        }
         SafetySettings &safety = settings.safety;
         safety.arming_time_s = dice_.between(0.01, 0.2);
         safety.tension_slew_n_per_ms = one_in(4) ? dice_.spread(0.01, 100.0) : 1.0;

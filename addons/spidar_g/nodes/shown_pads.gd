@@ -17,6 +17,18 @@ const MAX_SHIFT_RADII: float = 1.5
 
 var collision_mask: int = 1
 var _finder: ContactFinder = ContactFinder.new()
+var _space_is_away: bool = ProjectSettings.get_setting("physics/3d/run_on_separate_thread", false)
+
+
+## The same in `world`, from wherever it is called: with physics in a thread of its own nobody may look into its space
+## between two physics frames, and the pad is then shown where it is.
+func place_in(
+	world: World3D, mask: int, shape: Shape3D, at: Transform3D, radius_m: float
+) -> Transform3D:
+	if _space_is_away and not Engine.is_in_physics_frame():
+		return at
+	collision_mask = mask
+	return place(world.direct_space_state, shape, at, radius_m)
 
 
 ## Where a pad of `shape` (radius in scene metres) that belongs at `at` is shown.

@@ -8,8 +8,7 @@ extends Node3D
 ## planes and the body between the pads as a stop on the grasp angle, both rendered in the device thread, and
 ## asks for the weight and inertia of the body it holds. A [RigidBody3D] squeezed hard enough (friction check) is
 ## held by a 6-DOF joint until the jaws open. Bodies with metadata [code]spidar_stiffness_n_m[/code] (N/m),
-## [code]spidar_squeeze_nm_rad[/code] (N m/rad) or [code]spidar_friction[/code] (a coefficient) feel softer, rougher or
-## smoother than the rest.
+## [code]spidar_squeeze_nm_rad[/code] (N m/rad) or [code]spidar_friction[/code] feel softer, rougher or smoother.
 
 signal body_grasped(body: RigidBody3D)
 ## Also when the body leaves the tree.
@@ -89,19 +88,18 @@ var _held_width_m: float = 0.0
 var _overload_s: float = 0.0
 var _published: bool = false
 var _load_requested: bool = false
-var _fallback_config: SpidarGConfig = null
-## With physics in a thread of its own nobody may look into its space between two physics frames.
-var _space_is_away: bool = ProjectSettings.get_setting("physics/3d/run_on_separate_thread", false)
+var _fallback_config: SpidarGConfig = SpidarGConfig.new()
 
 
 func _enter_tree() -> void:
 	spidar = get_parent() as SpidarG
-	_run_if_useful()
+	set_physics_process(spidar != null and not Engine.is_editor_hint())
 	update_configuration_warnings()
 
 
 func _ready() -> void:
-	_run_if_useful()  # The engine turns physics processing on just before this.
+	# Again: the engine turns physics processing on just before this.
+	set_physics_process(spidar != null and not Engine.is_editor_hint())
 
 
 func _exit_tree() -> void:
@@ -147,10 +145,8 @@ func get_pad_transform(side: int) -> Transform3D:
 	var grip: Transform3D = _hold.carried_grip() if _hold != null else spidar.get_grip_transform()
 	var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())
 	at.origin += _contacts.shown_shift()
-	if _space_is_away and not Engine.is_in_physics_frame():
-		return at
-	_shown_pads.collision_mask = collision_mask
-	return _shown_pads.place(_space(), _pad.shape_for(spidar.workspace_scale), at, get_pad_radius_m())
+	var shape: ConvexPolygonShape3D = _pad.shape_for(spidar.workspace_scale)
+	return _shown_pads.place_in(get_world_3d(), collision_mask, shape, at, get_pad_radius_m())
 
 
 ## Radius of a pad, scene metres.
@@ -198,10 +194,6 @@ func release() -> void:
 	_hold = null
 	_judge.reset()
 	body_released.emit(body)
-
-
-func _run_if_useful() -> void:
-	set_physics_process(spidar != null and not Engine.is_editor_hint())
 
 
 func _physics_process(delta: float) -> void:
@@ -312,10 +304,8 @@ func _carry(
 		if _hold != null:
 			_hold.follow(grip, Vector3.ZERO)
 		return
-	var body: RigidBody3D = _hold.body
-	var at: Transform3D = _hold.where(grip)
 	_prepare_finder()
-	_finder.find_round_body(_space(), body, at, exclude, found)
+	_finder.find_round_body(_space(), _hold.body, _hold.where(grip), exclude, found)
 	_hold.follow(grip, ContactSet.way_out(found))
 
 
@@ -402,14 +392,9 @@ func _gap_m() -> float:
 
 ## The jaws as the pads show them: not closer than the body between them.
 func _shown_gap_m() -> float:
-	if _hold != null:
-		return maxf(_gap_m(), _held_width_m)
-	return maxf(_gap_m(), _jaw.width_m) if _jaw.body != null else _gap_m()
+	var between_m: float = _jaw.width_m if _jaw.body != null else 0.0
+	return maxf(_gap_m(), _held_width_m if _hold != null else between_m)
 
 
 func _settings() -> SpidarGConfig:
-	if spidar.config != null:
-		return spidar.config
-	if _fallback_config == null:
-		_fallback_config = SpidarGConfig.new()
-	return _fallback_config
+	return spidar.config if spidar.config != null else _fallback_config

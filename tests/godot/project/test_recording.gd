@@ -57,6 +57,29 @@ func test_a_recorded_run_replays_to_the_bit() -> void:
 	device.free()
 
 
+## Whatever the game asked for came between two recorded commands, and the replay differed from there on.
+func test_a_game_that_goes_on_asking_does_not_disturb_a_replay() -> void:
+	var device := ideal_device()
+	device.forces_enabled = true
+	add(device)
+	await physics_frames(70)
+	check(device.start_recording(PATH), "the recording starts")
+	for frame: int in 30:
+		if frame % 5 == 0: # so that there are frames with no recorded command
+			device.request_wrench(Vector3(0.0, 1.0, 0.0), Vector3.ZERO, 0.0, 0.1)
+		await physics_frames(1)
+	device.stop_recording()
+	var answers: Array = []
+	device.replay_finished.connect(
+		func(identical: bool, message: String) -> void: answers.append([identical, message]))
+	check(device.start_replay(PATH), "the replay starts")
+	for frame: int in 35:
+		device.request_wrench(Vector3(2.0, 0.0, 0.0), Vector3.ZERO, 0.0)
+		await physics_frames(1)
+	check(answers.size() == 1 and answers[0][0], "identical: %s" % [answers])
+	device.free()
+
+
 func test_a_threaded_recording_plays_in_real_time() -> void:
 	var device := SpidarG.new()
 	device.forces_enabled = true

@@ -17,7 +17,7 @@ var _pages: Array[VBoxContainer] = []
 var _device_buttons: Array[Button] = []
 var _simulated_only: Array[Control] = []
 
-var _wiring: Label
+var _wiring: Array[Label] = []  # strings 1 to 4, 5 to 8
 var _zero: Label
 var _string: SpinBox
 var _length: SpinBox
@@ -136,7 +136,11 @@ func _build_wiring() -> void:
 	var row: HBoxContainer = _row(page)
 	_device_button(row, "Check all strings", "CheckWiring", _session.check_wiring)
 	_device_button(row, "Stop", "Stop", _session.stop, "Motors off.")
-	_wiring = _label(page)
+	row = _row(page)
+	for _column: int in 2:
+		var label: Label = _label(row)
+		label.size_flags_horizontal = Control.SIZE_EXPAND_FILL
+		_wiring.append(label)
 
 
 func _build_zero() -> void:
@@ -226,11 +230,12 @@ func _start_or_stop_motion() -> void:
 
 
 func _show_wiring() -> void:
-	var lines: PackedStringArray = []
-	for string: int in 8:
-		var verdict: int = _session.wiring[string]
-		lines.append("%d  %s" % [string + 1, SHORT_VERDICTS[verdict] if verdict >= 0 else "-"])
-	_wiring.text = "\n".join(lines)
+	for column: int in 2:
+		var lines: PackedStringArray = []
+		for string: int in range(4 * column, 4 * column + 4):
+			var verdict: int = _session.wiring[string]
+			lines.append("%d  %s" % [string + 1, SHORT_VERDICTS[verdict] if verdict >= 0 else "-"])
+		_wiring[column].text = "\n".join(lines)
 
 
 func _show_zero() -> void:

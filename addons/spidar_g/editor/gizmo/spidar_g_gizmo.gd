@@ -36,9 +36,10 @@ const LEAST_SIZE_M: float = 0.1
 const LARGEST_SIZE_M: float = 5.0
 const SIZE_STEP_M: float = 0.001
 const FAR_M: float = 1000.0
-const AXES: PackedVector3Array = [
-	Vector3.RIGHT, Vector3.LEFT, Vector3.UP, Vector3.DOWN, Vector3.BACK, Vector3.FORWARD
-]
+## From the grip's centre to the probe's handle: clear of the arrows by which the editor moves the node.
+const PROBE_HANDLE_M: Vector3 = Vector3(-0.05, -0.05, 0.0)
+## Over the frame: clear of the corners' numbers.
+const REPORT_HEIGHT_M: float = 0.09
 
 var options: ViewOptions
 var shapes: Shapes
@@ -132,13 +133,14 @@ func _commit_handle(id: int, _secondary: bool, restore: Variant, cancel: bool) -
 	undo.commit_action()
 
 
-## Moves the probe to where the view's ray meets the plane through it that faces the viewer; not out of the frame.
+## Moves the probe with its handle, to where the view's ray meets the plane through it that faces the viewer; not out of
+## the frame.
 func drag_probe(from: Vector3, along: Vector3, facing: Vector3) -> void:
-	var met: Variant = Plane(facing, probe_m).intersects_ray(from, along)
+	var met: Variant = Plane(facing, probe_m + PROBE_HANDLE_M).intersects_ray(from, along)
 	if met == null:
 		return
 	var motors: PackedVector3Array = _workspace.get_motor_positions()
-	probe_m = (met as Vector3).clamp(_low(motors), _high(motors))
+	probe_m = ((met as Vector3) - PROBE_HANDLE_M).clamp(_low(motors), _high(motors))
 	get_node_3d().update_gizmos()
 
 
@@ -235,7 +237,7 @@ func _draw_handles(device: SpidarG, scale: float) -> void:
 			face[axis] = 0.5 * scale * device.config.frame_size[axis]
 			handles.append(face)
 			ids.append(axis)
-	handles.append(scale * probe_m)
+	handles.append(scale * (probe_m + PROBE_HANDLE_M))
 	ids.append(Handle.PROBE)
 	add_handles(handles, get_plugin().get_material(HANDLE_MATERIAL, self), ids)
 
@@ -283,7 +285,7 @@ static func _scaled_transform(at: Transform3D, scale: float) -> Transform3D:
 ## Over the middle of the frame's top.
 static func _above(motors: PackedVector3Array) -> Vector3:
 	var middle: Vector3 = 0.5 * (_low(motors) + _high(motors))
-	return Vector3(middle.x, _high(motors).y + 0.05, middle.z)
+	return Vector3(middle.x, _high(motors).y + REPORT_HEIGHT_M, middle.z)
 
 
 static func _low(points: PackedVector3Array) -> Vector3:

@@ -23,6 +23,7 @@ func run(owner: EditorPlugin, _arguments: PackedStringArray) -> int:
 		await _bad_config_draws_nothing(device, gizmo)
 		await _other_devices(device, gizmo)
 	_shapes_are_closed()
+	_icons_follow_the_theme()
 	select([])
 	await frames()
 	EditorInterface.reload_scene_from_path("res://stage.tscn")
@@ -59,7 +60,7 @@ func _probe_is_dragged(device: SpidarG, gizmo: Gizmo) -> void:
 	var facing: Vector3 = (device.global_basis.inverse() * camera.global_basis.z).normalized()
 	wanted -= facing * facing.dot(wanted)
 	var before: Variant = gizmo._get_handle_value(Gizmo.Handle.PROBE, false)
-	var on_screen: Vector2 = camera.unproject_position(device.global_transform * (2.0 * wanted))
+	var on_screen: Vector2 = camera.unproject_position(device.global_transform * (2.0 * (wanted + Gizmo.PROBE_HANDLE_M)))
 	gizmo._set_handle(Gizmo.Handle.PROBE, false, camera, on_screen)
 	near(gizmo.probe_m.distance_to(wanted), 0.0, 2e-4, "the probe follows the mouse, %s" % gizmo.probe_m)
 	var told: String = gizmo.report()
@@ -144,3 +145,16 @@ func _shapes_are_closed() -> void:
 	for i: int in range(0, edges.size(), 2):
 		length += edges[i].distance_to(edges[i + 1])
 	near(length, 24.0, 1e-5, "four edges of 1, 2 and 3")
+
+
+## As imported, they take the colours of the editor's theme, light or dark, and its scale.
+func _icons_follow_the_theme() -> void:
+	var count: int = 0
+	for file: String in DirAccess.get_files_at("res://addons/spidar_g/icons"):
+		if file.ends_with(".svg.import"):
+			var import := ConfigFile.new()
+			check(import.load("res://addons/spidar_g/icons/" + file) == OK, "%s can be read" % file)
+			for setting: String in ["scale_with_editor_scale", "convert_colors_with_editor_theme"]:
+				check(import.get_value("params", "editor/" + setting, false), "%s: %s" % [file, setting])
+			count += 1
+	check(count >= 5, "icons: %d" % count)
