@@ -56,6 +56,7 @@ bool BounceMonitor::update(const Twist &twist, const Wrench &push, double dt_s) 
         return false;
     }
     if (!touching_) {
+        row_ = since_s_ > kLongestPause_s ? 0 : row_; // too long ago to go on
         return false;
     }
     touching_ = false;

@@ -46,7 +46,8 @@ public:
 
     // Nothing is scaled down, and watch() of the same sample changes nothing but the age of the hand's last move.
     [[nodiscard]] bool at_rest() const noexcept {
-        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && strings_.settled();
+        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && bounce_.settled() &&
+               strings_.settled();
     }
     // In place of watch(), at rest.
     void wait(double dt_s) noexcept { hand_.wait(dt_s); }
