@@ -82,8 +82,10 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
     // A raw wrench is given as it was asked: whoever asks for one answers for its energy.
     const Wrench held = coupling_.render(motion);
     Wrench sum = wrench_.value() + controller_.correct(held, moved, motion.velocity, dt_s);
+    contact_push_ = Wrench();
     if (!contacts_.empty()) {
-        sum = sum + contacts_.render(motion, dt_s);
+        contact_push_ = contacts_.render(motion, dt_s);
+        sum = sum + contact_push_;
     }
     if (!effects_.empty()) {
         sum = sum + effects_.render(motion);

@@ -31,6 +31,9 @@ public:
     // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
     void achieved(const Wrench &wrench) noexcept { observer_.hold(wrench); }
 
+    // Of what render() returned last, the part of the contacts.
+    [[nodiscard]] const Wrench &contact_push() const noexcept { return contact_push_; }
+
     void report(ServoSnapshot &snapshot) const noexcept;
 
     // Nothing new in this command.
@@ -53,6 +56,7 @@ private:
     EffectSet effects_;
     PassivityController controller_;
     EnergyObserver observer_;
+    Wrench contact_push_{};
     Wrench load_{}; // holds up the grip's weight
     GainClamp last_clamp_{};
     std::uint64_t wrench_sequence_ = 0;

@@ -30,6 +30,7 @@ Status SafetyMonitor::configure(const ServoSettings &settings) noexcept {
 void SafetyMonitor::restart() noexcept {
     speed_.configure(safety_);
     shake_.configure();
+    bounce_.configure();
     strings_.reset();
     hand_.restart();
     named_told_ = false;
@@ -64,7 +65,13 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
     speed_.update(sample.fastest_m_s, sample.grip.twist, dt_s);
     shake_.update(sample.grip.twist, sample.motors_on && sample.rendering, dt_s);
     if (!sample.motors_on) {
+        bounce_.configure();
         return {};
+    }
+    if (bounce_.update(sample.grip.twist, sample.contact_push, dt_s)) {
+        // Three bounces have given enough: to a quarter at once, and off at the next row.
+        shake_.found(bounce_.speed_m_s());
+        shake_.found(bounce_.speed_m_s());
     }
     if (speed_.too_fast()) {
         return {Action::motors_off, Status::over_speed, -1};

@@ -2,6 +2,7 @@
 // switch the motors off. Each part has a file of its own.
 #pragma once
 
+#include "device/bounce_monitor.h"
 #include "device/device_event.h"
 #include "device/hand_presence.h"
 #include "device/shake_monitor.h"
@@ -30,6 +31,7 @@ public:
         bool moved = false;       // with another pose
         bool motors_on = false;
         bool rendering = false; // a wrench is asked for
+        Wrench contact_push{};  // the part of it that contacts ask for
     };
 
     Status configure(const ServoSettings &settings) noexcept;
@@ -44,7 +46,8 @@ public:
 
     // Nothing is scaled down, and watch() of the same sample changes nothing but the age of the hand's last move.
     [[nodiscard]] bool at_rest() const noexcept {
-        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && strings_.settled();
+        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && bounce_.settled() &&
+               strings_.settled();
     }
     // In place of watch(), at rest.
     void wait(double dt_s) noexcept { hand_.wait(dt_s); }
@@ -67,6 +70,7 @@ private:
     SafetySettings safety_{};
     SpeedGuard speed_;
     ShakeMonitor shake_;
+    BounceMonitor bounce_;
     StringMonitor strings_;
     ThermalBudget heat_;
     WorkspaceGuard workspace_;

@@ -125,7 +125,8 @@ void ServoStep::watch(double dt_s) noexcept {
                                        fresh_,
                                        moved_,
                                        machine_.motors_on(),
-                                       rendering_};
+                                       rendering_,
+                                       renderer_.contact_push()};
     const SafetyMonitor::Verdict verdict = monitor_.watch(sample, events_, dt_s);
     switch (verdict.action) {
     case SafetyMonitor::Action::none:

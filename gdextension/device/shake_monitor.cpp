@@ -29,6 +29,13 @@ constexpr double kLongAgo_s = 2.0 * kLongestHalfPeriod_s;
 
 } // namespace
 
+void ShakeMonitor::found(double swing_m_s) noexcept {
+    swing_m_s_ = swing_m_s;
+    unstable_ = unstable_ || scale_ <= kLeastScale;
+    scale_ = std::max(kLeastScale, 0.5 * scale_);
+    calm_s_ = 0.0;
+}
+
 void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexcept {
     const DofArray speeds{twist.linear_m_s.x,
                           twist.linear_m_s.y,
@@ -67,9 +74,7 @@ void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexc
         }
     }
     if (shaking && rendering) {
-        unstable_ = unstable_ || scale_ <= kLeastScale;
-        scale_ = std::max(kLeastScale, 0.5 * scale_);
-        calm_s_ = 0.0;
+        found(swing_m_s_);
         return;
     }
     calm_s_ += dt_s;

@@ -13,6 +13,9 @@ public:
     // One cycle. `rendering`: forces act; without them nothing counts.
     void update(const Twist &twist, bool rendering, double dt_s) noexcept;
 
+    // Shaking that another monitor found: counts as if it had been found here. swing_m_s: its largest swing.
+    void found(double swing_m_s) noexcept;
+
     // 1; halved each time the grip is found shaking, back to 1 when it was calm for kCalm_s.
     [[nodiscard]] double scale() const noexcept { return scale_; }
     // Still shaking after two halvings: forces have to go. Until configure() or calm.

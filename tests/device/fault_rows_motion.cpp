@@ -73,13 +73,13 @@ Answer sustained_force(HandFirmness hand) {
     return rig.answer(first_derated_ms);
 }
 
-// What a contact may give to the hand without being called unstable.
-constexpr double kSlowBounce_w = 0.020;
-
+// A wall far too stiff for its latency: a light or normal hand bounces off it harder each time, a firm one is shaken. The
+// answer counts from the first touch.
 Answer instability(HandFirmness hand) {
     FaultRig rig(hand, [] {
         PlantSettings plant;
         plant.coulomb_friction_n = 0.0;
+        plant.output_latency_s = 0.004; // and as much again by the fault
         return plant;
     }());
     // A device that is not what its settings say: nothing is filtered, nothing foreseen, nothing capped.
@@ -99,19 +99,17 @@ Answer instability(HandFirmness hand) {
     REQUIRE(rig.inject(SimulatedFault::late_output));
     rig.mark();
     rig.move_hand(Vec3(0.0, -0.01, 0.0)); // presses into it
-    const double halved_ms = rig.until(
-        [&](const auto &) {
-            return rig.events_of(DeviceEventKind::shaking) +
-                       rig.events_of(DeviceEventKind::unstable) >
-                   0;
-        },
-        2000);
-    if (halved_ms < 0.0) { // a light hand bounces so slowly and softly that it is no shaking
-        CHECK(rig.energy_j <= kSlowBounce_w * 2.0);
+    const auto told = [&](const auto &) {
+        return rig.events_of(DeviceEventKind::shaking) + rig.events_of(DeviceEventKind::unstable) >
+               0;
+    };
+    const double halved_ms = rig.until(told, 1000);
+    if (hand == HandFirmness::firm && halved_ms < 0.0) { // holds it nearly still: nothing to find
+        rig.run_ms(1000);
         return rig.answer(0.0);
     }
     rig.run_ms(1500);
-    CHECK(rig.peak_speed_m_s < 2.0);
+    CHECK(rig.peak_speed_m_s < 1.0);
     return rig.answer(halved_ms);
 }
 
@@ -119,7 +117,7 @@ constexpr FaultRow kRows[] = {
     {23, "edge of the workspace", 1.0, 0.0, workspace_edge},
     {24, "grip released under 8 N", 100.0, 2.2, released_grip},
     {25, "8 N for a minute", 60000.0, 0.0, sustained_force},
-    {26, "contact that shakes", 2000.0, 0.0, instability},
+    {26, "contact that shakes", 500.0, 0.0, instability},
 };
 
 } // namespace

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/bounce_monitor.h"
 #include "device/event_queue.h"
 #include "device/report_order.h"
 #include "device/safety_monitor.h"
@@ -304,4 +305,34 @@ TEST_CASE("event queue: in order across threads, a full one drops the newest and
     }
     writer.join();
     CHECK(ordered);
+}
+
+TEST_CASE("bounce monitor: bounces that leave faster than they came, three in a row, are found") {
+    // A hand that flies at a wall, is pushed for 20 ms, and comes back after 100 ms; restitution: leaving to coming.
+    const auto bounces = [](double restitution, int count, int touch_ms, int flight_ms) {
+        BounceMonitor monitor;
+        int found = 0;
+        for (int i = 0; i < count; ++i) {
+            Twist twist;
+            twist.linear_m_s = Vec3(0.4, -0.2, 0.0); // along the wall it may move as it likes
+            for (int ms = 0; ms < flight_ms; ++ms) {
+                found += monitor.update(twist, Wrench(), 0.001) ? 1 : 0;
+            }
+            Wrench push;
+            push.force_n.y = 3.0;
+            for (int ms = 0; ms < touch_ms; ++ms) {
+                found += monitor.update(twist, push, 0.001) ? 1 : 0;
+            }
+            twist.linear_m_s.y *= -restitution;
+            for (int ms = 0; ms < flight_ms; ++ms) {
+                found += monitor.update(twist, Wrench(), 0.001) ? 1 : 0;
+            }
+        }
+        return found;
+    };
+    CHECK(bounces(1.3, 2, 20, 50) == 0);
+    CHECK(bounces(1.3, 3, 20, 50) == 1);
+    CHECK(bounces(0.9, 50, 20, 50) == 0);  // taps lose
+    CHECK(bounces(1.3, 50, 200, 50) == 0); // pressed and pulled away by the hand
+    CHECK(bounces(1.3, 50, 20, 300) == 0); // now and then
 }
