@@ -60,6 +60,9 @@ void ServoStep::lose(Status why) noexcept {
     }
     machine_.lose(why);
     order_.reset();
+    // Counts may begin anew where they like. A device that kept its zero says so in its next reading.
+    device_zeroed_ = false;
+    machine_.set_zero_known(false);
 }
 
 void ServoStep::clear_fault(bool answers) noexcept {

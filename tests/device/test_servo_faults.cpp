@@ -187,6 +187,41 @@ TEST_CASE("fault: no reports: the wrench fades from 5 ms, pretension stays, moto
     CHECK(bench.now().counters.read_timeouts == 20);
 }
 
+TEST_CASE("a zero taken by the host is gone when the device was unplugged; one that the device "
+          "keeps is not") {
+    for (const bool kept : {false, true}) {
+        CAPTURE(kept);
+        Bench bench;
+        bench.simulated = false;
+        bench.reading.zeroed = kept;
+        bench.command.forces_enabled = true;
+        bench.tick();
+        if (!kept) {
+            ++bench.command.zero_count;
+            bench.tick(700);
+            REQUIRE(bench.now().state == DeviceState::taut);
+            for (int ms = 0; ms < 3000; ++ms) { // shown by moving the grip
+                const double way = 0.04 * std::sin(0.004 * ms);
+                bench.put(spidar::test::moved_by(
+                    bench.settings, Vec3(way, 0.04 * std::sin(0.003 * ms), -way), 0.0));
+                bench.tick();
+            }
+        }
+        REQUIRE(bench.now().zero_known);
+        bench.read_status = Status::read_failed;
+        bench.tick(20);
+        REQUIRE(bench.now().state == DeviceState::closed);
+        bench.read_status = Status::ok;
+        ++bench.command.clear_fault_count;
+        bench.tick(20);
+        ++bench.command.arm_count;
+        bench.tick(1200);
+        CHECK(bench.now().zero_known == kept);
+        CHECK(bench.now().state == (kept ? DeviceState::active : DeviceState::connected));
+        CHECK(bench.drive.motors_on == kept);
+    }
+}
+
 TEST_CASE("three lost reports are nothing; seven cost some force, which comes back") {
     Bench bench;
     bench.activate();
