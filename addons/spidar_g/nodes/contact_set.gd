@@ -8,6 +8,9 @@ const ContactPlane := preload("contact_plane.gd")
 const MERGE_COSINE: float = 0.996  # 5 degrees
 ## A surface of the same body whose normal turned less than this in one frame is the same surface.
 const SAME_SURFACE_COSINE: float = 0.94  # 20 degrees
+## A push makes a body this much faster than the tool at most: held for a whole frame the force on a light body, which in
+## truth is gone once the body moves, would throw it.
+const MOST_LEAD_M_S: float = 0.5
 ## SpidarG takes 8 contacts; one is kept for the grasp stop.
 const MAX_PLANES: int = 7
 
@@ -77,13 +80,21 @@ func gained(id: int) -> Vector3:
 	return _gained.get(id, Vector3.ZERO)
 
 
-## Newton's third law at game rate: what a plane gave the hand, its body gets back, up to most_n_s.
-func push_bodies(most_n_s: float) -> void:
+## Newton's third law at game rate: what a plane gave the hand, its body gets back, up to most_n_s
+## and never so much that it is thrown.
+func push_bodies(most_n_s: float, tool_velocity_m_s: Vector3) -> void:
 	for plane: ContactPlane in planes:
 		var impulse: Vector3 = -gained(plane.id)
-		if is_instance_valid(plane.pushed_body) and impulse.is_finite() and not impulse.is_zero_approx():
-			var arm: Vector3 = plane.point - plane.pushed_body.global_position
-			plane.pushed_body.apply_impulse(impulse.limit_length(most_n_s), arm)
+		var body: RigidBody3D = plane.pushed_body
+		if is_instance_valid(body) and impulse.is_finite() and not impulse.is_zero_approx():
+			var along: Vector3 = impulse.normalized()
+			# Not the node's own velocity: that misses what another plane has given in this frame.
+			var velocity: Vector3 = PhysicsServer3D.body_get_state(
+				body.get_rid(), PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY
+			)
+			var fastest: float = maxf(tool_velocity_m_s.dot(along), 0.0) + MOST_LEAD_M_S
+			var most: float = minf(most_n_s, body.mass * maxf(fastest - velocity.dot(along), 0.0))
+			body.apply_impulse(impulse.limit_length(most), plane.point - body.global_position)
 
 
 ## The shortest way out of all planes that a held body stands in; marks them as met through it.

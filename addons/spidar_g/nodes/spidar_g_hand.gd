@@ -205,7 +205,7 @@ func _physics_process(delta: float) -> void:
 	_contacts.read_impulses(spidar.get_contact_impulses())
 	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
 	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
-	_contacts.push_bodies(_settings().max_force * delta)
+	_contacts.push_bodies(_settings().max_force * delta, spidar.get_linear_velocity())
 	if _hold != null:
 		_watch_hold(delta)
 	var exclude: Array[RID] = []
