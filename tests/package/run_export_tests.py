@@ -55,7 +55,9 @@ def run(command, folder):
 
 
 def errors_of(output):
-    return re.findall(r"^.*(?:ERROR|WARNING).*$", output, re.M)
+    """Of ours: on a busy machine Godot's own physics may run out of job slots for a moment, and says so."""
+    lines = re.findall(r"^.*(?:ERROR|WARNING).*$", output, re.M)
+    return [line for line in lines if "Jolt Physics job system" not in line]
 
 
 def copy_demo():

@@ -1,0 +1,54 @@
+// Starts far from the pose, found by the stress program: the search met its bound on steps just before the end.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/forward_kinematics.h"
+
+using namespace spidar;
+
+namespace {
+
+struct Start {
+    StringArray lengths_m;
+    GripPose memory;
+};
+
+// stress_kinematics --cases 1 with --seed 1001 --first 7297417, --seed 1001 --first 82418928, --seed 1002 --first 6370927.
+const Start kStarts[] = {
+    {{0.45123141156729918, 0.42576721920505212, 0.5083234355564632, 0.5223926039387875,
+      0.27873265810207321, 0.31891467458640377, 0.4603776362220548, 0.45950016452928039},
+     {{0.13420484819600681, -0.1257870096343342, -0.02000274980537603},
+      {-0.019378640162446264, 0.033865498005976317, -0.0088088790581798138},
+      {0.03596068407991123, 0.010800267437819646, 0.013790700626740877}}},
+    {{0.73110765577695214, 0.46014375769335292, 0.76493996998655323, 0.51845760352134906,
+      0.57134053923315198, 0.25725468728793094, 0.61571078455807904, 0.29953967600346026},
+     {{-0.11078209585677708, -0.16697020153443584, -0.0034583305748754345},
+      {0.0018628761883063131, 0.038648585277238676, -0.0101398495242805},
+      {0.033138006301841466, -0.015201170793549129, -0.016455909116316385}}},
+    {{0.30283184887789372, 0.1822785867886943, 0.49577660279231001, 0.43511235885741867,
+      0.53992576470698594, 0.48019419338620589, 0.68008588864238206, 0.65548657098463414},
+     {{-0.13688296467177086, -0.026370466299835638, 0.15701504533501315},
+      {-0.0016916887961975846, 0.037842002426287116, 0.012849943244454395},
+      {0.039147056586960979, -0.002393561623836628, -0.0078599505933670683}}},
+};
+
+} // namespace
+
+TEST_CASE("kinematics: a start far away that nearly ends within the bound on steps goes on once") {
+    for (const Start &start : kStarts) {
+        ForwardKinematics kinematics;
+        const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
+        const GripGeometry grip;
+        REQUIRE(kinematics.configure(frame, grip) == Status::ok);
+        kinematics.set_last_pose(start.memory);
+        const KinematicsResult result = kinematics.update(start.lengths_m);
+        REQUIRE(usable(result.status));
+        // The defining equation: these are the lengths of that pose.
+        const StringArray back_m = string_lengths(frame, grip, result.pose);
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            CHECK(std::fabs(back_m[i] - start.lengths_m[i]) < 1e-14);
+        }
+    }
+}
