@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "device/pole_end_speed.h"
+
 namespace spidar {
 
 namespace {
 
-// Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
-constexpr double kRotationArm_m = 0.04;
-constexpr double kGraspArm_m = 0.02;
 // Less push than this is no touch.
 constexpr double kLeastPush_n = 0.02;
 // A longer touch is the hand's own push, which may leave as fast as it likes.
@@ -20,10 +19,6 @@ constexpr double kGain = 1.1;
 // So many in a row, each within this time of the last: nobody taps so, for a tap leaves slower than it came.
 constexpr int kBounces = 3;
 constexpr double kLongestPause_s = 0.4;
-
-DofArray lanes(const Vec3 &linear, const Vec3 &angular, double grasp) noexcept {
-    return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, grasp};
-}
 
 double dot(const DofArray &a, const DofArray &b) noexcept {
     double sum = 0.0;
@@ -37,10 +32,15 @@ double dot(const DofArray &a, const DofArray &b) noexcept {
 
 bool BounceMonitor::update(const Twist &twist, const Wrench &push, double dt_s) noexcept {
     since_s_ += dt_s;
-    const DofArray speed = lanes(twist.linear_m_s, kRotationArm_m * twist.angular_rad_s,
-                                 kGraspArm_m * twist.grasp_rate_rad_s);
-    const DofArray force =
-        lanes(push.force_n, push.moment_nm / kRotationArm_m, push.grasp_torque_nm / kGraspArm_m);
+    const DofArray speed = pole_end_speeds(twist);
+    const Vec3 couple = push.moment_nm / kRotationArm_m;
+    const DofArray force{push.force_n.x,
+                         push.force_n.y,
+                         push.force_n.z,
+                         couple.x,
+                         couple.y,
+                         couple.z,
+                         push.grasp_torque_nm / kGraspArm_m};
     const bool touches = dot(force, force) > kLeastPush_n * kLeastPush_n; // false for NaN
     if (touches) {
         if (!touching_) {

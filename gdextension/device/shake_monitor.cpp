@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/pole_end_speed.h"
+
 namespace spidar {
 
 namespace {
@@ -10,9 +12,6 @@ namespace {
 // A swing: 1 mm to and fro at 40 Hz, five times what a good rendering may dither. Rubbing along three surfaces at once
 // shows nearly as much and is felt as rough, not as a danger.
 constexpr double kSwing_m_s = 0.10;
-// Rotation and grasp as the speed of a pole's end (paper's grip: 40 mm; the grasp moves it by half the angle).
-constexpr double kRotationArm_m = 0.04;
-constexpr double kGraspArm_m = 0.02;
 // Half a period of 8 Hz: a light hand bounces off a wall so slowly; nobody shakes a grip as fast for long.
 constexpr double kLongestHalfPeriod_s = 0.060;
 // Four whole periods in a row: no tap swings so often.
@@ -37,13 +36,7 @@ void ShakeMonitor::found(double swing_m_s) noexcept {
 }
 
 void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexcept {
-    const DofArray speeds{twist.linear_m_s.x,
-                          twist.linear_m_s.y,
-                          twist.linear_m_s.z,
-                          kRotationArm_m * twist.angular_rad_s.x,
-                          kRotationArm_m * twist.angular_rad_s.y,
-                          kRotationArm_m * twist.angular_rad_s.z,
-                          kGraspArm_m * twist.grasp_rate_rad_s};
+    const DofArray speeds = pole_end_speeds(twist);
     const double gain = dt_s / (dt_s + kHandMotion_s);
     bool shaking = false;
     for (std::size_t k = 0; k < channels_.size(); ++k) {
