@@ -121,8 +121,10 @@ private:
         const bool rigid = settings.grip.kind == GripKind::rigid; // has no grasp to keep
         tension.dof_mask = one_in(4) ? kMasks[dice_.below(4)] : kAllDofs;
         tension.dof_mask |= rigid ? kTranslationOnly : 0;
-        tension.broken_mask =
-            one_in(16) ? static_cast<std::uint8_t>(1U << dice_.below(kStringCount)) : 0;
+        tension.broken_mask = 0;
+        if (one_in(16)) {
+            tension.broken_mask = static_cast<std::uint8_t>(1U << dice_.below(kStringCount));
+        }
         tension.change_weight = one_in(4) ? 0.0 : 0.2;
         tension.max_tension_n = one_in(4) ? dice_.between(2.0, 20.0) : 10.0;
         RenderSettings &render = settings.render;
