@@ -22,6 +22,9 @@ constexpr double kDampingFall = 0.1;
 constexpr double kNoDamping = 1e-8; // below this damping is dropped, so that the end is undamped
 // A pivot below this part of its diagonal is rounding: the matrix counts as not positive definite.
 constexpr double kSmallestPivot = 1e-15;
+// A residual this small is on its way to lengths that fit exactly. Next to a singular pose its curvature is still more
+// than the lengths say, and damping would hold the pose on the floor of a valley: Gauss-Newton walks along it.
+constexpr double kExactResidual_m = 1e-8;
 
 struct NewtonEquations {
     Matrix gauss{};      // J^T J
@@ -151,9 +154,14 @@ bool solve_damped(const NewtonEquations &eq, bool use_curvature, double damping,
     return std::isfinite(norm(step));
 }
 
-// Newton where the full matrix is positive definite, else Gauss-Newton, damped until it is.
-bool descent_step(const NewtonEquations &eq, double &damping, PoseStep &step) noexcept {
+// Newton where the full matrix is positive definite, else Gauss-Newton, damped unless the lengths fit already.
+bool descent_step(const NewtonEquations &eq, double sum_of_squares_m2, double &damping,
+                  PoseStep &step) noexcept {
     if (solve_damped(eq, true, damping, step)) {
+        return true;
+    }
+    if (sum_of_squares_m2 < kStringCount * kExactResidual_m * kExactResidual_m &&
+        solve_damped(eq, false, damping, step)) {
         return true;
     }
     damping = std::fmax(damping, kFirstDamping);
@@ -175,7 +183,7 @@ PolishResult polish_pose(const LengthProblem &problem, const GripPose &start) no
         const NewtonEquations eq = rigid ? rigid_newton_equations(problem, errors, result.pose)
                                          : newton_equations(problem, errors, result.pose, tangents);
         PoseStep step{};
-        if (!descent_step(eq, damping, step)) {
+        if (!descent_step(eq, errors.sum_of_squares_m2, damping, step)) {
             break;
         }
         double step_m = norm(step);
