@@ -36,6 +36,15 @@ def sanitizers(value):
     return [name for name in SANITIZERS if name in names]
 
 
+def accepts(env, *flags):
+    """Whether the C++ compiler takes these flags."""
+    command = [env.subst("$CXX").split()[0], *flags, "-E", "-x", "c++", os.devnull]
+    try:
+        return subprocess.run(command, check=False, capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
 # --- Sources -------------------------------------------------------------------------------------
 
 
@@ -132,6 +141,20 @@ def windows_hidapi(env, build):
 def library_path(addon, platform_name, target):
     name = f"spidar_g.{platform_name}.{target}.{architecture()}"
     return f"{addon}/bin/{name}.dll" if platform_name == "windows" else f"{addon}/bin/lib{name}.so"
+
+
+# --- compile_commands.json -----------------------------------------------------------------------
+
+
+def keep_common_flags(files, flags):
+    """clangd and clang-tidy are clang, and refuse what only GCC knows."""
+    for node in files:
+        with open(str(node), encoding="utf-8") as file:
+            text = file.read()
+        for flag in flags:
+            text = text.replace(" " + flag, "")
+        with open(str(node), "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 # --- hidapi --------------------------------------------------------------------------------------
