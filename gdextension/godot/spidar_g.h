@@ -233,6 +233,7 @@ private:
                                                            std::string &problem);
     [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
     void use_hid_calibration();
+    void use_ideal_strings(const spidar::CountArray &home_counts, double metres_per_count);
     void emit_buttons(std::uint8_t before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();

@@ -22,23 +22,47 @@ std::string copy_eight(const char *field, const Packed &from,
     return {};
 }
 
+godot::PackedFloat64Array unless_zero(const spidar::StringArray &values) {
+    return values == spidar::StringArray{} ? godot::PackedFloat64Array() : spidar::to_godot(values);
+}
+
 } // namespace
+
+void SpidarGCalibration::set_corrections(const spidar::LengthCorrections &known) {
+    set_winding_curvatures(unless_zero(known.winding_curvature_1_m));
+    set_string_stiffnesses(unless_zero(known.axial_stiffness_n));
+    set_hidden_lengths(unless_zero(known.hidden_length_m));
+    set_calibration_tensions(unless_zero(known.calibration_tension_n));
+}
+
+std::string SpidarGCalibration::apply_to(spidar::StringCalibration &ideal) const {
+    std::string problem = copy_eight("string_offsets", string_offsets_, ideal.offset_m);
+    if (problem.empty()) {
+        problem = copy_eight("string_scales", string_scales_, ideal.scale_m_per_count);
+    }
+    return problem.empty() ? copy_eight("zero_counts", zero_counts_, ideal.zero_count) : problem;
+}
 
 std::string SpidarGCalibration::apply_to(spidar::ServoSettings &settings) const {
     spidar::ServoSettings changed = settings;
-    std::string problem = copy_eight("string_offsets", string_offsets_, changed.strings.offset_m);
+    std::string problem = apply_to(changed.strings);
     const auto also = [&problem](const std::string &next) {
         if (problem.empty()) {
             problem = next;
         }
     };
-    also(copy_eight("string_scales", string_scales_, changed.strings.scale_m_per_count));
-    also(copy_eight("zero_counts", zero_counts_, changed.strings.zero_count));
+    spidar::LengthCorrections &corrections = changed.corrections;
+    also(copy_eight("winding_curvatures", winding_curvatures_, corrections.winding_curvature_1_m));
+    also(copy_eight("string_stiffnesses", string_stiffnesses_, corrections.axial_stiffness_n));
+    also(copy_eight("hidden_lengths", hidden_lengths_, corrections.hidden_length_m));
+    also(copy_eight("calibration_tensions", calibration_tensions_,
+                    corrections.calibration_tension_n));
     also(copy_eight("effective_radii", effective_radii_, changed.motors.effective_radius_m));
     also(copy_eight("torque_constants", torque_constants_, changed.motors.torque_constant_nm_a));
     also(copy_eight("tension_gains", tension_gains_, changed.motors.tension_gain));
     also(copy_eight("max_currents", max_currents_, changed.motors.max_current_a));
     also(spidar::validate(changed.strings));
+    also(spidar::validate(changed.corrections));
     also(spidar::validate(changed.motors));
     if (problem.empty()) {
         settings = changed;
@@ -64,6 +88,10 @@ void SpidarGCalibration::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, reals, string_scales, PROPERTY_HINT_NONE, "suffix:m/count");
     SPIDAR_G_BIND_FIELD(Self, godot::Variant::PACKED_INT32_ARRAY, zero_counts, PROPERTY_HINT_NONE,
                         "");
+    SPIDAR_G_BIND_FIELD(Self, reals, winding_curvatures, PROPERTY_HINT_NONE, "suffix:1/m");
+    SPIDAR_G_BIND_FIELD(Self, reals, string_stiffnesses, PROPERTY_HINT_NONE, "suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, reals, hidden_lengths, PROPERTY_HINT_NONE, "suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, reals, calibration_tensions, PROPERTY_HINT_NONE, "suffix:N");
     ADD_GROUP("Motors", "");
     SPIDAR_G_BIND_FIELD(Self, reals, effective_radii, PROPERTY_HINT_NONE, "suffix:m");
     SPIDAR_G_BIND_FIELD(Self, reals, torque_constants, PROPERTY_HINT_NONE, "suffix:N m/A");

@@ -1,4 +1,4 @@
-// SpidarGCalibration: what makes one device of many: string offsets and scales, motor gains.
+// SpidarGCalibration: what makes one device of many: string offsets and scales, winding and stretch, motor gains.
 #pragma once
 
 #include <string>
@@ -12,20 +12,31 @@
 #include "device/servo_settings.h"
 #include "godot/resource_field.h"
 
-// Each array holds 8 values, string 0-7; an empty one means: as the ideal device.
+// Each array holds 8 values, string 0-7; an empty one means: as the ideal device (no winding, no stretch).
 class SpidarGCalibration : public godot::Resource {
     GDCLASS(SpidarGCalibration, godot::Resource)
 
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_offsets); // m, at the zero count
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);  // m
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants); // N m / A
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);    // real / commanded
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);     // A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, winding_curvatures);   // 1/m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_stiffnesses);   // N, EA
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, hidden_lengths);       // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, calibration_tensions); // N
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);      // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants);     // N m / A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);        // real / commanded
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);         // A
 
 public:
     [[nodiscard]] godot::String get_problem() const;
+
+    // The winding and stretch of `known`; an array stays empty where all are zero.
+    void set_corrections(const spidar::LengthCorrections &known);
+
+    // Writes the string arrays that are given over those of the ideal device: what is empty stays ideal. The problem, or
+    // empty.
+    [[nodiscard]] std::string apply_to(spidar::StringCalibration &ideal) const;
 
     // Writes the arrays that are given over `settings`. Empty: done; else the sentence that says why not, and
     // `settings` is unchanged.

@@ -80,8 +80,8 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     }
     spidar::ServoSettings settings = used->servo_settings();
     const spidar::PlantSettings plant = used->plant_settings();
-    has_calibration_ = calibration.is_valid();
-    problem = has_calibration_ ? calibration->apply_to(settings) : std::string();
+    given_ = calibration;
+    problem = given_.is_valid() ? given_->apply_to(settings) : std::string();
     problem = problem.empty() ? spidar::validate(settings) : problem;
     problem = problem.empty() ? spidar::validate(plant) : problem;
     if (!problem.empty()) {
@@ -103,24 +103,28 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     start_.frame = settings.frame;
     start_.grip = settings.grip;
     start_.strings = settings.strings;
+    corrections_ = settings.corrections;
+    // The drums stay as they are wound; stretch is the same in all poses of a light hand.
     start_.corrections = {};
+    start_.corrections.winding_curvature_1_m = corrections_.winding_curvature_1_m;
     motors_ = settings.motors;
     return {};
 }
 
-// Where no calibration is given: the ideal device of the kind that was opened.
+// Where the calibration says nothing: the ideal device of the kind that was opened.
 void SpidarGCalibrator::begin_sheet() {
-    if (!has_calibration_) {
-        const spidar::StringArray home_m =
-            spidar::string_lengths(start_.frame, start_.grip, spidar::rest_pose(start_.grip));
-        double scale = target_.plant.metres_per_count;
-        spidar::CountArray home{};
-        if (!opened_->real) {
-            home = spidar::SimulatedTransport(target_.plant).home_counts();
-        } else if (opened_->counts_per_turn != 0) {
-            scale = kTurn_rad * motors_.effective_radius_m[0] / opened_->counts_per_turn;
-        }
-        start_.strings = spidar::calibrate_at_home(home_m, home, scale);
+    const spidar::StringArray home_m =
+        spidar::string_lengths(start_.frame, start_.grip, spidar::rest_pose(start_.grip));
+    double scale = target_.plant.metres_per_count;
+    spidar::CountArray home{};
+    if (!opened_->real) {
+        home = spidar::SimulatedTransport(target_.plant).home_counts();
+    } else if (opened_->counts_per_turn != 0) {
+        scale = kTurn_rad * motors_.effective_radius_m[0] / opened_->counts_per_turn;
+    }
+    start_.strings = spidar::calibrate_at_home(home_m, home, scale);
+    if (given_.is_valid()) {
+        (void)given_->apply_to(start_.strings); // read_target() found no problem in it
     }
     sheet_.begin(start_, motors_);
     began_ = true;

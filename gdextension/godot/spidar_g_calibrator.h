@@ -111,7 +111,8 @@ private:
     spidar::CalibrationTarget target_;
     spidar::DeviceModel start_;
     spidar::MotorCalibration motors_;
-    bool has_calibration_ = false;
+    spidar::LengthCorrections corrections_; // those given: kept
+    godot::Ref<SpidarGCalibration> given_;
     bool began_ = false; // the sheet, for the device that is open
     std::shared_ptr<spidar::CalibrationOpened> opened_;
     std::unique_ptr<spidar::CalibrationRig> rig_;

@@ -269,6 +269,7 @@ godot::Ref<SpidarGCalibration> SpidarGCalibrator::make_calibration() {
     made->set_torque_constants(spidar::to_godot(motors.torque_constant_nm_a));
     made->set_tension_gains(spidar::to_godot(motors.tension_gain));
     made->set_max_currents(spidar::to_godot(motors.max_current_a));
+    made->set_corrections(corrections_);
     return made;
 }
 

@@ -114,19 +114,24 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
     return simulated_transport(status, problem);
 }
 
-// Without a calibration resource: counts are 0 at the home pose, and the device knows how many make a turn.
-void SpidarG::use_hid_calibration() {
+// The strings of the ideal device that starts at its home pose, where the calibration does not say otherwise.
+void SpidarG::use_ideal_strings(const spidar::CountArray &home_counts, double metres_per_count) {
+    settings_.strings = spidar::calibrate_at_home(
+        spidar::string_lengths(settings_.frame, settings_.grip, spidar::rest_pose(settings_.grip)),
+        home_counts, metres_per_count);
     if (calibration_.is_valid()) {
-        return;
+        (void)calibration_->apply_to(settings_.strings); // read_resources() found no problem in it
     }
+}
+
+// Counts are 0 at the home pose, and the device knows how many make a turn.
+void SpidarG::use_hid_calibration() {
     constexpr double kTurn_rad = 6.283185307179586;
     const std::uint32_t counts_per_turn = hid_->capabilities().counts_per_turn;
     const double scale = counts_per_turn == 0
                              ? plant_.metres_per_count
                              : kTurn_rad * settings_.motors.effective_radius_m[0] / counts_per_turn;
-    settings_.strings = spidar::calibrate_at_home(
-        spidar::string_lengths(settings_.frame, settings_.grip, spidar::rest_pose(settings_.grip)),
-        spidar::CountArray{}, scale);
+    use_ideal_strings(spidar::CountArray{}, scale);
 }
 
 bool SpidarG::zero_device() {

@@ -18,13 +18,7 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
         return nullptr;
     }
     auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    if (calibration_.is_null()) {
-        // The ideal calibration of a device that starts at its home pose.
-        settings_.strings =
-            spidar::calibrate_at_home(spidar::string_lengths(settings_.frame, settings_.grip,
-                                                             spidar::rest_pose(settings_.grip)),
-                                      transport->home_counts(), plant_.metres_per_count);
-    }
+    use_ideal_strings(transport->home_counts(), plant_.metres_per_count);
     simulated_ = transport.get();
     return transport;
 }

@@ -74,6 +74,10 @@ func test_bad_calibration_is_refused_by_name() -> void:
 			["string_scales", PackedFloat64Array([0, 0, 0, 0, 0, 0, 0, 0]), "scale"],
 			["string_scales", PackedFloat64Array([NAN, 1, 1, 1, 1, 1, 1, 1]), "scale"],
 			["effective_radii", PackedFloat64Array([-1, 1, 1, 1, 1, 1, 1, 1]), "radius"],
+			["winding_curvatures", PackedFloat64Array([0, 0, 0, 9, 0, 0, 0, 0]), "winding"],
+			["string_stiffnesses", PackedFloat64Array([-3000, 1, 1, 1, 1, 1, 1, 1]), "stiffness"],
+			["hidden_lengths", PackedFloat64Array([0.1, 0.1]), "hidden_lengths"],
+			["calibration_tensions", PackedFloat64Array([INF, 0, 0, 0, 0, 0, 0, 0]), "tension"],
 			["zero_counts", PackedInt32Array([1]), "zero_counts"]]:
 		var calibration := SpidarGCalibration.new()
 		calibration.set(case[0], case[1])
