@@ -160,7 +160,7 @@ TEST_CASE("watchdog: a servo thread that stands still: the writer thread switche
     device.off_ns = 0;
     device.read_takes_ms = 400;                                     // the thread hangs in a read
     REQUIRE(soon([&] { return loop.since_last_cycle_s() > 0.1; })); // what a game sees
-    CHECK(device.off_ns != 0);
+    CHECK(soon([&] { return device.off_ns != 0; }));
     CHECK_FALSE(device.motors_on);
     device.read_takes_ms = 0;
     ServoSnapshot snapshot;
@@ -198,7 +198,10 @@ TEST_CASE("panic stop: from any thread, with and without a writer thread; latche
         CHECK_FALSE(device.motors_on);
         ++command.clear_fault_count;
         loop.publish(command);
-        std::this_thread::sleep_for(20ms);
+        REQUIRE(soon([&] {
+            (void)loop.latest(snapshot);
+            return snapshot.state != DeviceState::fault;
+        }));
         ++command.arm_count;
         loop.publish(command);
         CHECK(soon([&] { return device.motors_on.load(); }));
@@ -226,8 +229,8 @@ TEST_CASE("watchdog: cycles that come late are counted, dropped and told") {
     REQUIRE(loop.start_threaded(quick_settings()) == Status::ok);
     REQUIRE(soon([&] { return ticks_of(loop) >= 150; }));
     const LoopStatistics statistics = loop.statistics();
-    CHECK(statistics.missed_deadlines >=
-          4 * 150); // five periods a cycle: four are dropped, never caught up
+    // Five periods a cycle: four are dropped, never caught up. The last cycles may not be counted yet.
+    CHECK(statistics.missed_deadlines >= 4 * 140);
     device.read_takes_ms = 0;
     // One wake-up in ten comes 5 ms late: told once the hundred is full.
     std::uint64_t seen = ticks_of(loop);

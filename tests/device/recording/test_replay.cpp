@@ -18,6 +18,9 @@ std::vector<std::uint64_t> from(const std::vector<std::uint64_t> &all, std::size
     return {all.begin() + static_cast<std::ptrdiff_t>(skipped), all.end()};
 }
 
+// Cycles after which a ring that is not read is full on any machine.
+constexpr int kPatience = 1'000'000;
+
 } // namespace
 
 TEST_CASE(
@@ -168,20 +171,24 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
     REQUIRE(recorder.open(file.path()) == "");
     std::vector<std::uint64_t> bits;
     constexpr double kStep_s = 0.01;
+    std::uint64_t ticks = 0;
     for (int burst = 0; burst < 3; ++burst) {
-        for (int i = 0; i < 3000; ++i) { // far faster than the writing thread looks
+        // Far faster than the writing thread looks; on a machine that makes us wait, until a cycle is lost.
+        const std::uint64_t before = recorder.statistics().lost;
+        for (int i = 0; i < 3000 || (recorder.statistics().lost == before && i < kPatience); ++i) {
             bench.reading.counts[0] = (i / 7) % 20;
             recorder.begin(bench.step);
             bench.tick(1, kStep_s);
             recorder.end({bench.reading, kStep_s, bench.read_status, Status::ok, true}, bench.drive,
                          bench.now(), bench.command, false);
+            ++ticks;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(100)); // and time to catch up
     }
     recorder.close();
     const RecorderStatistics statistics = recorder.statistics();
     CHECK(statistics.lost > 0);
-    CHECK(statistics.cycles + statistics.lost == 9000);
+    CHECK(statistics.cycles + statistics.lost == ticks);
 
     RecordingReader reader;
     REQUIRE(reader.open(file.path()) == "");
@@ -190,7 +197,7 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
     while (reader.next(cycle)) {
         segments += cycle.segment_start ? 1 : 0;
     }
-    CHECK(segments >= 3);
+    CHECK(segments >= 2); // one a burst, unless a busy machine left the ring full
     CHECK(reader.closed());
     CHECK(reader.cycles() == statistics.cycles);
     CHECK(reader.lost() == statistics.lost);
@@ -211,7 +218,7 @@ TEST_CASE("recording: the servo thread's part allocates nothing, not at the star
     Recorder recorder(bench.settings, true);
     REQUIRE(recorder.open(file.path()) == "");
     const std::size_t before = allocations_of_this_thread();
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < 5000 || (recorder.statistics().lost == 0 && i < kPatience); ++i) {
         const bool command_is_new = i % 16 == 0;
         bench.command.contacts_sequence += command_is_new ? 1 : 0;
         bench.command.contact_count = 1 + i % 4;
