@@ -90,8 +90,9 @@ def drag(x, y, to_x, to_y):
 def mouse_drags(godot, *pictures):
     """The handles under a real mouse: needs a display and xdotool. (passed, failed)"""
     told = subprocess.run(["xdotool", "getdisplaygeometry"], check=True, text=True, capture_output=True).stdout
-    command = [godot, *DISPLAYED, "--editor", "--path", PROJECT, "--position", "0,0",
-               "--resolution", "x".join(told.split()), "--", "mouse_drag", *pictures]
+    # One window: without a window manager nobody would close a dialog's.
+    command = [godot, *DISPLAYED, "--editor", "--single-window", "--path", PROJECT, "--position", "0,0",
+               "--resolution", "x".join(told.split()), "res://stage.tscn", "--", "mouse_drag", *pictures]
     counts, problems = [], []
     with subprocess.Popen(command, text=True, errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT) as editor:
