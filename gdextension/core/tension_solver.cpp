@@ -57,6 +57,15 @@ std::uint8_t strings_at(const ActiveSet &active, unsigned bit) noexcept {
     return static_cast<std::uint8_t>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
+// Largest |a - b|. In four chains: one alone would wait for itself eight times.
+double largest_distance(const StringArray &a, const StringArray &b) noexcept {
+    std::array<double, 4> largest{};
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+        largest[i] = std::max(std::abs(a[i] - b[i]), std::abs(a[i + 4] - b[i + 4]));
+    }
+    return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
 // The first setting that is out of range; field null when none is.
 struct Fault {
     const char *field = nullptr;
@@ -226,11 +235,8 @@ TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept 
                same_bits(solution.active, last_active_);
 
     if (solution.largest_error_n > kWrenchLimited_n) {
-        double furthest_n = 0.0;
-        for (std::size_t i = 0; i < kStrings; ++i) {
-            furthest_n = std::max(furthest_n,
-                                  std::abs(result.tensions_n[i] - problem_.proximal_target_n[i]));
-        }
+        const double furthest_n =
+            largest_distance(result.tensions_n, problem_.proximal_target_n);
         if (solution.largest_error_n >
             kWrenchLimited_n + kTermReach * problem_.proximal_weight * furthest_n) {
             result.status = Status::wrench_limited;
@@ -238,7 +244,9 @@ TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept 
     }
     last_tensions_n_ = result.tensions_n;
     last_active_ = solution.active;
-    last_result_ = result;
+    if (settled_) {
+        last_result_ = result; // what a skipped tick gives
+    }
     warm_ = true;
     has_last_ = true;
     return result;
