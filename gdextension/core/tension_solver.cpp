@@ -235,8 +235,7 @@ TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept 
                same_bits(solution.active, last_active_);
 
     if (solution.largest_error_n > kWrenchLimited_n) {
-        const double furthest_n =
-            largest_distance(result.tensions_n, problem_.proximal_target_n);
+        const double furthest_n = largest_distance(result.tensions_n, problem_.proximal_target_n);
         if (solution.largest_error_n >
             kWrenchLimited_n + kTermReach * problem_.proximal_weight * furthest_n) {
             result.status = Status::wrench_limited;
