@@ -32,6 +32,9 @@ inline constexpr double kMaxWarmStep_m = 5e-3;
 inline constexpr double kTrustedStep_m = 0.02;
 // The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
 inline constexpr double kMaxSecondStep_m = 5e-4;
+// Above this it leaves more than 10 nm, and a third is taken: movements of more than a millimetre within a tick that were
+// not foreseen, or samples lost.
+inline constexpr double kThirdStep_m = 2e-5;
 // Motion within one tick after which the last pose says nothing (device restarted, samples lost).
 inline constexpr double kForgetStep_m = 0.05;
 
@@ -79,6 +82,8 @@ inline constexpr int kMaxRefineSteps = 10;
 inline constexpr double kSlowestRate = 0.3;
 // A factorisation made this near serves the next step as well.
 inline constexpr double kRefactorStep_m = 1e-5;
+// A step by it that shrinks by less than this asks for a new one: near a singular pose they may shrink by half only.
+inline constexpr double kOutwornRate = 0.1;
 // How much more than its distance such a factorisation bends the next step: strings near a corner are short.
 inline constexpr double kNearbyBend = 8.0;
 // A residual settles when a step lowers the sum of squares by less than this part: what is above all that

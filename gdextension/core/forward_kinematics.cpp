@@ -162,6 +162,17 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         pose = moved(pose, second, d);
         result.steps = 2;
         result.residual_rms_m = rms_after(errors, second);
+        if (!(second.size_m2 <= kThirdStep_m * kThirdStep_m)) {
+            errors = errors_at(layout_, lengths_m, pose);
+            factor = factorise(errors, pose, d);
+            const CrossedStep third = solve(factor, errors);
+            if (!factor.solvable || !(third.size_m2 <= second.size_m2)) {
+                return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+            }
+            pose = moved(pose, third, d);
+            result.steps = 3;
+            result.residual_rms_m = rms_after(errors, third);
+        }
     }
     if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);

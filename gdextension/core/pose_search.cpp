@@ -114,7 +114,9 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         }
         const double left_m = size_m * std::fmax(kWorstCurvature * bends_m / gauss_pivot,
                                                  first ? 0.0 : (again ? 2.0 * rate : rate * rate));
-        result.converged = left_m <= kConvergedStep_m || (tiny && rate > 0.5);
+        // By a factorisation from elsewhere a step may fail to shrink for that reason: then a new one tells.
+        const bool outworn = again && !(rate <= kOutwornRate);
+        result.converged = left_m <= kConvergedStep_m || (tiny && !again && rate > 0.5);
         const bool foretells = !again || step.size_m2 < kForetoldShare * before_m2;
         if (result.converged && size_m < kForetoldStep_m && foretells) {
             errors.sum_of_squares_m2 = foretold_m2;
@@ -127,7 +129,7 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
             }
         }
         last_size_m = size_m;
-        bend_m = first ? bends_m : size_m;
+        bend_m = first ? bends_m : outworn ? HUGE_VAL : size_m;
     }
     result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
     result.pose = pose_of(pose);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/constants.h"
 #include "core/forward_kinematics.h"
 
@@ -57,4 +59,55 @@ TEST_CASE("kinematics: a start far away that nearly ends within the bound on ste
             CHECK(std::fabs(back_m[i] - start.lengths_m[i]) < 1e-14);
         }
     }
+}
+
+TEST_CASE("kinematics: a search ends at rounding also where an old factorisation converges by half "
+          "only") {
+    // stress_kinematics --seed 4001 --first 64325003 --cases 1: the pose was off by 9.6e-13 m and called exact.
+    const StringArray lengths_m = {0.41066861746721434, 0.20531497756934447, 0.50525457663820561,
+                                   0.36156818003222874, 0.48866383906364463, 0.41702947289885212,
+                                   0.59675110953952237, 0.53665392839668913};
+    ForwardKinematics kinematics;
+    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
+    const GripGeometry grip;
+    REQUIRE(kinematics.configure(frame, grip) == Status::ok);
+    kinematics.set_last_pose(
+        {{-0.14568287485965326, -0.0063254856045345809, 0.0075686324909342573},
+         {0.0048275822289544365, 0.035113201913341704, 0.018540698509376063},
+         {0.039436147053135681, 0.0020145189038736186, 0.0063821641462276646}});
+    const KinematicsResult result = kinematics.update(lengths_m);
+    REQUIRE(result.status == Status::ok);
+    const StringArray back_m = string_lengths(frame, grip, result.pose);
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        CHECK(std::fabs(back_m[i] - lengths_m[i]) < 1e-15);
+    }
+}
+
+TEST_CASE(
+    "kinematics: a tick that jumps by millimetres takes a third step, and is right to 10 nm") {
+    // A small device, whose lengths bend most: stress_kinematics --seed 4001 --first 64247647 --cases 1, and movements
+    // about it in every direction.
+    GripGeometry grip;
+    grip.pole_half_length_m = 0.011662705915820994;
+    const FrameGeometry frame =
+        make_box_frame(Vec3(0.092600166392353356, 0.068819865346002485, 0.069578241009043446));
+    const GripPose start = make_pose(grip, Vec3(0.013, 0.028, 0.014), Mat3(1.0), 0.1);
+    int third_steps = 0;
+    for (int direction = 0; direction < 27; ++direction) {
+        const Vec3 way(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+        ForwardKinematics kinematics;
+        REQUIRE(kinematics.configure(frame, grip) == Status::ok);
+        kinematics.set_last_pose(start);
+        const double turn = 0.05;
+        const Mat3 turned(std::cos(turn), std::sin(turn), 0, -std::sin(turn), std::cos(turn), 0, 0,
+                          0, 1);
+        const GripPose next = make_pose(grip, start.position_m + 2e-3 * way, turned, 0.15);
+        const KinematicsResult result = kinematics.update(string_lengths(frame, grip, next));
+        REQUIRE(usable(result.status));
+        third_steps += result.steps == 3 && !result.cold_start ? 1 : 0;
+        CHECK(glm::distance(result.pose.position_m, next.position_m) < 1e-8);
+        CHECK(glm::distance(result.pose.r1_m, next.r1_m) < 1e-8);
+        CHECK(glm::distance(result.pose.r2_m, next.r2_m) < 1e-8);
+    }
+    CHECK(third_steps > 9);
 }
