@@ -21,7 +21,7 @@ inline constexpr double kLongestString_m = 40.0;
 // Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
 inline constexpr double kImpossibleResidual_m = 0.020;
 
-// After the two steps of a warm tick a residual above this asks for a cold start. Calibrated strings
+// After the steps of a warm tick a residual above this asks for a cold start. Calibrated strings
 // err by less, and the redundant eighth length shows only a third of the error of one string.
 inline constexpr double kWarmResidualGate_m = 1e-3;
 

@@ -33,7 +33,7 @@ public:
     // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
-    // One servo tick: one or two steps; falls back to a search when the residual or the step size
+    // One servo tick: one to three steps; falls back to a search when the residual or the step size
     // says so; holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
     // ambiguous_pose, where there is a closed form: looked for every kRivalPeriod ticks, stands in between.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
