@@ -24,9 +24,10 @@ constexpr long double kViolation = 1e-11L;
 constexpr long double kTensionError_n = 1e-11L;
 // Beyond this, squares of squares overflow and the solver may say not_converged.
 constexpr double kTame = 1e60;
-// Stiffness of a string, (W A)^2, over the proximal weight. Gradients are taken in double-double, 32 digits: a problem
-// that cancels more than 30 of them may be refused with a status (one in 4 x 10^8 was, at 10^31).
-constexpr double kWorstStiffness = 1e30;
+// Stiffness of a string, (W A)^2, over the proximal weight. A factorisation in double keeps 16 digits of its root, and the
+// refinement needs some three of them: beyond, a problem may be refused with a status (two in 5 x 10^8 were, at 10^29 and
+// 10^31; the device's own is 10^9 with the ridge alone).
+constexpr double kWorstStiffness = 1e26;
 
 // SplitMix64: a case costs no more to seed than to solve.
 class Dice {
