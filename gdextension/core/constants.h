@@ -25,6 +25,10 @@ inline constexpr double kImpossibleResidual_m = 0.020;
 // err by less, and the redundant eighth length shows only a third of the error of one string.
 inline constexpr double kWarmResidualGate_m = 1e-3;
 
+// A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
+// looked at too, and must fit kBeyondChance times better: next to it a wrong branch may fit to a millimetre.
+inline constexpr double kContentResidual_m = 2e-5;
+
 // Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
 inline constexpr double kMaxWarmStep_m = 5e-3;
 // Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by

@@ -137,7 +137,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
         const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
         const bool trust = first.size_m2 <= kTrustedStep_m * kTrustedStep_m;
-        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kWarmResidualGate_m : 0.0);
+        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kContentResidual_m : 0.0);
     }
     pose = moved(pose, first, d);
     KinematicsResult result;
@@ -157,7 +157,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         const CrossedStep second =
             again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
         if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
-            return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+            return search(lengths_m, &last_pose_, kContentResidual_m);
         }
         pose = moved(pose, second, d);
         result.steps = 2;
@@ -167,7 +167,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
             factor = factorise(errors, pose, d);
             const CrossedStep third = solve(factor, errors);
             if (!factor.solvable || !(third.size_m2 <= second.size_m2)) {
-                return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+                return search(lengths_m, &last_pose_, kContentResidual_m);
             }
             pose = moved(pose, third, d);
             result.steps = 3;
@@ -175,7 +175,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
         }
     }
     if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
-        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+        return search(lengths_m, &last_pose_, kContentResidual_m);
     }
     foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
     result.pose = pose_of(pose);

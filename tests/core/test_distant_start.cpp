@@ -61,6 +61,25 @@ TEST_CASE("kinematics: a start far away that nearly ends within the bound on ste
     }
 }
 
+TEST_CASE("kinematics: a wrong branch that fits to a millimetre does not outweigh one that fits "
+          "exactly") {
+    // stress_kinematics --seed 4001 --first 918320623 --cases 1: samples were lost, and the last pose led 21 mm astray.
+    ForwardKinematics kinematics;
+    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
+    const GripGeometry grip;
+    REQUIRE(kinematics.configure(frame, grip) == Status::ok);
+    const GripPose truth{{-0.08512193548038148, 0.059040958285072498, -0.20875841323538163},
+                         {-0.022328622584302418, 0.033156852715252302, 0.001433782238293689},
+                         {0.035893047871701007, 0.011572000579537053, 0.013333338556677178}};
+    kinematics.set_last_pose({{-0.087051575207830342, 0.062800537682010771, -0.19830699134169191},
+                              {-0.015665029556895589, 0.03458849702367231, 0.012579456372395428},
+                              {0.032171987176451436, 0.013749644950968346, -0.019388411612108799}});
+    const KinematicsResult result = kinematics.update(string_lengths(frame, grip, truth));
+    REQUIRE(usable(result.status));
+    CHECK(glm::distance(result.pose.position_m, truth.position_m) < 1e-12);
+    CHECK(glm::distance(result.pose.r2_m, truth.r2_m) < 1e-12);
+}
+
 TEST_CASE("kinematics: a search ends at rounding also where an old factorisation converges by half "
           "only") {
     // stress_kinematics --seed 4001 --first 64325003 --cases 1: the pose was off by 9.6e-13 m and called exact.
