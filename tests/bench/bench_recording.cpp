@@ -74,10 +74,6 @@ BenchRow row_of(const char *mode, const RepeatedTimes &times) {
     return row;
 }
 
-} // namespace
-
-namespace {
-
 enum class Outcome { measured, lossy, failed };
 
 Outcome measure(std::vector<BenchRow> &rows) {

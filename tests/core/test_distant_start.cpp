@@ -1,4 +1,4 @@
-// Starts far from the pose, found by the stress program: the search met its bound on steps just before the end.
+// What 10^9 cases of stress_kinematics found: starts far away, next to singular poses, on another branch, too fast.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -42,39 +42,45 @@ const Start kStarts[] = {
       {0.034298085928191245, 0.012645855058782482, 0.016239570545266122}}},
 };
 
+// The paper's device, one update from that memory.
+KinematicsResult update_from(const GripPose &memory, const StringArray &lengths_m) {
+    ForwardKinematics kinematics;
+    REQUIRE(kinematics.configure(make_box_frame(Vec3(kPaperHalfExtent_m)), GripGeometry()) ==
+            Status::ok);
+    kinematics.set_last_pose(memory);
+    return kinematics.update(lengths_m);
+}
+
+// The defining equation: these are the lengths of that pose.
+void check_lengths(const GripPose &pose, const StringArray &lengths_m, double tolerance_m) {
+    const StringArray back_m =
+        string_lengths(make_box_frame(Vec3(kPaperHalfExtent_m)), GripGeometry(), pose);
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        CHECK(std::fabs(back_m[i] - lengths_m[i]) < tolerance_m);
+    }
+}
+
 } // namespace
 
 TEST_CASE("kinematics: a start far away that nearly ends within the bound on steps goes on once") {
     for (const Start &start : kStarts) {
-        ForwardKinematics kinematics;
-        const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-        const GripGeometry grip;
-        REQUIRE(kinematics.configure(frame, grip) == Status::ok);
-        kinematics.set_last_pose(start.memory);
-        const KinematicsResult result = kinematics.update(start.lengths_m);
+        const KinematicsResult result = update_from(start.memory, start.lengths_m);
         REQUIRE(usable(result.status));
-        // The defining equation: these are the lengths of that pose.
-        const StringArray back_m = string_lengths(frame, grip, result.pose);
-        for (std::size_t i = 0; i < kStringCount; ++i) {
-            CHECK(std::fabs(back_m[i] - start.lengths_m[i]) < 1e-14);
-        }
+        check_lengths(result.pose, start.lengths_m, 1e-14);
     }
 }
 
 TEST_CASE("kinematics: a wrong branch that fits to a millimetre does not outweigh one that fits "
           "exactly") {
     // stress_kinematics --seed 4001 --first 918320623 --cases 1: samples were lost, and the last pose led 21 mm astray.
-    ForwardKinematics kinematics;
-    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-    const GripGeometry grip;
-    REQUIRE(kinematics.configure(frame, grip) == Status::ok);
     const GripPose truth{{-0.08512193548038148, 0.059040958285072498, -0.20875841323538163},
                          {-0.022328622584302418, 0.033156852715252302, 0.001433782238293689},
                          {0.035893047871701007, 0.011572000579537053, 0.013333338556677178}};
-    kinematics.set_last_pose({{-0.087051575207830342, 0.062800537682010771, -0.19830699134169191},
-                              {-0.015665029556895589, 0.03458849702367231, 0.012579456372395428},
-                              {0.032171987176451436, 0.013749644950968346, -0.019388411612108799}});
-    const KinematicsResult result = kinematics.update(string_lengths(frame, grip, truth));
+    const GripPose memory{{-0.087051575207830342, 0.062800537682010771, -0.19830699134169191},
+                          {-0.015665029556895589, 0.03458849702367231, 0.012579456372395428},
+                          {0.032171987176451436, 0.013749644950968346, -0.019388411612108799}};
+    const KinematicsResult result = update_from(
+        memory, string_lengths(make_box_frame(Vec3(kPaperHalfExtent_m)), GripGeometry(), truth));
     REQUIRE(usable(result.status));
     CHECK(glm::distance(result.pose.position_m, truth.position_m) < 1e-12);
     CHECK(glm::distance(result.pose.r2_m, truth.r2_m) < 1e-12);
@@ -86,20 +92,12 @@ TEST_CASE("kinematics: a search ends at rounding also where an old factorisation
     const StringArray lengths_m = {0.41066861746721434, 0.20531497756934447, 0.50525457663820561,
                                    0.36156818003222874, 0.48866383906364463, 0.41702947289885212,
                                    0.59675110953952237, 0.53665392839668913};
-    ForwardKinematics kinematics;
-    const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-    const GripGeometry grip;
-    REQUIRE(kinematics.configure(frame, grip) == Status::ok);
-    kinematics.set_last_pose(
-        {{-0.14568287485965326, -0.0063254856045345809, 0.0075686324909342573},
-         {0.0048275822289544365, 0.035113201913341704, 0.018540698509376063},
-         {0.039436147053135681, 0.0020145189038736186, 0.0063821641462276646}});
-    const KinematicsResult result = kinematics.update(lengths_m);
+    const GripPose memory{{-0.14568287485965326, -0.0063254856045345809, 0.0075686324909342573},
+                          {0.0048275822289544365, 0.035113201913341704, 0.018540698509376063},
+                          {0.039436147053135681, 0.0020145189038736186, 0.0063821641462276646}};
+    const KinematicsResult result = update_from(memory, lengths_m);
     REQUIRE(result.status == Status::ok);
-    const StringArray back_m = string_lengths(frame, grip, result.pose);
-    for (std::size_t i = 0; i < kStringCount; ++i) {
-        CHECK(std::fabs(back_m[i] - lengths_m[i]) < 1e-15);
-    }
+    check_lengths(result.pose, lengths_m, 1e-15);
 }
 
 TEST_CASE(

@@ -7,14 +7,11 @@ const EA: float = 3000.0
 
 ## A firm hand leans on a wall: the error of the pose (m), and of the wall's force (relative).
 func _lean(calibration: SpidarGCalibration) -> Vector2:
-	var config := SpidarGConfig.new()
-	config.simulated_string_stiffness = EA
-	config.simulated_friction = 0.0
-	config.simulated_hand_firmness = SpidarG.HAND_FIRM
-	var device := SpidarG.new()
-	device.config = config
+	var device: SpidarG = ideal_device()
+	device.config.simulated_elastic = true
+	device.config.simulated_string_stiffness = EA
+	device.config.simulated_hand_firmness = SpidarG.HAND_FIRM
 	device.calibration = calibration
-	device.drive_mode = SpidarG.DRIVE_STEPPED
 	device.forces_enabled = true
 	add(device)
 	await physics_frames(1)
