@@ -63,7 +63,8 @@ SafetyMonitor::Verdict SafetyMonitor::watch_strings(const Sample &sample, EventL
 SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLog &events,
                                                    double dt_s) noexcept {
     speed_.update(sample.fastest_m_s, sample.grip.twist, dt_s);
-    shake_.update(sample.grip.twist, sample.motors_on && sample.rendering, dt_s);
+    shake_.update(sample.grip.twist, sample.contact_push, sample.motors_on && sample.rendering,
+                  dt_s);
     if (!sample.motors_on) {
         bounce_.configure();
         return {};

@@ -3,30 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "device/pole_end_speed.h"
 
 namespace spidar {
 
 namespace {
 
-// A swing: 1 mm to and fro at 40 Hz, five times what a good rendering may dither. Rubbing along three surfaces at once
-// shows nearly as much and is felt as rough, not as a danger.
-constexpr double kSwing_m_s = 0.10;
-// Half a period of 8 Hz: a light hand bounces off a wall so slowly; nobody shakes a grip as fast for long.
-constexpr double kLongestHalfPeriod_s = 0.060;
 // Four whole periods in a row: no tap swings so often.
 constexpr int kSwings = 8;
-// Time constant of what counts as the hand's own motion: a corner of 13 Hz.
-constexpr double kHandMotion_s = 0.012;
 // The forces come back to full within this, once the grip is calm.
 constexpr double kRecovery_s = 1.0;
 constexpr double kLeastScale = 0.25;
-// Of a grip at rest: so little is nothing.
-constexpr double kStill_m_s = 1e-9;
+// Of a grip at rest (m/s), of a contact left (N): so little is nothing.
+constexpr double kStill = 1e-9;
 // A swing so long ago is no longer in a row.
-constexpr double kLongAgo_s = 2.0 * kLongestHalfPeriod_s;
+constexpr double kLongAgo_s = 0.15;
 
 } // namespace
+
+// Least: 1 mm to and fro at 40 Hz, five times what a good rendering may dither; rubbing along three surfaces at once shows
+// nearly as much and is felt as rough, not as a danger. Longest half: of 8 Hz; a light hand bounces off a wall so slowly,
+// and nobody shakes a grip as fast for long. Slow: a corner of 13 Hz.
+constexpr ShakeMonitor::Kind ShakeMonitor::kSpeed{0.10, 0.060, 0.012};
+// Least: ten times what a good wall dithers; a firm hand lets a bad one move it by less than the above. Longest half: of
+// 6.7 Hz; so slowly swings a firm hand on what is too stiff, and no hand presses and leaves as often. Slow: 3 Hz.
+constexpr ShakeMonitor::Kind ShakeMonitor::kPush{2.0, 0.075, 0.050};
 
 void ShakeMonitor::found(double swing_m_s) noexcept {
     swing_m_s_ = swing_m_s;
@@ -35,36 +38,51 @@ void ShakeMonitor::found(double swing_m_s) noexcept {
     calm_s_ = 0.0;
 }
 
-void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexcept {
+bool ShakeMonitor::Channel::update(double value, const Kind &kind, double dt_s) noexcept {
+    slow += dt_s / (dt_s + kind.slow_s) * (value - slow);
+    if (value == 0.0 && std::abs(slow) < kStill) {
+        slow = 0.0;
+    }
+    since_s = std::min(kLongAgo_s, since_s + dt_s);
+    const double swing = value - slow;
+    if (!(std::abs(swing) >= kind.least)) {
+        return false;
+    }
+    const std::int8_t now = swing > 0.0 ? 1 : -1;
+    largest = std::max(largest, std::abs(swing));
+    if (now == side) {
+        return false;
+    }
+    const bool in_a_row = since_s <= kind.longest_half_s;
+    count = in_a_row ? static_cast<std::uint8_t>(count + 1) : std::uint8_t{0};
+    largest = in_a_row ? largest : std::abs(swing);
+    side = now;
+    since_s = 0.0;
+    if (count < kSwings) {
+        return false;
+    }
+    count = 0;
+    return true;
+}
+
+bool ShakeMonitor::Channel::settled() const noexcept {
+    return slow == 0.0 && since_s >= kLongAgo_s;
+}
+
+void ShakeMonitor::update(const Twist &twist, const Wrench &push, bool rendering,
+                          double dt_s) noexcept {
     const DofArray speeds = pole_end_speeds(twist);
-    const double gain = dt_s / (dt_s + kHandMotion_s);
     bool shaking = false;
-    for (std::size_t k = 0; k < channels_.size(); ++k) {
-        Channel &channel = channels_[k];
-        channel.slow += gain * (speeds[k] - channel.slow);
-        if (speeds[k] == 0.0 && std::abs(channel.slow) < kStill_m_s) {
-            channel.slow = 0.0;
-        }
-        channel.since_s = std::min(kLongAgo_s, channel.since_s + dt_s);
-        const double swing = speeds[k] - channel.slow;
-        if (!(std::abs(swing) >= kSwing_m_s)) {
-            continue;
-        }
-        const std::int8_t side = swing > 0.0 ? 1 : -1;
-        channel.largest = std::max(channel.largest, std::abs(swing));
-        if (side == channel.side) {
-            continue;
-        }
-        const bool in_a_row = channel.since_s <= kLongestHalfPeriod_s;
-        channel.count = in_a_row ? static_cast<std::uint8_t>(channel.count + 1) : std::uint8_t{0};
-        channel.largest = in_a_row ? channel.largest : std::abs(swing);
-        channel.side = side;
-        channel.since_s = 0.0;
-        if (channel.count >= kSwings) {
+    for (std::size_t k = 0; k < speeds_.size(); ++k) {
+        if (speeds_[k].update(speeds[k], kSpeed, dt_s)) {
             shaking = true;
-            swing_m_s_ = channel.largest;
-            channel.count = 0;
+            swing_m_s_ = speeds_[k].largest;
         }
+    }
+    const double push_n = glm::length(push.force_n);
+    if ((push_n > 0.0 || !push_.settled()) && push_.update(push_n, kPush, dt_s)) {
+        shaking = true;
+        swing_m_s_ = glm::length(twist.linear_m_s);
     }
     if (shaking && rendering) {
         found(swing_m_s_);
@@ -78,9 +96,9 @@ void ShakeMonitor::update(const Twist &twist, bool rendering, double dt_s) noexc
 }
 
 bool ShakeMonitor::settled() const noexcept {
-    bool still = scale_ >= 1.0 && !unstable_;
-    for (const Channel &channel : channels_) {
-        still = still && channel.slow == 0.0 && channel.since_s >= kLongAgo_s;
+    bool still = scale_ >= 1.0 && !unstable_ && push_.settled();
+    for (const Channel &channel : speeds_) {
+        still = still && channel.settled();
     }
     return still;
 }

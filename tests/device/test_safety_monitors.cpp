@@ -68,8 +68,8 @@ TEST_CASE("shake: a swing of 30 Hz is halved, halved again, and called unstable;
           "is not") {
     const auto swing = [](ShakeMonitor &monitor, double hz, double amplitude_m_s, double time_s) {
         for (int i = 0; i < static_cast<int>(time_s / kTick_s); ++i) {
-            monitor.update(along_x(amplitude_m_s * std::sin(2.0 * kPi * hz * i * kTick_s)), true,
-                           kTick_s);
+            monitor.update(along_x(amplitude_m_s * std::sin(2.0 * kPi * hz * i * kTick_s)),
+                           Wrench(), true, kTick_s);
         }
     };
     ShakeMonitor shaking;
@@ -81,7 +81,7 @@ TEST_CASE("shake: a swing of 30 Hz is halved, halved again, and called unstable;
     CHECK(shaking.scale() == 0.25);
     CHECK(shaking.unstable());
     for (int i = 0; i < 3500; ++i) { // calm: back within kCalm_s and one second
-        shaking.update(Twist(), true, kTick_s);
+        shaking.update(Twist(), Wrench(), true, kTick_s);
     }
     CHECK(shaking.scale() == 1.0);
     CHECK_FALSE(shaking.unstable());
@@ -94,16 +94,36 @@ TEST_CASE("shake: a swing of 30 Hz is halved, halved again, and called unstable;
     ShakeMonitor tap; // a tap of 0.5 m/s rings out within a period and a half
     for (int i = 0; i < 3000; ++i) {
         const double t = (i % 500) * kTick_s;
-        tap.update(along_x(0.5 * std::exp(-t / 0.02) * std::cos(2.0 * kPi * 20.0 * t)), true,
-                   kTick_s);
+        tap.update(along_x(0.5 * std::exp(-t / 0.02) * std::cos(2.0 * kPi * 20.0 * t)), Wrench(),
+                   true, kTick_s);
     }
     CHECK(tap.scale() == 1.0);
 
     ShakeMonitor unforced; // without forces it is the hand's own doing
     for (int i = 0; i < 1000; ++i) {
-        unforced.update(along_x(0.3 * std::sin(2.0 * kPi * 30.0 * i * kTick_s)), false, kTick_s);
+        unforced.update(along_x(0.3 * std::sin(2.0 * kPi * 30.0 * i * kTick_s)), Wrench(), false,
+                        kTick_s);
     }
     CHECK(unforced.scale() == 1.0);
+}
+
+TEST_CASE(
+    "shake: a push that swings by 2 N is found where the grip hardly moves; a hand's push is not") {
+    const auto push = [](double hz, double swing_n) { // on 4 N, for two seconds
+        ShakeMonitor monitor;
+        for (int i = 0; i < 2000; ++i) {
+            const double angle = 2.0 * kPi * hz * i * kTick_s;
+            monitor.update(
+                along_x(0.05 * std::cos(angle)),
+                {Vec3(std::max(0.0, 4.0 + swing_n * std::sin(angle)), 0.0, 0.0), Vec3(0.0), 0.0},
+                true, kTick_s);
+        }
+        return monitor.scale();
+    };
+    CHECK(push(10.0, 3.5) < 1.0);
+    CHECK(push(25.0, 8.0) < 1.0); // bounces: pushes and none
+    CHECK(push(10.0, 1.5) == 1.0);
+    CHECK(push(4.0, 8.0) == 1.0); // pressed and left by hand
 }
 
 TEST_CASE("speed: three milliseconds above the first limit fade, one sample above the second is "
