@@ -63,6 +63,10 @@ func _tell_of(task: DemoTask, report: Dictionary) -> void:
 			"name": body.name,
 			"at": _point(camera, body.to_global(body.grasp_offset_m)),
 			"goal": _point(camera, body.goal() * body.grasp_offset_m),
+			"turn_deg": rad_to_deg(wrapf(body.goal().basis.get_euler().y - body.global_basis.get_euler().y, -PI, PI)),
+			"travel_y": (task.get_node(^"Items") as Node3D).global_position.y + body.travel_m,
+			"from": _vector(body.global_basis * body.approach_m),
+			"way_out": _vector(body.goal().basis * body.approach_m),
 			"placed": body.placed,
 		})
 	for child in task.get_node(^"Items").get_children():
@@ -86,7 +90,11 @@ func _buttons() -> Dictionary:
 
 func _point(camera: Camera3D, point: Vector3) -> Dictionary:
 	var on_screen := get_viewport().get_final_transform() * camera.unproject_position(point)
-	return {"screen": [on_screen.x, on_screen.y], "world": [point.x, point.y, point.z]}
+	return {"screen": [on_screen.x, on_screen.y], "world": _vector(point)}
+
+
+func _vector(vector: Vector3) -> Array[float]:
+	return [vector.x, vector.y, vector.z]
 
 
 ## Whole or not at all: the reader never sees half of it.

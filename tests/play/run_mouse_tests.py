@@ -2,7 +2,7 @@
 """A scripted user with real mouse events: python3 run_mouse_tests.py GODOT [--display :N]
 
 Under an X server of its own (Xvfb) and with xdotool it works the hub by the simulated grip (touch a knob, close on it)
-and by keys, does pick and place with the mouse alone, and completes each task with auto-animation, two clicks a thing.
+and by keys, and completes each task twice: thing by thing with mouse and keys, and with auto-animation, two clicks a thing.
 What it cannot see it reads from the file that the demo's --report leaves.
 """
 
@@ -32,6 +32,10 @@ OPEN_DEG = 6.0
 RESOLUTION = "640x400"  # a small window costs a computer without a GPU a third of a large one
 PIXELS_M = 500.0  # fewer than the picture has: the loop then comes in without swinging
 WHEEL_STEP_M = 0.006  # the demo's own
+KEY_M_S = 0.12  # the demo's own
+KEY_DEG_S = 51.0  # the demo's own
+TURN_DEG = 3.0
+FINE_M = 0.002  # two or three pixels: a match is 3 mm thick
 SCENES = {"pick_and_place": "PickAndPlace", "robot_linking": "RobotLinking", "match_linking": "MatchLinking"}
 
 
@@ -124,7 +128,7 @@ class User:
         self.wait("the next report", lambda now: now["count"] >= count)
 
     def bring_grip(self, world_of, near_m=0.005):
-        """Closed loop by cursor and wheel: the grip to the point (m) that world_of(report) gives."""
+        """Closed loop by cursor, wheel and, nearer than a notch, keys: the grip to the point (m) that world_of gives."""
         end = time.monotonic() + STEP_LIMIT_S
         while time.monotonic() < end:
             report = self.see()
@@ -133,12 +137,33 @@ class User:
             if max(map(abs, off)) < near_m:
                 return
             clicks = round(-off[2] / WHEEL_STEP_M)
-            if abs(off[2]) > near_m and clicks:
+            if abs(off[2]) > near_m and not clicks:
+                self.hold_key("s" if off[2] > 0.0 else "w", abs(off[2]) / KEY_M_S)
+            elif abs(off[2]) > near_m:
                 self.xdotool("click", "--repeat", min(abs(clicks), 5), "--delay", 20, 4 if clicks > 0 else 5)
             if abs(off[0]) > near_m or abs(off[1]) > near_m:
                 self.move((grip["screen"][0] + PIXELS_M * off[0], grip["screen"][1] - PIXELS_M * off[1]))
             self.wait_for_reports(4, report)
         raise GaveUp("the grip does not come to its place")
+
+    def hold_key(self, key, time_s):
+        self.xdotool("keydown", key, "sleep", round(time_s, 3), "keyup", key)
+
+    def turn_held(self, name):
+        """By the arrow keys until the held thing lies as in its place, or the other way round, which looks the same."""
+        end = time.monotonic() + STEP_LIMIT_S
+        while time.monotonic() < end:
+            turn = (named(self.see(), "bodies", name)["turn_deg"] + 90.0) % 180.0 - 90.0
+            if abs(turn) < TURN_DEG:
+                return
+            key = "Left" if turn > 0.0 else "Right"
+            self.hold_key(key, abs(turn) / KEY_DEG_S)
+            self.wait_for_reports(4)
+        raise GaveUp(f"{name} cannot be turned into its place")
+
+    def open_fingers(self):
+        self.xdotool("mouseup", 1)
+        self.wait("open fingers", lambda report: report["grasp_angle_deg"] < OPEN_DEG and not report["held"])
 
     def rise(self, y_m):
         """Straight up to this height."""
@@ -148,6 +173,10 @@ class User:
 
 def named(report, kind, name):
     return next(item for item in report[kind] if item["name"] == name)
+
+
+def plus(point_m, way_m):
+    return [here + way for here, way in zip(point_m, way_m)]
 
 
 def above(point_m, height_m):
@@ -217,54 +246,92 @@ def trial_broken_off(godot, display, check):
         shutil.rmtree(user.folder)
 
 
-def objects_by_mouse(godot, display, check, how_many=None):
-    """The mouse condition as the paper had it at first: objects to their outlines by mouse alone, no forces."""
+def task_by_hand(godot, display, check, task, how_many=None):
+    """The mouse condition without the paper's animations: things to their places by mouse and keys alone, no forces."""
     began = time.monotonic()
-    user = User(godot, display, ["--task", "pick_and_place"], {"source": '"mouse"', "participant": '"p6"'})
+    user = User(godot, display, ["--task", task], {"source": '"mouse"', "participant": '"p6"'})
+    place = place_object if task == "pick_and_place" else link_thing
     try:
         names = [body["name"] for body in user.wait("the task", lambda report: report["bodies"], START_LIMIT_S)["bodies"]]
         started = time.monotonic()
         user.xdotool("key", "f")
         for number, name in enumerate(names[:how_many], 1):
-            place_by_mouse(user, name)
-            print(f"placed by mouse: {number} in {time.monotonic() - started:.0f} s, {started - began:.0f} s after the start")
+            by_hand(user, name, place)
+            print(f"{task} by mouse: {number} in {time.monotonic() - started:.0f} s, {started - began:.0f} s after the start")
         check(not user.see()["forces"], "F turns forces on although the source is the mouse")
         if how_many is None:
-            user.wait("the task complete", lambda report: report["finished"])
-            check_row(check, user, "pick_and_place", "p6", auto_animation="0")
+            user.wait(f"{task} complete", lambda report: report["finished"])
+            check_row(check, user, task, "p6", auto_animation="0")
         check(True, "")
     finally:
-        check("SCRIPT ERROR" not in user.close(), "script errors in the mouse task")
+        check("SCRIPT ERROR" not in user.close(), f"script errors in {task} by hand")
         shutil.rmtree(user.folder)
 
 
-def place_by_mouse(user, name):
-    """Down on it from above, closed, up, over its outline, down, opened, and up again before anything is brushed."""
+def by_hand(user, name, place):
+    """Picked up, placed, and opened fingers up again before anything is brushed; three attempts."""
+    for attempt in range(3):
+        try:
+            place(user, name)
+            user.wait(f"{name} placed", lambda report: named(report, "bodies", name)["placed"], 60)
+            return
+        except GaveUp as lost:
+            report = user.see()
+            body = named(report, "bodies", name)
+            print(f"attempt {attempt + 1}: {lost}; grip {report['grip']['world']}, {name} {body['at']['world']}, "
+                  f"its place {body['goal']['world']}, {body['turn_deg']} degrees to turn")
+            user.xdotool("mouseup", 1)
+    raise GaveUp(f"{name} was not placed in three attempts")
+
+
+def place_object(user, name):
+    """Down on it from above, closed, up, over its outline, down, opened."""
     def at(report):
         return named(report, "bodies", name)["at"]["world"]
 
     def goal(report):
         return named(report, "bodies", name)["goal"]["world"]
 
-    for attempt in range(3):
-        user.rise(TRAVEL_Y_M)
-        user.bring_grip(lambda report: at_height(at(report), TRAVEL_Y_M))
-        user.bring_grip(at)
-        user.xdotool("mousedown", 1)
-        try:
-            user.wait(f"{name} held", lambda report: report["held"] == name, 60)
-            user.rise(TRAVEL_Y_M)
-            user.bring_grip(lambda report: at_height(goal(report), TRAVEL_Y_M))
-            user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
-            user.xdotool("mouseup", 1)
-            user.wait(f"{name} placed", lambda report: named(report, "bodies", name)["placed"], 60)
-            user.wait("open fingers", lambda report: report["grasp_angle_deg"] < OPEN_DEG)
-            user.rise(TRAVEL_Y_M)
-            return
-        except GaveUp as lost:
-            print(f"attempt {attempt + 1}: {lost}")
-            user.xdotool("mouseup", 1)
-    raise GaveUp(f"{name} was not placed in three attempts")
+    user.rise(TRAVEL_Y_M)
+    user.bring_grip(lambda report: at_height(at(report), TRAVEL_Y_M))
+    user.bring_grip(at)
+    user.xdotool("mousedown", 1)
+    user.wait(f"{name} held", lambda report: report["held"] == name, 60)
+    user.rise(TRAVEL_Y_M)
+    user.bring_grip(lambda report: at_height(goal(report), TRAVEL_Y_M))
+    user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
+    user.open_fingers()
+    user.rise(TRAVEL_Y_M)
+
+
+def link_thing(user, name):
+    """In from where its fingers come, closed, up, turned, before its seat, in until it snaps, opened, and out the same way."""
+    def body(report):
+        return named(report, "bodies", name)
+
+    def to_grip(report, point):
+        """Where the grip has to be for the held thing to come there."""
+        return [here + there - at for here, there, at in zip(report["grip"]["world"], point, body(report)["at"]["world"])]
+
+    def before(report):
+        return plus(body(report)["goal"]["world"], body(report)["way_out"])
+
+    travel_y = body(user.see())["travel_y"]
+    user.rise(travel_y)
+    user.bring_grip(lambda report: at_height(plus(body(report)["at"]["world"], body(report)["from"]), travel_y))
+    user.bring_grip(lambda report: plus(body(report)["at"]["world"], body(report)["from"]))
+    user.bring_grip(lambda report: body(report)["at"]["world"], FINE_M)
+    user.xdotool("mousedown", 1)
+    user.wait(f"{name} held", lambda report: report["held"] == name, 60)
+    user.rise(travel_y)
+    user.turn_held(name)
+    user.bring_grip(lambda report: to_grip(report, at_height(before(report), travel_y)))
+    user.bring_grip(lambda report: to_grip(report, before(report)))
+    user.bring_grip(lambda report: to_grip(report, body(report)["goal"]["world"]), FINE_M)
+    user.open_fingers()
+    seat = user.see()["grip"]["world"]
+    user.bring_grip(lambda report: plus(seat, body(report)["way_out"]))
+    user.rise(travel_y)
 
 
 def check_row(check, user, task, participant, auto_animation):
@@ -307,7 +374,7 @@ def main():
     parser.add_argument("godot")
     parser.add_argument("--display", default=os.environ.get("DISPLAY", ""))
     parser.add_argument("--only", default="", help="a part of the name of what to run")
-    parser.add_argument("--quick", action="store_true", help="one object by hand, not all of a task; every task by clicks")
+    parser.add_argument("--quick", action="store_true", help="one thing of each task by hand, not all; every task by clicks")
     arguments = parser.parse_args()
     if not arguments.display:
         parser.error("no display: run under Xvfb, or give --display")
@@ -319,10 +386,10 @@ def main():
         if not condition:
             print(f"FAIL {message}")
 
-    parts = {"hub_by_grip": hub_by_grip, "trial_broken_off": trial_broken_off, "objects_by_mouse": functools.partial(
-        objects_by_mouse, how_many=1 if arguments.quick else None)}
+    parts = {"hub_by_grip": hub_by_grip, "trial_broken_off": trial_broken_off}
     for task in SCENES:
-        parts[task] = functools.partial(task_by_clicks, task=task)
+        parts[f"{task}_by_clicks"] = functools.partial(task_by_clicks, task=task)
+        parts[f"{task}_by_hand"] = functools.partial(task_by_hand, task=task, how_many=1 if arguments.quick else None)
     for name, part in parts.items():
         if arguments.only not in name:
             continue

@@ -23,6 +23,9 @@ var points: PackedVector3Array = PackedVector3Array([Vector3.ZERO, Vector3.ZERO]
 var collision_mask: int = 1
 ## A body that the jaws have already closed through by more than this (scene metres) did not come in between them.
 var entry_tolerance_m: float = 0.003
+## How far beside the middle of the closing pads a body that came between them may lie: scene metres. Strings that pull
+## centre the grip on it; without them the pads take it along.
+var centring_m: float = 0.0
 var _box: BoxShape3D = BoxShape3D.new()
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
 var _found_points: PackedVector3Array = PackedVector3Array([Vector3.ZERO, Vector3.ZERO])
@@ -57,7 +60,8 @@ func look(
 		var width: float = faces[1] - faces[0]
 		var offset: float = 0.5 * (faces[0] + faces[1])
 		# Between the pads, not beside one of them.
-		if absf(offset) > 0.5 * maxf(gap_m, width) - 0.25 * width:
+		var centring: float = centring_m if candidate == before else 0.0
+		if absf(offset) > 0.5 * maxf(gap_m, width) - 0.25 * width + centring:
 			continue
 		if candidate != before and gap_m < width - entry_tolerance_m:
 			continue

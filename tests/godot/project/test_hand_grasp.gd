@@ -93,6 +93,20 @@ func test_without_forces_a_body_can_still_be_grasped_but_is_not_felt() -> void:
 	check_near(felt[6], 0.0, 0.005, "no width is felt")
 
 
+## With no force to centre the grip, a mouse or a hand is a few millimetres beside what it closes on.
+func test_without_forces_a_thin_body_is_grasped_off_centre() -> void:
+	await set_up(Vector3.ZERO, false)
+	var body: RigidBody3D = add_free_box(Vector3(0.003, 0.04, 0.05), 0.01, 0.004)
+	await physics_frames(10)
+	var beside: Vector3 = body.global_position - Vector3(0.004, 0.0, 0.0)
+	await move_to(beside, 0.0, 60)
+	await move_to(beside, SQUEEZE_ANGLE, 80)
+	check_equal(hand.get_held_body(), body, "held, although beside the middle of the pads")
+	await move_to(at + Vector3(0.0, 0.05, 0.0), SQUEEZE_ANGLE, 60)
+	check(body.global_position.y > FLOOR_Y + 0.05, "lifted")
+	check_near(body.global_position.x, device.get_grip_transform().origin.x, 0.001, "drawn between the pads")
+
+
 func test_a_held_body_that_is_freed_is_released() -> void:
 	await set_up(Vector3.ZERO)
 	var released: Array[int] = [0]
