@@ -9,6 +9,9 @@ const RAY_PATTERN: Array[Vector2] = [
 	Vector2(0.0, 0.0), Vector2(0.7, 0.0), Vector2(-0.7, 0.0), Vector2(0.0, 0.7), Vector2(0.0, -0.7)
 ]
 
+## For centring_m where no forces centre the grip on the body: the pads take it along. Device metres.
+const CENTRING_M: float = 0.006
+
 ## The body between the pads, or null. All else is valid only when it is not.
 var body: CollisionObject3D = null
 var rid: RID
@@ -23,8 +26,7 @@ var points: PackedVector3Array = PackedVector3Array([Vector3.ZERO, Vector3.ZERO]
 var collision_mask: int = 1
 ## A body that the jaws have already closed through by more than this (scene metres) did not come in between them.
 var entry_tolerance_m: float = 0.003
-## How far beside the middle of the closing pads a body that came between them may lie: scene metres. Strings that pull
-## centre the grip on it; without them the pads take it along.
+## How far beside the middle of the closing pads a body that came between them may lie, scene metres.
 var centring_m: float = 0.0
 var _box: BoxShape3D = BoxShape3D.new()
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()

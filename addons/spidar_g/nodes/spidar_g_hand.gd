@@ -35,8 +35,6 @@ const TOUCH_TOLERANCE: float = 0.01
 const RELEASE_ANGLE: float = 0.052
 ## Play of the pads round a body that is not held, device metres: keeps the two side planes feasible together.
 const SIDE_SLACK_M: float = 0.002
-## Without forces nothing centres the grip: a body that came between the pads may lie this far beside, device metres.
-const CENTRING_M: float = 0.006
 ## A body that the jaws have already closed through by more than this (device metres) did not come in between them.
 const ENTRY_TOLERANCE_M: float = 0.003
 ## The pads' own stop is published when the jaws are this near to closed, rad.
@@ -212,13 +210,12 @@ func _physics_process(delta: float) -> void:
 		_watch_hold(delta)
 	var exclude: Array[RID] = []
 	if _hold == null:
-		_jaw.centring_m = 0.0 if forces_on else CENTRING_M * spidar.workspace_scale
+		_jaw.centring_m = 0.0 if forces_on else JawSensor.CENTRING_M * spidar.workspace_scale
 		_sense_jaws(grip)
 		_try_grasp(grip, delta)
-	if _hold != null:
-		exclude.append(_hold.body.get_rid())
 	var found: Array[ContactPlane] = []
 	if _hold != null:
+		exclude.append(_hold.body.get_rid())
 		_carry(grip, exclude, delta, found)
 	_find_tool_planes(grip, delta, exclude, found)
 	_contacts.replace(found)
