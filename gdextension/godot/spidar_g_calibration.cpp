@@ -70,6 +70,21 @@ std::string SpidarGCalibration::apply_to(spidar::ServoSettings &settings) const 
     return problem;
 }
 
+std::string SpidarGCalibration::strings_of(const godot::Ref<SpidarGCalibration> &given,
+                                           const spidar::FrameGeometry &frame,
+                                           const spidar::GripGeometry &grip,
+                                           const spidar::CountArray &home, double metres_per_count,
+                                           spidar::StringCalibration &strings) {
+    spidar::StringCalibration found = spidar::calibrate_at_home(
+        spidar::string_lengths(frame, grip, spidar::rest_pose(grip)), home, metres_per_count);
+    std::string problem = given.is_valid() ? given->apply_to(found) : std::string();
+    problem = problem.empty() ? spidar::validate(found) : problem;
+    if (problem.empty()) {
+        strings = found;
+    }
+    return problem;
+}
+
 godot::String SpidarGCalibration::get_problem() const {
     // Any valid settings serve: only the calibration's own arrays can be wrong.
     spidar::ServoSettings settings;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
@@ -34,14 +35,22 @@ public:
     // The winding and stretch of `known`; an array stays empty where all are zero.
     void set_corrections(const spidar::LengthCorrections &known);
 
-    // Writes the string arrays that are given over those of the ideal device: what is empty stays ideal. The problem, or
-    // empty.
-    [[nodiscard]] std::string apply_to(spidar::StringCalibration &ideal) const;
-
     // Writes the arrays that are given over `settings`. Empty: done; else the sentence that says why not, and
     // `settings` is unchanged.
     [[nodiscard]] std::string apply_to(spidar::ServoSettings &settings) const;
 
+    // The strings of a device of this frame and grip that stood at its home pose at `home`: those of the ideal one, and
+    // over them what `given` (may be null) says. The problem, or empty; `strings` is then unchanged.
+    [[nodiscard]] static std::string strings_of(const godot::Ref<SpidarGCalibration> &given,
+                                                const spidar::FrameGeometry &frame,
+                                                const spidar::GripGeometry &grip,
+                                                const spidar::CountArray &home,
+                                                double metres_per_count,
+                                                spidar::StringCalibration &strings);
+
 protected:
     static void _bind_methods();
+
+private:
+    [[nodiscard]] std::string apply_to(spidar::StringCalibration &ideal) const;
 };

@@ -8,7 +8,12 @@ const ContactPlane := preload("contact_plane.gd")
 const RAY_PATTERN: Array[Vector2] = [
 	Vector2(0.0, 0.0), Vector2(0.7, 0.0), Vector2(-0.7, 0.0), Vector2(0.0, 0.7), Vector2(0.0, -0.7)
 ]
-
+## Between those, for what is thin enough to lie there unseen; looked at only when they meet nothing. In all no gap along
+## the pads' axes is wider than 2.8 mm of a device's pad: a match is 3 mm thick.
+const FINE_PATTERN: Array[Vector2] = [
+	Vector2(0.233, 0.0), Vector2(-0.233, 0.0), Vector2(0.467, 0.0), Vector2(-0.467, 0.0),
+	Vector2(0.0, 0.233), Vector2(0.0, -0.233), Vector2(0.0, 0.467), Vector2(0.0, -0.467),
+]
 ## For centring_m where no forces centre the grip on the body: the pads take it along. Device metres.
 const CENTRING_M: float = 0.006
 
@@ -114,23 +119,33 @@ func _measure(
 ) -> PackedFloat64Array:
 	var faces: PackedFloat64Array = PackedFloat64Array([INF, -INF])
 	for side: int in 2:
-		var outward: float = -1.0 if side == 0 else 1.0
-		for spot: Vector2 in RAY_PATTERN:
-			var off_axis: Vector3 = Vector3(0.0, spot.x, spot.y) * pad_radius_m
-			_ray.from = grip * (off_axis + Vector3(outward * reach_m, 0.0, 0.0))
-			_ray.to = grip * (off_axis - Vector3(outward * reach_m, 0.0, 0.0))
-			var hit: Dictionary = space.intersect_ray(_ray)
-			if hit.is_empty():
-				continue
-			var point: Vector3 = hit["position"]
-			var x: float = grip.basis.x.dot(point - grip.origin)
-			if x * outward > faces[side] * outward:
-				faces[side] = x
-				_found_points[side] = point
-				_found_normals[side] = hit["normal"]
+		if not _meet(space, grip, reach_m, pad_radius_m, side, RAY_PATTERN, faces):
+			_meet(space, grip, reach_m, pad_radius_m, side, FINE_PATTERN, faces)
 	if not (faces[1] > faces[0]):
 		return PackedFloat64Array()
 	return faces
+
+
+## The outermost of what the rays of one side meet; false when they meet nothing.
+func _meet(
+	space: PhysicsDirectSpaceState3D, grip: Transform3D, reach_m: float, pad_radius_m: float,
+	side: int, pattern: Array[Vector2], faces: PackedFloat64Array
+) -> bool:
+	var outward: float = -1.0 if side == 0 else 1.0
+	for spot: Vector2 in pattern:
+		var off_axis: Vector3 = Vector3(0.0, spot.x, spot.y) * pad_radius_m
+		_ray.from = grip * (off_axis + Vector3(outward * reach_m, 0.0, 0.0))
+		_ray.to = grip * (off_axis - Vector3(outward * reach_m, 0.0, 0.0))
+		var hit: Dictionary = space.intersect_ray(_ray)
+		if hit.is_empty():
+			continue
+		var point: Vector3 = hit["position"]
+		var x: float = grip.basis.x.dot(point - grip.origin)
+		if x * outward > faces[side] * outward:
+			faces[side] = x
+			_found_points[side] = point
+			_found_normals[side] = hit["normal"]
+	return is_finite(faces[side])
 
 
 static func _object_of(hits: Array[Dictionary], wanted: RID) -> CollisionObject3D:

@@ -107,6 +107,23 @@ func test_without_forces_a_thin_body_is_grasped_off_centre() -> void:
 	check_near(body.global_position.x, device.get_grip_transform().origin.x, 0.001, "drawn between the pads")
 
 
+## A match lies anywhere on the pads: no gap between the rays that look for it is wider than it is thick.
+func test_a_thin_stick_is_found_wherever_it_lies_on_the_pads() -> void:
+	await set_up(Vector3.ZERO, false)
+	for above_mm: int in range(-4, 5):
+		var stick: RigidBody3D = add_free_box(Vector3(0.003, 0.003, 0.05), 0.01)
+		stick.freeze = true
+		stick.position.y = 0.0
+		var there := Vector3(0.0, 0.001 * above_mm, 0.0)
+		await move_to(there, 0.0, 20)
+		await move_to(there, SQUEEZE_ANGLE, 60)
+		check_near(
+			hand.get_stop_angle(), device.get_grasp_angle_for_gap(0.003), 0.01,
+			"the pads stop at it, %d mm above it" % above_mm
+		)
+		stick.free()
+
+
 func test_a_held_body_that_is_freed_is_released() -> void:
 	await set_up(Vector3.ZERO)
 	var released: Array[int] = [0]
