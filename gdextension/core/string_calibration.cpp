@@ -1,6 +1,7 @@
 #include "core/string_calibration.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/constants.h"
 #include "core/describe_value.h"
@@ -31,6 +32,12 @@ StringArray lengths_from_counts(const StringCalibration &calibration,
         lengths[i] = calibration.offset_m[i] + calibration.scale_m_per_count[i] * moved;
     }
     return lengths;
+}
+
+double metres_per_count(std::uint32_t counts_per_turn, double drum_radius_m,
+                        double otherwise) noexcept {
+    return counts_per_turn == 0 ? otherwise
+                                : 2.0 * std::numbers::pi * drum_radius_m / counts_per_turn;
 }
 
 StringCalibration calibrate_at_home(const StringArray &home_lengths_m,

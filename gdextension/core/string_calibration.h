@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <cstdint>
+
 #include "core/status.h"
 #include "core/types.h"
 
@@ -27,6 +29,10 @@ struct StringCalibration {
 [[nodiscard]] StringCalibration calibrate_at_home(const StringArray &home_lengths_m,
                                                   const CountArray &home_counts,
                                                   double scale_m_per_count) noexcept;
+
+// Of an encoder on a drum of this radius; `otherwise` where the device does not say its counts a turn (0).
+[[nodiscard]] double metres_per_count(std::uint32_t counts_per_turn, double drum_radius_m,
+                                      double otherwise) noexcept;
 
 // Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
 [[nodiscard]] std::string validate(const StringCalibration &calibration);

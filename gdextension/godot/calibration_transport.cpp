@@ -1,7 +1,6 @@
 #include "godot/calibration_transport.h"
 
-#include <vector>
-
+#include "device/hid/open_free_device.h"
 #include "device/simulated_transport.h"
 
 namespace spidar {
@@ -10,38 +9,17 @@ namespace {
 
 const char *const kOwner = "SpidarGCalibrator";
 
-std::string owned_already(const std::string &name) {
-    return "The device belongs to \"" + DeviceClaim::owner_of(name) +
-           "\" now: free it there, or choose another device_name or device_serial.";
-}
-
 std::unique_ptr<Transport> open_real(const CalibrationTarget &target, CalibrationOpened &opened,
                                      std::string &problem) {
-    problem = validate(target.hid.filter);
-    if (!problem.empty()) {
-        return nullptr;
+    Status status = Status::ok;
+    auto transport =
+        open_free_device(system_hid_bus(), target.hid, kOwner, opened.claim, status, problem);
+    if (status == Status::invalid_settings) {
+        problem = "SpidarGConfig." + problem;
     }
-    const auto bus = system_hid_bus();
-    std::vector<HidDeviceInfo> found;
-    problem = describe(find_devices(*bus, target.hid.filter, found));
-    for (const HidDeviceInfo &device : found) {
-        const std::string name = "hid:" + (device.serial.empty() ? device.path : device.serial);
-        if (!opened.claim.take(name, kOwner)) {
-            problem = owned_already(name);
-            continue;
-        }
-        HidTransportSettings settings = target.hid;
-        settings.filter.serial = device.serial;
-        auto transport = std::make_unique<HidTransport>(bus, settings);
-        if (usable(transport->open())) {
-            opened.real = true;
-            opened.counts_per_turn = transport->capabilities().counts_per_turn;
-            return transport;
-        }
-        problem = transport->problem();
-        opened.claim.release();
-    }
-    return nullptr;
+    opened.real = transport != nullptr;
+    opened.counts_per_turn = transport ? transport->capabilities().counts_per_turn : 0;
+    return transport;
 }
 
 } // namespace
@@ -58,7 +36,8 @@ std::unique_ptr<Transport> open_for_calibration(const CalibrationTarget &target,
         opened.fallback = problem;
     }
     if (!opened.claim.take(target.simulated_name, kOwner)) {
-        problem = owned_already(target.simulated_name);
+        problem = "The device belongs to \"" + DeviceClaim::owner_of(target.simulated_name) +
+                  "\" now: free it there, or choose another device_name.";
         return nullptr;
     }
     problem.clear();

@@ -228,12 +228,11 @@ private:
     // Null, with the reason: none.
     std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
                                                         std::string &problem);
-    std::unique_ptr<spidar::HidTransport> open_hid(spidar::Status &status, std::string &problem);
     std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
                                                            std::string &problem);
     [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
-    void use_hid_calibration();
-    void use_ideal_strings(const spidar::CountArray &home_counts, double metres_per_count);
+    // Of the device that was opened: its counts at the home pose.
+    void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
     void emit_buttons(std::uint8_t before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();

@@ -21,7 +21,6 @@ namespace {
 // What a real device may do while it is calibrated (unit: mN, mN/ms, mm/s).
 constexpr std::uint16_t kMilliPerUnit = 1000;
 constexpr double kSimulatedUnwatched_s = 20.0;
-constexpr double kTurn_rad = 6.283185307179586;
 
 } // namespace
 
@@ -93,10 +92,7 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     target_.try_simulated = transport != SpidarGConfig::TRANSPORT_DEVICE;
     target_.plant = plant;
     target_.simulated_name = used->get_device_name().utf8().get_data();
-    target_.hid.filter.vendor_id = static_cast<std::uint16_t>(used->get_device_vendor_id());
-    target_.hid.filter.product_id = static_cast<std::uint16_t>(used->get_device_product_id());
-    target_.hid.filter.serial = used->get_device_serial().utf8().get_data();
-    target_.hid.filter.product = used->get_device_product().utf8().get_data();
+    target_.hid.filter = used->hid_filter();
     target_.hid.limits.max_tension_mn =
         static_cast<std::uint16_t>(spidar::kTaskMaxTension_n * kMilliPerUnit);
     target_.hid.limits.min_tension_mn = 0; // a task pulls single strings
@@ -111,24 +107,25 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     return {};
 }
 
-// Where the calibration says nothing: the ideal device of the kind that was opened.
-void SpidarGCalibrator::begin_sheet() {
-    const spidar::StringArray home_m =
-        spidar::string_lengths(start_.frame, start_.grip, spidar::rest_pose(start_.grip));
-    double scale = target_.plant.metres_per_count;
-    spidar::CountArray home{};
-    if (!opened_->real) {
-        home = spidar::SimulatedTransport(target_.plant).home_counts();
-    } else if (opened_->counts_per_turn != 0) {
-        scale = kTurn_rad * motors_.effective_radius_m[0] / opened_->counts_per_turn;
-    }
-    start_.strings = spidar::calibrate_at_home(home_m, home, scale);
-    if (given_.is_valid()) {
-        (void)given_->apply_to(start_.strings); // read_target() found no problem in it
+// Where the calibration says nothing: the ideal device of the kind that was opened. False: the calibration was spoilt
+// while the device opened, which closes again.
+bool SpidarGCalibrator::begin_sheet() {
+    const double scale = spidar::metres_per_count(
+        opened_->counts_per_turn, motors_.effective_radius_m[0], target_.plant.metres_per_count);
+    const spidar::CountArray home = opened_->real
+                                        ? spidar::CountArray{}
+                                        : spidar::SimulatedTransport(target_.plant).home_counts();
+    const std::string problem = SpidarGCalibration::strings_of(given_, start_.frame, start_.grip,
+                                                               home, scale, start_.strings);
+    given_.unref();
+    if (!problem.empty()) {
+        close();
+        return reject(problem);
     }
     sheet_.begin(start_, motors_);
     began_ = true;
     model_changed_ = true;
+    return true;
 }
 
 void SpidarGCalibrator::close() {
@@ -147,8 +144,8 @@ bool SpidarGCalibrator::poll() {
     if (state == RigState::failed) {
         return reject(rig_->problem());
     }
-    if (state == RigState::open && !began_) {
-        begin_sheet();
+    if (state == RigState::open && !began_ && !begin_sheet()) {
+        return false;
     }
     if (state == RigState::closed && opened_) {
         opened_->claim.release();

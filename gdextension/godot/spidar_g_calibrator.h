@@ -96,7 +96,7 @@ private:
 
     std::string read_target(const godot::Ref<SpidarGConfig> &config,
                             const godot::Ref<SpidarGCalibration> &calibration);
-    void begin_sheet();
+    bool begin_sheet();
     void take_task_result();
     void fetch_samples();
     void finish_job();
@@ -111,9 +111,9 @@ private:
     spidar::CalibrationTarget target_;
     spidar::DeviceModel start_;
     spidar::MotorCalibration motors_;
+    godot::Ref<SpidarGCalibration> given_;  // until the device is open
     spidar::LengthCorrections corrections_; // those given: kept
-    godot::Ref<SpidarGCalibration> given_;
-    bool began_ = false; // the sheet, for the device that is open
+    bool began_ = false;                    // the sheet, for the device that is open
     std::shared_ptr<spidar::CalibrationOpened> opened_;
     std::unique_ptr<spidar::CalibrationRig> rig_;
     spidar::RigOrders orders_;

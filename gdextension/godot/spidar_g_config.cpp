@@ -215,6 +215,15 @@ spidar::PlantSettings SpidarGConfig::plant_settings() const {
     return plant;
 }
 
+spidar::HidDeviceFilter SpidarGConfig::hid_filter() const {
+    spidar::HidDeviceFilter filter;
+    filter.vendor_id = static_cast<std::uint16_t>(device_vendor_id_);
+    filter.product_id = static_cast<std::uint16_t>(device_product_id_);
+    filter.serial = device_serial_.utf8().get_data();
+    filter.product = device_product_.utf8().get_data();
+    return filter;
+}
+
 double SpidarGConfig::jaw_gap(double grasp_angle_rad) const {
     return std::max(0.0, jaw_open_ * (1.0 - grasp_angle_rad / jaw_closed_angle_));
 }

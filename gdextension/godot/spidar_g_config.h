@@ -11,6 +11,7 @@
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
+#include "device/hid/hid_device_filter.h"
 #include "device/servo_settings.h"
 #include "device/simulated_plant.h"
 #include "godot/resource_field.h"
@@ -100,6 +101,8 @@ public:
     // The settings of the servo loop, all but the calibration.
     [[nodiscard]] spidar::ServoSettings servo_settings() const;
     [[nodiscard]] spidar::PlantSettings plant_settings() const;
+    // Which of the plugged-in devices are meant.
+    [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
     // What this resource checks on its own (the rest is checked with the whole ServoSettings).
     [[nodiscard]] std::string own_problem() const;
 

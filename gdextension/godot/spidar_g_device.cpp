@@ -8,7 +8,7 @@
 #include <godot_cpp/classes/input_event_joypad_button.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
-#include "device/hid/hid_transport.h"
+#include "device/hid/open_free_device.h"
 #include "godot/type_conversions.h"
 
 using godot::String;
@@ -26,56 +26,16 @@ constexpr int kButtons = 8;
     return static_cast<std::uint16_t>(std::lround(std::clamp(value * kPerMilli, 0.0, kMost)));
 }
 
-[[nodiscard]] std::string claim_name(const spidar::HidDeviceInfo &device) {
-    return "hid:" + (device.serial.empty() ? device.path : device.serial);
-}
-
 } // namespace
 
 spidar::HidTransportSettings SpidarG::hid_settings() const {
-    const SpidarGConfig &config = config_or_default();
     spidar::HidTransportSettings settings;
-    settings.filter.vendor_id = static_cast<std::uint16_t>(config.get_device_vendor_id());
-    settings.filter.product_id = static_cast<std::uint16_t>(config.get_device_product_id());
-    settings.filter.serial = config.get_device_serial().utf8().get_data();
-    settings.filter.product = config.get_device_product().utf8().get_data();
+    settings.filter = config_or_default().hid_filter();
     settings.limits.max_tension_mn = to_millis(settings_.tension.max_tension_n);
     settings.limits.min_tension_mn = to_millis(settings_.tension.min_tension_n);
     settings.limits.tension_rate_mn_ms = to_millis(settings_.safety.tension_slew_n_per_ms);
     settings.limits.string_speed_mm_s = to_millis(settings_.safety.max_count_speed_m_s);
     return settings;
-}
-
-std::unique_ptr<spidar::HidTransport> SpidarG::open_hid(Status &status, std::string &problem) {
-    const auto bus = spidar::system_hid_bus();
-    spidar::HidTransportSettings settings = hid_settings();
-    problem = spidar::validate(settings.filter);
-    if (!problem.empty()) {
-        status = Status::invalid_settings;
-        problem = "SpidarGConfig." + problem;
-        return nullptr;
-    }
-    std::vector<spidar::HidDeviceInfo> found;
-    status = spidar::find_devices(*bus, settings.filter, found);
-    problem = spidar::describe(status);
-    for (const spidar::HidDeviceInfo &device : found) {
-        if (!claim_.take(claim_name(device), name_for_messages())) {
-            status = Status::device_in_use;
-            problem = "Device \"" + device.product + "\" (serial \"" + device.serial +
-                      "\") belongs to node \"" + spidar::DeviceClaim::owner_of(claim_name(device)) +
-                      "\". Free that node, or set device_serial to another device's.";
-            continue;
-        }
-        settings.filter.serial = device.serial;
-        auto transport = std::make_unique<spidar::HidTransport>(bus, settings);
-        status = transport->open(); // now, so that what is wrong can be told or stood in for
-        if (spidar::usable(status)) {
-            return transport;
-        }
-        problem = transport->problem();
-        claim_.release();
-    }
-    return nullptr;
 }
 
 std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std::string &problem) {
@@ -93,11 +53,18 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         return nullptr;
     }
     if (choice != Choice::TRANSPORT_SIMULATED && drive_mode_ != DRIVE_STEPPED) {
-        auto transport = open_hid(status, problem);
+        auto transport = spidar::open_free_device(spidar::system_hid_bus(), hid_settings(),
+                                                  name_for_messages(), claim_, status, problem);
         if (transport) {
             hid_ = transport.get();
-            use_hid_calibration();
+            // Counts are 0 at the home pose, and the device knows how many make a turn.
+            use_strings({}, spidar::metres_per_count(hid_->capabilities().counts_per_turn,
+                                                     settings_.motors.effective_radius_m[0],
+                                                     plant_.metres_per_count));
             return transport;
+        }
+        if (status == Status::invalid_settings) {
+            problem = "SpidarGConfig." + problem;
         }
         if (choice == Choice::TRANSPORT_DEVICE) {
             return nullptr;
@@ -114,24 +81,10 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
     return simulated_transport(status, problem);
 }
 
-// The strings of the ideal device that starts at its home pose, where the calibration does not say otherwise.
-void SpidarG::use_ideal_strings(const spidar::CountArray &home_counts, double metres_per_count) {
-    settings_.strings = spidar::calibrate_at_home(
-        spidar::string_lengths(settings_.frame, settings_.grip, spidar::rest_pose(settings_.grip)),
-        home_counts, metres_per_count);
-    if (calibration_.is_valid()) {
-        (void)calibration_->apply_to(settings_.strings); // read_resources() found no problem in it
-    }
-}
-
-// Counts are 0 at the home pose, and the device knows how many make a turn.
-void SpidarG::use_hid_calibration() {
-    constexpr double kTurn_rad = 6.283185307179586;
-    const std::uint32_t counts_per_turn = hid_->capabilities().counts_per_turn;
-    const double scale = counts_per_turn == 0
-                             ? plant_.metres_per_count
-                             : kTurn_rad * settings_.motors.effective_radius_m[0] / counts_per_turn;
-    use_ideal_strings(spidar::CountArray{}, scale);
+void SpidarG::use_strings(const spidar::CountArray &home_counts, double metres_per_count) {
+    // read_resources() found no problem in the calibration.
+    (void)SpidarGCalibration::strings_of(calibration_, settings_.frame, settings_.grip, home_counts,
+                                         metres_per_count, settings_.strings);
 }
 
 bool SpidarG::zero_device() {

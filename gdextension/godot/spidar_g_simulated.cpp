@@ -18,7 +18,7 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
         return nullptr;
     }
     auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
-    use_ideal_strings(transport->home_counts(), plant_.metres_per_count);
+    use_strings(transport->home_counts(), plant_.metres_per_count);
     simulated_ = transport.get();
     return transport;
 }

@@ -73,3 +73,8 @@ TEST_CASE("string calibration: validate names field, value, unit and remedy") {
     bad.offset_m[7] = std::numeric_limits<double>::infinity();
     CHECK(mentions(validate(bad), "offset_m[7] (string 8) is inf m; give"));
 }
+
+TEST_CASE("string calibration: a drum's circumference, counted") {
+    CHECK(metres_per_count(2000, 0.008, 1.0) == doctest::Approx(2.51327412e-5).epsilon(1e-8));
+    CHECK(metres_per_count(0, 0.008, 3e-5) == 3e-5); // the device does not say
+}

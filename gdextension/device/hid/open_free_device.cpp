@@ -1,0 +1,40 @@
+#include "device/hid/open_free_device.h"
+
+#include <vector>
+
+namespace spidar {
+
+std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,
+                                               HidTransportSettings settings,
+                                               const std::string &owner, DeviceClaim &claim,
+                                               Status &status, std::string &problem) {
+    problem = validate(settings.filter);
+    if (!problem.empty()) {
+        status = Status::invalid_settings;
+        return nullptr;
+    }
+    std::vector<HidDeviceInfo> found;
+    status = find_devices(*bus, settings.filter, found);
+    problem = describe(status);
+    for (const HidDeviceInfo &device : found) {
+        const std::string name = "hid:" + (device.serial.empty() ? device.path : device.serial);
+        if (!claim.take(name, owner)) {
+            status = Status::device_in_use;
+            problem = "Device \"" + device.product + "\" (serial \"" + device.serial +
+                      "\") belongs to \"" + DeviceClaim::owner_of(name) +
+                      "\": free it there, or set device_serial to another device's.";
+            continue;
+        }
+        settings.filter.serial = device.serial;
+        auto transport = std::make_unique<HidTransport>(bus, settings);
+        status = transport->open(); // now, so that what is wrong can be told or stood in for
+        if (usable(status)) {
+            return transport;
+        }
+        problem = transport->problem();
+        claim.release();
+    }
+    return nullptr;
+}
+
+} // namespace spidar

@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+
+#include "device/hid/fake_hid_bus.h"
+#include "device/hid/open_free_device.h"
+
+using namespace spidar;
+using spidar::test::FakeHidBus;
+
+namespace {
+
+struct Opened {
+    DeviceClaim claim;
+    Status status = Status::ok;
+    std::string problem;
+    std::unique_ptr<HidTransport> transport;
+
+    Opened(const std::shared_ptr<HidBus> &bus, const std::string &owner,
+           const HidDeviceFilter &filter = {}) {
+        HidTransportSettings settings;
+        settings.filter = filter;
+        transport = open_free_device(bus, settings, owner, claim, status, problem);
+    }
+};
+
+} // namespace
+
+TEST_CASE("open free device: each asker gets a device of its own, the third is told who has them") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    bus->add("free/1");
+    bus->add("free/2");
+    const Opened first(bus, "one");
+    const Opened second(bus, "two");
+    REQUIRE(first.transport);
+    REQUIRE(second.transport);
+    CHECK(first.transport->device().serial == "free/1");
+    CHECK(second.transport->device().serial == "free/2");
+    const Opened third(bus, "three");
+    CHECK_FALSE(third.transport);
+    CHECK(third.status == Status::device_in_use);
+    CHECK(third.problem.find("\"two\"") != std::string::npos);
+    CHECK(third.problem.find("device_serial") != std::string::npos);
+    HidDeviceFilter filter;
+    filter.serial = "free/1";
+    const Opened named(bus, "four", filter);
+    CHECK(named.status == Status::device_in_use);
+    CHECK(named.problem.find("\"one\"") != std::string::npos);
+}
+
+TEST_CASE("open free device: one that may not be opened is passed over and stays free") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    const auto locked = bus->add("free/3");
+    locked->permitted = false;
+    {
+        const Opened refused(bus, "one");
+        CHECK_FALSE(refused.transport);
+        CHECK(refused.status == Status::no_permission);
+        CHECK_FALSE(refused.problem.empty());
+    }
+    bus->add("free/4");
+    const Opened other(bus, "two");
+    REQUIRE(other.transport);
+    CHECK(other.status == Status::ok);
+    CHECK(other.transport->device().serial == "free/4");
+    locked->permitted = true;
+    const Opened later(bus, "three");
+    REQUIRE(later.transport);
+    CHECK(later.transport->device().serial == "free/3");
+}
+
+TEST_CASE("open free device: no device, or only another maker's") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    const Opened none(bus, "one");
+    CHECK_FALSE(none.transport);
+    CHECK(none.status == Status::no_device);
+    bus->add("free/5");
+    HidDeviceFilter filter;
+    filter.vendor_id = 0x1234;
+    const Opened other_maker(bus, "one", filter);
+    CHECK(other_maker.status == Status::no_device);
+    filter.product.clear();
+    const Opened any(bus, "one", filter);
+    CHECK(any.status == Status::invalid_settings);
+    CHECK(any.problem.starts_with("device_product"));
+    const Opened first(bus, "one");
+    CHECK(first.transport);
+}
