@@ -234,7 +234,9 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     if (gate.slewed && ramp >= 1.0) {
         solver_.set_last_tensions(gate.tensions_n);
     }
-    settled_ = result.skipped && !gate.slewed && !gate.clamped;
+    // Stretch follows the tensions of the cycle before: they must be the same to the bit, or the next lengths are not.
+    settled_ =
+        result.skipped && !gate.slewed && !gate.clamped && gate.tensions_n == snapshot_.tensions_n;
     snapshot_.counters.slewed_ticks += gate.slewed ? 1U : 0U;
     if (gate.clamped) {
         ++snapshot_.counters.gate_clamps;

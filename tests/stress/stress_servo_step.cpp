@@ -31,9 +31,9 @@ constexpr double kShortest_s = 1e-6;
 constexpr double kLongest_s = 0.05;
 // A pole's length after all steps of the kinematics.
 constexpr double kPole_m = 1e-9;
-// When nothing is asked the passivity controller may still damp: a force that opposes the motion, by a velocity that is
-// filtered less than the grip's (the largest of 6 x 10^7 steps was 0.46 N). Below the second nobody asks which way.
-constexpr double kDamper_n = 1.0;
+// When nothing is asked the passivity controller may still damp, by what it takes for the grip's speed: no more than
+// the fastest motion of so long ago. Below kRest_n nobody asks why.
+constexpr double kDamperMemory_s = 0.1;
 constexpr double kRest_n = 0.2;
 
 bool finite(const Vec3 &v) {
@@ -54,6 +54,7 @@ struct Watch {
     double unread_s = 0.0;
     double unbeaten_s = 0.0;
     double unasked_s = 0.0;
+    double fastest_m_s = 0.0; // of the grip, fading
     double rise = 0.0;
     double tension = 0.0;
     double request = 0.0;
@@ -192,10 +193,15 @@ private:
         watch_.request = safety.max_force_n > 0.0 ? force_n / safety.max_force_n : 0.0;
         const bool quiet =
             watch_.unasked_s > ServoStepInput::kLongestRequest_s + safety.contacts_gone_s;
-        const Vec3 &v = now.grip.twist.linear_m_s;
-        const bool damps = glm::dot(now.requested.force_n, v) < 0.0 && force_n <= kDamper_n;
-        if (quiet && input_.settings.render.compensated_mass_kg == 0.0 &&
-            !(wall_.beyond_m(now.grip) > 0.0) && force_n > kRest_n && !damps) {
+        const double speed_m_s =
+            glm::distance(now.grip.pose.position_m, before_.grip.pose.position_m) / dt_s_;
+        watch_.fastest_m_s =
+            std::fmax(speed_m_s, watch_.fastest_m_s * std::exp(-dt_s_ / kDamperMemory_s));
+        const RenderSettings &render = input_.settings.render;
+        const double damper_n =
+            render.passivity_share * render.max_damping_n_s_m * watch_.fastest_m_s;
+        if (quiet && render.compensated_mass_kg == 0.0 && !(wall_.beyond_m(now.grip) > 0.0) &&
+            force_n > kRest_n + damper_n) {
             return "a force long after the last request";
         }
         if (taken_ % kTwinEvery == 1 && drive_.motors_on && now.state != DeviceState::taut) {
