@@ -100,9 +100,9 @@ func _add_check(text: String, key: String) -> void:
 func _add_choice(text: String, key: String, values: Array) -> void:
 	_add_text(_form, text, DemoPalette.TEXT_SOFT, 13)
 	var option := OptionButton.new()
-	# A long name is cut off instead of widening the menu.
-	option.fit_to_longest_item = false
-	option.clip_text = true
+	if key == "recording": # A long name is cut off instead of widening the menu.
+		option.fit_to_longest_item = false
+		option.clip_text = true
 	for value: Variant in values:
 		option.add_item("none" if str(value) == "" else str(value))
 	option.selected = values.find(_settings.get(key))

@@ -9,8 +9,9 @@ const SPRING_MOST_N := 4.0
 const BOX_M := Vector3(0.032, 0.044, 0.032)
 const FLOOR_M := Vector3(0.080, 0.006, 0.070)
 ## Text stands above the things at the back, and before the others.
-const ABOVE_M := 0.012
+const ABOVE_M := 0.016
 const LOW_M := 0.006
+const BEFORE_M := 0.014
 ## Nearer than in pick and place: there is more to read.
 const VIEW_DEG := 28.0
 ## Rows from the back to the front.
@@ -80,7 +81,7 @@ func _add_box(
 	body.add_piece(shape, mesh, Transform3D.IDENTITY, colour)
 	body.position = Vector3(x, 0.5 * BOX_M.y, z)
 	_items.add_child(body)
-	_say(text, Vector3(x, BOX_M.y + ABOVE_M, z) if z == BACK_Z_M else Vector3(x, LOW_M, z + 0.028))
+	_say(text, Vector3(x, BOX_M.y + ABOVE_M, z) if z == BACK_Z_M else Vector3(x, LOW_M, z + 0.5 * BOX_M.z + BEFORE_M))
 	return body
 
 
@@ -118,7 +119,7 @@ func _add_zones() -> void:
 		zone.position = Vector3(x, 0.5 * FieldZone.SIZE_M.y + 0.001, ZONES_Z_M)
 		_items.add_child(zone)
 		zones.append(zone)
-		_say(FieldZone.TEXTS[index], Vector3(x, LOW_M, ZONES_Z_M + 0.5 * FieldZone.SIZE_M.z + 0.008))
+		_say(FieldZone.TEXTS[index], Vector3(x, LOW_M, ZONES_Z_M + 0.5 * FieldZone.SIZE_M.z + BEFORE_M))
 
 
 func _physics_process(delta: float) -> void:
@@ -133,7 +134,7 @@ func _add_floor(text: String, x: float, friction: float, colour: Color) -> void:
 	floor_body.set_meta(&"spidar_friction", friction)
 	StandBuilder.add_block(floor_body, FLOOR_M, Vector3(0.0, 0.5 * FLOOR_M.y, 0.0), colour)
 	_items.add_child(floor_body)
-	_say(text, Vector3(x, LOW_M, FRONT_Z_M + 0.5 * FLOOR_M.z + 0.008))
+	_say(text, Vector3(x, LOW_M, FRONT_Z_M + 0.5 * FLOOR_M.z + BEFORE_M))
 
 
 ## A peg and a cap that snaps onto it.
