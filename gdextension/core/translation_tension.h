@@ -63,8 +63,8 @@ public:
         double z0 = 0.0;
         double z1 = 0.0;
         double z2 = 0.0;
-        Row u = target; // t + R'z
         bool same = false;
+        bool settled = false; // x is t + R'z, clamped where it was thought to be
         for (int step = 0; step < kTranslationSteps; ++step) {
             if (!same && !factor(free)) {
                 return false;
@@ -75,30 +75,26 @@ public:
             const double d0 = (adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2) * over_;
             const double d1 = (adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2) * over_;
             const double d2 = (adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2) * over_;
+            // No string of R_F would move further than this: |R_F'd|^2 <= trace(R_F R_F') |d|^2.
+            if (settled && (d0 * d0 + d1 * d1 + d2 * d2) * trace_ <= kStep_n * kStep_n) {
+                return report(x, low, high, step, largest_of(w * z0, w * z1, w * z2),
+                              largest_of(b0, b1, b2), solution);
+            }
             z0 += d0;
             z1 += d1;
             z2 += d2;
-            const Row move = combine(d0, d1, d2);
             // Afresh: summed up it would keep the rounding of a far start.
             const Row away = combine(z0, z1, z2);
-            u = {target.a + away.a, target.b + away.b};
-            const Row mask = Row::strings(free);
-            const double largest =
-                Four::max(move.a.absolute() & mask.a, move.b.absolute() & mask.b).largest();
+            const Row u{target.a + away.a, target.b + away.b};
             x = {Four::min(Four::max(u.a, lower.a), upper.a),
                  Four::min(Four::max(u.b, lower.b), upper.b)};
             const unsigned at_least =
                 (~movable & 0xFFU) | Row::bits(u.a <= lower.a, u.b <= lower.b);
             const unsigned at_most = Row::bits(upper.a <= u.a, upper.b <= u.b) & ~at_least;
-            const bool settled = at_least == low && at_most == high;
+            settled = at_least == low && at_most == high;
             low = at_least;
             high = at_most;
             const unsigned now = movable & ~(low | high);
-            // From the second step on x is the clamped one that the residual was taken at.
-            if (step > 0 && settled && largest <= kStep_n) {
-                return report(x, low, high, step + 1, largest_of(w * z0, w * z1, w * z2),
-                              largest_of(b0, b1, b2), solution);
-            }
             same = now == free;
             free = now;
         }
@@ -120,6 +116,17 @@ private:
         constexpr std::uint64_t kGather = 0x0102040810204080ULL;
         const auto bytes = std::bit_cast<std::uint64_t>(active);
         return static_cast<unsigned>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
+    }
+
+    static constexpr auto kAtLower = static_cast<std::uint64_t>(StringBound::at_lower);
+    static constexpr auto kAtUpper = static_cast<std::uint64_t>(StringBound::at_upper);
+    // 1 in byte k where bit k is set: each byte keeps its own bit of the copies, and what is not 0 carries into bit 7.
+    static std::uint64_t a_byte_a_string(unsigned strings) noexcept {
+        constexpr std::uint64_t kCopies = 0x0101010101010101ULL;
+        constexpr std::uint64_t kOwnBit = 0x8040201008040201ULL;
+        constexpr std::uint64_t kAllButTop = 0x7F7F7F7F7F7F7F7FULL;
+        const std::uint64_t own = (strings * kCopies) & kOwnBit;
+        return (((own & kAllButTop) + kAllButTop) | own) >> 7U & kCopies;
     }
 
     void read_half(std::size_t first) noexcept {
@@ -166,9 +173,9 @@ private:
         adjugate_[4] = xy * xz - xx * yz;
         adjugate_[5] = xx * yy - xy * xy;
         const double determinant = xx * adjugate_[0] + xy * adjugate_[1] + xz * adjugate_[2];
-        const double trace = xx + yy + zz;
+        trace_ = xx + yy + zz;
         over_ = 1.0 / determinant;
-        return determinant > kCancelled * trace * trace * trace && determinant < kLargest;
+        return determinant > kCancelled * trace_ * trace_ * trace_ && determinant < kLargest;
     }
 
     bool report(const Row &x, unsigned low, unsigned high, int steps, double error_n,
@@ -179,11 +186,8 @@ private:
             return false;
         }
         x.store(solution.tensions_n.data());
-        for (std::size_t i = 0; i < kFastStrings; ++i) {
-            solution.active[i] = ((low >> i) & 1U) != 0U    ? StringBound::at_lower
-                                 : ((high >> i) & 1U) != 0U ? StringBound::at_upper
-                                                            : StringBound::free;
-        }
+        solution.active = std::bit_cast<ActiveSet>(a_byte_a_string(low) * kAtLower |
+                                                   a_byte_a_string(high) * kAtUpper);
         solution.largest_error_n = error_n;
         solution.iterations = steps;
         solution.status = Status::ok;
@@ -194,6 +198,7 @@ private:
     Row row_[3];         // R
     double adjugate_[6]; // xx xy xz yy yz zz
     double over_ = 0.0;  // 1 / determinant
+    double trace_ = 0.0; // of R_F R_F' + w I
 };
 
 } // namespace

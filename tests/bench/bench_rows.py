@@ -99,6 +99,8 @@ BARS = (
      to_daqp("step", "step, wrench and 4 contacts", "step", "moving")),
     ("step at rest with nothing new / whole step, 4 contacts", 0.1,
      to_method("step", "step, nothing asked", "step", "at rest", "step, wrench and 4 contacts", "moving")),
+    ("tensions, forces alone (DOF mask) / all DOF", 0.5,
+     to_method("step", "forces alone, tension solver", "step", "warm", "tension solver", "warm")),
     ("a servo cycle with recording / without", 1.15, to_method("step", "cycle", "recording", "on", "cycle", "off")),
 )
 

@@ -172,11 +172,16 @@ void run_computations(const ServoSettings &settings, std::size_t ticks,
     RepeatedTimes cold(ticks);
     RepeatedTimes matrix_times(ticks);
     RepeatedTimes tension(ticks);
+    RepeatedTimes forces_alone(ticks);
+    TensionSettings masked = settings.tension;
+    masked.dof_mask = 0b111;
     for (int run = 0; run < kRuns; ++run) {
         ForwardKinematics kinematics;
         TensionSolver solver;
+        TensionSolver force_solver;
         kinematics.configure(settings.frame, settings.grip);
         solver.configure(settings.tension);
+        force_solver.configure(masked);
         for (std::size_t tick = 0; tick < ticks; ++tick) {
             const double t = kPeriod_s * static_cast<double>(tick);
             const StringArray lengths = lengths_from_counts(
@@ -191,12 +196,14 @@ void run_computations(const ServoSettings &settings, std::size_t ticks,
             const DofArray wrench = {
                 2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
             tension.time(tick, [&] { solver.update(matrix, wrench); });
+            forces_alone.time(tick, [&] { force_solver.update(matrix, wrench); });
         }
     }
     add_row(rows, "forward kinematics", "warm", warm);
     add_row(rows, "forward kinematics", "cold", cold);
     add_row(rows, "wrench matrix", "-", matrix_times);
     add_row(rows, "tension solver", "warm", tension);
+    add_row(rows, "forces alone, tension solver", "warm", forces_alone);
 }
 
 bool report_memory(const ServoSettings &settings) {
