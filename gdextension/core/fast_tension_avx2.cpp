@@ -26,12 +26,13 @@
 
 namespace spidar {
 
-bool solve_fast_avx2(const TensionProblem &problem, const ActiveSet *warm,
+bool solve_fast_avx2(const FastInput &input, const ActiveSet *warm,
                      TensionSolution &solution) noexcept {
-    if (is_translation_only(problem) && TranslationTension<FourAvx2>(problem).run(warm, solution)) {
+    if (is_translation_only(input.problem) &&
+        TranslationTension<FourAvx2>(input).run(warm, solution)) {
         return true;
     }
-    return FastTension<FourAvx2>(problem).run(warm, solution);
+    return FastTension<FourAvx2>(input).run(warm, solution);
 }
 
 } // namespace spidar

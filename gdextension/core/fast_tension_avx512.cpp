@@ -33,15 +33,16 @@
 
 namespace spidar {
 
-bool solve_fast_avx512(const TensionProblem &problem, const ActiveSet *warm,
+bool solve_fast_avx512(const FastInput &input, const ActiveSet *warm,
                        TensionSolution &solution) noexcept {
-    if (is_translation_only(problem) && TranslationTension<FourAvx2>(problem).run(warm, solution)) {
+    if (is_translation_only(input.problem) &&
+        TranslationTension<FourAvx2>(input).run(warm, solution)) {
         return true;
     }
-    if (problem.weights[6] == 0.0) {
-        return WideTension<EightAvx512, kFastDofs - 1>(problem).run(warm, solution);
+    if (input.problem.weights[6] == 0.0) {
+        return WideTension<EightAvx512, kFastDofs - 1>(input).run(warm, solution);
     }
-    return WideTension<EightAvx512, kFastDofs>(problem).run(warm, solution);
+    return WideTension<EightAvx512, kFastDofs>(input).run(warm, solution);
 }
 
 } // namespace spidar

@@ -21,7 +21,8 @@ namespace { // each source compiles its own, for its own target
 template <class Four>
 class FastTension {
 public:
-    explicit FastTension(const TensionProblem &problem) noexcept : p_(problem) {}
+    explicit FastTension(const FastInput &input) noexcept
+        : p_(input.problem), matrix_(input.matrix), wrench_(input.wrench) {}
 
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
         if (!read(warm)) {
@@ -130,14 +131,14 @@ private:
     }
 
     void read_half(std::size_t first) noexcept {
-        Four c0 = Four::load(&p_.matrix.columns[first][0]);
-        Four c1 = Four::load(&p_.matrix.columns[first + 1][0]);
-        Four c2 = Four::load(&p_.matrix.columns[first + 2][0]);
-        Four c3 = Four::load(&p_.matrix.columns[first + 3][0]);
-        Four d0 = Four::load(&p_.matrix.columns[first][3]);
-        Four d1 = Four::load(&p_.matrix.columns[first + 1][3]);
-        Four d2 = Four::load(&p_.matrix.columns[first + 2][3]);
-        Four d3 = Four::load(&p_.matrix.columns[first + 3][3]);
+        Four c0 = Four::load(&matrix_.columns[first][0]);
+        Four c1 = Four::load(&matrix_.columns[first + 1][0]);
+        Four c2 = Four::load(&matrix_.columns[first + 2][0]);
+        Four c3 = Four::load(&matrix_.columns[first + 3][0]);
+        Four d0 = Four::load(&matrix_.columns[first][3]);
+        Four d1 = Four::load(&matrix_.columns[first + 1][3]);
+        Four d2 = Four::load(&matrix_.columns[first + 2][3]);
+        Four d3 = Four::load(&matrix_.columns[first + 3][3]);
         Four::transpose(c0, c1, c2, c3);
         Four::transpose(d0, d1, d2, d3);
         const DofArray &w = p_.weights;
@@ -155,10 +156,10 @@ private:
     void add_columns(Four x, Four &f0, Four &f1, Four &b0, Four &b1) const noexcept {
         const Four x0 = x.template lane<kLane>();
         const Four x1 = x.template lane<kLane + 1>();
-        f0 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst][0]), x0, f0);
-        f1 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst + 1][0]), x1, f1);
-        b0 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst][3]), x0, b0);
-        b1 = Four::mul_add(Four::load(&p_.matrix.columns[kFirst + 1][3]), x1, b1);
+        f0 = Four::mul_add(Four::load(&matrix_.columns[kFirst][0]), x0, f0);
+        f1 = Four::mul_add(Four::load(&matrix_.columns[kFirst + 1][0]), x1, f1);
+        b0 = Four::mul_add(Four::load(&matrix_.columns[kFirst][3]), x0, b0);
+        b1 = Four::mul_add(Four::load(&matrix_.columns[kFirst + 1][3]), x1, b1);
     }
 
     // Two DOF's share of R'f.
@@ -175,9 +176,9 @@ private:
     // Half the gradient at x_, every string, from A itself.
     void gradient() noexcept {
         const Row x = Row::load(x_);
-        Four f0 = Four::all(0.0) - Four::load(&p_.wrench[0]);
+        Four f0 = Four::all(0.0) - Four::load(&wrench_[0]);
         Four f1 = Four::all(0.0);
-        Four b0 = Four::all(0.0) - Four::load(&p_.wrench[3]);
+        Four b0 = Four::all(0.0) - Four::load(&wrench_[3]);
         Four b1 = Four::all(0.0);
         add_columns<0, 0>(x.a, f0, f1, b0, b1);
         add_columns<2, 2>(x.a, f0, f1, b0, b1);
@@ -354,6 +355,8 @@ private:
     }
 
     const TensionProblem &p_;
+    const WrenchMatrix &matrix_;
+    const DofArray &wrench_;
     alignas(32) double rows_[kFastDofs][kFastStrings]; // R, by DOF
     alignas(32) double x_[kFastStrings];
     alignas(32) double y_[kFastStrings];

@@ -13,26 +13,25 @@
 
 namespace spidar {
 
-bool solve_fast_plain(const TensionProblem &problem, const ActiveSet *warm,
+bool solve_fast_plain(const FastInput &input, const ActiveSet *warm,
                       TensionSolution &solution) noexcept {
-    if (is_translation_only(problem) &&
-        TranslationTension<FourPlain>(problem).run(warm, solution)) {
+    if (is_translation_only(input.problem) &&
+        TranslationTension<FourPlain>(input).run(warm, solution)) {
         return true;
     }
-    return FastTension<FourPlain>(problem).run(warm, solution);
+    return FastTension<FourPlain>(input).run(warm, solution);
 }
 
-bool solve_fast(const TensionProblem &problem, const ActiveSet *warm,
-                TensionSolution &solution) noexcept {
+bool solve_fast(const FastInput &input, const ActiveSet *warm, TensionSolution &solution) noexcept {
 #if defined(__x86_64__) && defined(__GNUC__)
     if (simd_level() == SimdLevel::avx512) {
-        return solve_fast_avx512(problem, warm, solution);
+        return solve_fast_avx512(input, warm, solution);
     }
     if (simd_level() == SimdLevel::avx2) {
-        return solve_fast_avx2(problem, warm, solution);
+        return solve_fast_avx2(input, warm, solution);
     }
 #endif
-    return solve_fast_plain(problem, warm, solution);
+    return solve_fast_plain(input, warm, solution);
 }
 
 } // namespace spidar

@@ -21,7 +21,8 @@ namespace { // each source compiles its own, for its own target
 template <class Eight, int kRows>
 class WideTension {
 public:
-    explicit WideTension(const TensionProblem &problem) noexcept : p_(problem) {}
+    explicit WideTension(const FastInput &input) noexcept
+        : p_(input.problem), matrix_(input.matrix), wrench_(input.wrench) {}
 
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
         if (!read(warm)) {
@@ -94,7 +95,7 @@ private:
         Eight columns[kFastStrings];
 #pragma GCC unroll 8
         for (std::size_t i = 0; i < kFastStrings; ++i) {
-            columns[i] = weights_ * Eight::template load_front<kRows>(p_.matrix.columns[i].data());
+            columns[i] = weights_ * Eight::template load_front<kRows>(matrix_.columns[i].data());
         }
         // One string of each pole tells the scale.
         const Eight squares = Eight::mul_add(columns[0], columns[0], columns[4] * columns[4]);
@@ -123,7 +124,7 @@ private:
     bool invert_and_step(unsigned strings) noexcept {
         Eight t[kFastStrings];
         const Inversion inverse =
-            WideTable<Eight>::invert(rows_, p_, strings, scale_, stiffness_, t);
+            WideTable<Eight>::invert(rows_, p_, matrix_, strings, scale_, stiffness_, t);
         const Eight factor = Eight::all(inverse.factor);
         take((times(t, gradient_.keep(strings)) * factor).keep(strings));
 #pragma GCC unroll 8
@@ -147,7 +148,7 @@ private:
 
     // Half the gradient at x_, every string, from A itself.
     void gradient() noexcept {
-        Eight even = Eight::all(0.0) - Eight::template load_front<kRows>(p_.wrench.data());
+        Eight even = Eight::all(0.0) - Eight::template load_front<kRows>(wrench_.data());
         Eight odd = column(1) * x_.template lane<1>();
         even = Eight::mul_add(column(0), x_.template lane<0>(), even);
         even = Eight::mul_add(column(2), x_.template lane<2>(), even);
@@ -178,7 +179,7 @@ private:
     }
 
     [[nodiscard]] Eight column(std::size_t string) const noexcept {
-        return Eight::template load_front<kRows>(p_.matrix.columns[string].data());
+        return Eight::template load_front<kRows>(matrix_.columns[string].data());
     }
 
     // x_ += the Newton step d of the free strings (0 elsewhere) from gradient_.
@@ -297,6 +298,8 @@ private:
     }
 
     const TensionProblem &p_;
+    const WrenchMatrix &matrix_;
+    const DofArray &wrench_;
     Eight lower_{};
     Eight upper_{};
     Eight target_{};

@@ -313,7 +313,7 @@ TensionSolution refused(const TensionProblem &problem, Status status) noexcept {
 TensionSolution solve_tension_problem(const TensionProblem &problem,
                                       const ActiveSet *warm) noexcept {
     TensionSolution fast;
-    if (solve_fast(problem, warm, fast)) {
+    if (solve_fast({problem, problem.matrix, problem.wrench}, warm, fast)) {
         return fast;
     }
     return solve_tension_problem_safely(problem, warm);

@@ -148,9 +148,10 @@ void TensionSolver::prepare() noexcept {
         change_pull_[i] = works ? s.change_weight / whole_weight : 0.0;
     }
     settled_ = false;
+    aim();
 }
 
-// The proximal term of this tick.
+// The proximal term of the next tick: known as soon as this one's tensions are, and then at hand.
 void TensionSolver::aim() noexcept {
     problem_.proximal_weight = settings_.ridge + settings_.reference_weight;
     problem_.proximal_target_n = steady_target_n_;
@@ -168,23 +169,21 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
         last_result_.skipped = true;
         return last_result_;
     }
-    // Column by column, by vector moves: GCC copies the whole by `rep movs`, which takes a fifth of a warm solve.
-    std::size_t string = 0;
-#pragma GCC unroll 8
-    for (const DofArray &column : matrix.columns) {
-        problem_.matrix.columns[string++] = column;
-    }
-    problem_.matrix.grasp_row_vanishes = matrix.grasp_row_vanishes;
-    problem_.wrench = wrench;
-    aim();
     // The fast path certifies its answer, so it refuses whatever is not finite.
-    if (solve_fast(problem_, warm_ ? &last_active_ : nullptr, fast_)) {
-        return remember(fast_);
+    if (solve_fast({problem_, matrix, wrench}, warm_ ? &last_active_ : nullptr, fast_)) {
+        return remember(fast_, matrix, wrench);
     }
-    return update_carefully(wrench);
+    return update_carefully(matrix, wrench);
 }
 
-TensionResult TensionSolver::update_carefully(const DofArray &wrench) noexcept {
+void TensionSolver::keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+    problem_.matrix = matrix;
+    problem_.wrench = wrench;
+}
+
+TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
+                                              const DofArray &wrench) noexcept {
+    keep(matrix, wrench);
     TensionResult result;
     settled_ = false;
     if (!finite(problem_.matrix)) {
@@ -204,7 +203,7 @@ TensionResult TensionSolver::update_carefully(const DofArray &wrench) noexcept {
         result.status = solution.status;
         return result;
     }
-    result = remember(solution);
+    result = remember(solution, matrix, problem_.wrench);
     if (!wrench_is_finite) {
         result.status = Status::not_finite;
         settled_ = false;
@@ -212,7 +211,8 @@ TensionResult TensionSolver::update_carefully(const DofArray &wrench) noexcept {
     return result;
 }
 
-TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept {
+TensionResult TensionSolver::remember(const TensionSolution &solution, const WrenchMatrix &matrix,
+                                      const DofArray &wrench) noexcept {
     TensionResult result;
     result.iterations = solution.iterations;
     result.at_min_mask = strings_at(solution.active, 0) & working_mask_;
@@ -243,11 +243,13 @@ TensionResult TensionSolver::remember(const TensionSolution &solution) noexcept 
     }
     last_tensions_n_ = result.tensions_n;
     last_active_ = solution.active;
-    if (settled_) {
-        last_result_ = result; // what a skipped tick gives
+    if (settled_) { // what a skipped tick gives, and how it is known
+        last_result_ = result;
+        keep(matrix, wrench);
     }
     warm_ = true;
     has_last_ = true;
+    aim();
     return result;
 }
 
@@ -257,6 +259,7 @@ void TensionSolver::set_last_tensions(const StringArray &tensions_n) noexcept {
         settled_ = settled_ && same_bits(tensions_n, last_tensions_n_);
         last_tensions_n_ = tensions_n;
         has_last_ = true;
+        aim();
     }
 }
 
@@ -266,6 +269,7 @@ void TensionSolver::reset() noexcept {
     warm_ = false;
     has_last_ = false;
     settled_ = false;
+    aim();
 }
 
 DofArray tension_weights(const TensionSettings &settings) noexcept {

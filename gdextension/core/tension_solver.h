@@ -101,11 +101,13 @@ public:
 private:
     void prepare() noexcept;
     void aim() noexcept;
-    TensionResult update_carefully(const DofArray &wrench) noexcept;
-    TensionResult remember(const TensionSolution &solution) noexcept;
+    void keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult update_carefully(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult remember(const TensionSolution &solution, const WrenchMatrix &matrix,
+                           const DofArray &wrench) noexcept;
 
     TensionSettings settings_{};
-    TensionProblem problem_{};      // of the last tick; bounds and weights of the settings
+    TensionProblem problem_{};      // matrix and wrench: of the last tick, when it settled
     StringArray steady_pull_{};     // proximal target without change term
     StringArray change_pull_{};     // share of last_tensions_n_ in it
     StringArray steady_target_n_{}; // with it, when the last tensions are not known

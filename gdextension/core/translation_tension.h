@@ -26,7 +26,8 @@ namespace { // each source compiles its own, for its own target
 template <class Four>
 class TranslationTension {
 public:
-    explicit TranslationTension(const TensionProblem &problem) noexcept : p_(problem) {}
+    explicit TranslationTension(const FastInput &input) noexcept
+        : p_(input.problem), matrix_(input.matrix), wrench_(input.wrench) {}
 
     // False: `solution` means nothing, as for solve_fast().
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
@@ -45,9 +46,9 @@ public:
         const unsigned movable = Row::bits(lower.a < upper.a, lower.b < upper.b);
         read_half(0);
         read_half(4);
-        const double b0 = p_.weights[0] * p_.wrench[0];
-        const double b1 = p_.weights[1] * p_.wrench[1];
-        const double b2 = p_.weights[2] * p_.wrench[2];
+        const double b0 = p_.weights[0] * wrench_[0];
+        const double b1 = p_.weights[1] * wrench_[1];
+        const double b2 = p_.weights[2] * wrench_[2];
         unsigned low = ~movable & 0xFFU;
         unsigned high = 0;
         if (warm != nullptr) {
@@ -72,20 +73,24 @@ public:
             const double r0 = b0 - dot(row_[0], x) - w * z0;
             const double r1 = b1 - dot(row_[1], x) - w * z1;
             const double r2 = b2 - dot(row_[2], x) - w * z2;
-            const double d0 = (adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2) * over_;
-            const double d1 = (adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2) * over_;
-            const double d2 = (adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2) * over_;
+            // The step times the determinant: nothing waits for the division but what needs it.
+            const double e0 = adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2;
+            const double e1 = adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2;
+            const double e2 = adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2;
             // No string of R_F would move further than this: |R_F'd|^2 <= trace(R_F R_F') |d|^2.
-            if (settled && (d0 * d0 + d1 * d1 + d2 * d2) * trace_ <= kStep_n * kStep_n) {
+            if (settled && (e0 * e0 + e1 * e1 + e2 * e2) * trace_ <= least_ * least_) {
                 return report(x, low, high, step, largest_of(w * z0, w * z1, w * z2),
                               largest_of(b0, b1, b2), solution);
             }
-            z0 += d0;
-            z1 += d1;
-            z2 += d2;
-            // Afresh: summed up it would keep the rounding of a far start.
+            // From z afresh: summed up u would keep the rounding of a far start.
             const Row away = combine(z0, z1, z2);
-            const Row u{target.a + away.a, target.b + away.b};
+            const Row move = combine(e0, e1, e2);
+            const Four over = Four::all(over_);
+            const Row u{Four::mul_add(move.a, over, target.a + away.a),
+                        Four::mul_add(move.b, over, target.b + away.b)};
+            z0 += e0 * over_;
+            z1 += e1 * over_;
+            z2 += e2 * over_;
             x = {Four::min(Four::max(u.a, lower.a), upper.a),
                  Four::min(Four::max(u.b, lower.b), upper.b)};
             const unsigned at_least =
@@ -130,10 +135,10 @@ private:
     }
 
     void read_half(std::size_t first) noexcept {
-        Four c0 = Four::load(&p_.matrix.columns[first][0]);
-        Four c1 = Four::load(&p_.matrix.columns[first + 1][0]);
-        Four c2 = Four::load(&p_.matrix.columns[first + 2][0]);
-        Four c3 = Four::load(&p_.matrix.columns[first + 3][0]);
+        Four c0 = Four::load(&matrix_.columns[first][0]);
+        Four c1 = Four::load(&matrix_.columns[first + 1][0]);
+        Four c2 = Four::load(&matrix_.columns[first + 2][0]);
+        Four c3 = Four::load(&matrix_.columns[first + 3][0]);
         Four::transpose(c0, c1, c2, c3);
         (first == 0 ? row_[0].a : row_[0].b) = c0 * Four::all(p_.weights[0]);
         (first == 0 ? row_[1].a : row_[1].b) = c1 * Four::all(p_.weights[1]);
@@ -175,6 +180,7 @@ private:
         const double determinant = xx * adjugate_[0] + xy * adjugate_[1] + xz * adjugate_[2];
         trace_ = xx + yy + zz;
         over_ = 1.0 / determinant;
+        least_ = kStep_n * determinant;
         return determinant > kCancelled * trace_ * trace_ * trace_ && determinant < kLargest;
     }
 
@@ -195,10 +201,13 @@ private:
     }
 
     const TensionProblem &p_;
+    const WrenchMatrix &matrix_;
+    const DofArray &wrench_;
     Row row_[3];         // R
     double adjugate_[6]; // xx xy xz yy yz zz
     double over_ = 0.0;  // 1 / determinant
     double trace_ = 0.0; // of R_F R_F' + w I
+    double least_ = 0.0; // a step below this, times the determinant, is none
 };
 
 } // namespace

@@ -41,8 +41,8 @@ public:
     // rows: R; weights: w_k that R = W A was made with; scale: a power of two, about 1 / H; trace: of H.
     template <int kRows>
     static Inversion invert(const Eight (&rows)[kRows], const TensionProblem &problem,
-                            unsigned strings, double scale, double trace,
-                            Eight (&t)[kFastStrings]) noexcept {
+                            const WrenchMatrix &matrix, unsigned strings, double scale,
+                            double trace, Eight (&t)[kFastStrings]) noexcept {
         const Eight diagonal =
             Eight::select(strings, Eight::all(problem.proximal_weight), Eight::all(1.0 / scale));
 #pragma GCC unroll 8
@@ -54,7 +54,7 @@ public:
             const Eight row = (rows[k] * Eight::all(problem.weights[k])).keep(strings);
 #pragma GCC unroll 8
             for (std::size_t i = 0; i < kFastStrings; ++i) {
-                t[i] = Eight::mul_add(row, Eight::all(problem.matrix.columns[i][k]), t[i]);
+                t[i] = Eight::mul_add(row, Eight::all(matrix.columns[i][k]), t[i]);
             }
         }
         const Eight scales = Eight::all(scale);
