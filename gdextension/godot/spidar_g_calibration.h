@@ -41,12 +41,10 @@ public:
 
     // The strings of a device of this frame and grip that stood at its home pose at `home`: those of the ideal one, and
     // over them what `given` (may be null) says. The problem, or empty; `strings` is then unchanged.
-    [[nodiscard]] static std::string strings_of(const godot::Ref<SpidarGCalibration> &given,
-                                                const spidar::FrameGeometry &frame,
-                                                const spidar::GripGeometry &grip,
-                                                const spidar::CountArray &home,
-                                                double metres_per_count,
-                                                spidar::StringCalibration &strings);
+    [[nodiscard]] static std::string
+    strings_of(const godot::Ref<SpidarGCalibration> &given, const spidar::FrameGeometry &frame,
+               const spidar::GripGeometry &grip, const spidar::CountArray &home,
+               double metres_per_count, spidar::StringCalibration &strings);
 
 protected:
     static void _bind_methods();
