@@ -161,6 +161,11 @@ class User:
             self.wait_for_reports(4)
         raise GaveUp(f"{name} cannot be turned into its place")
 
+    def pick_up(self, name, y_m):
+        self.xdotool("mousedown", 1)
+        self.wait(f"{name} held", lambda report: report["held"] == name, 60)
+        self.rise(y_m)
+
     def open_fingers(self):
         self.xdotool("mouseup", 1)
         self.wait("open fingers", lambda report: report["grasp_angle_deg"] < OPEN_DEG and not report["held"])
@@ -295,9 +300,7 @@ def place_object(user, name):
     user.rise(TRAVEL_Y_M)
     user.bring_grip(lambda report: at_height(at(report), TRAVEL_Y_M))
     user.bring_grip(at)
-    user.xdotool("mousedown", 1)
-    user.wait(f"{name} held", lambda report: report["held"] == name, 60)
-    user.rise(TRAVEL_Y_M)
+    user.pick_up(name, TRAVEL_Y_M)
     user.bring_grip(lambda report: at_height(goal(report), TRAVEL_Y_M))
     user.bring_grip(lambda report: above(goal(report), 0.003), 0.004)
     user.open_fingers()
@@ -321,9 +324,7 @@ def link_thing(user, name):
     user.bring_grip(lambda report: at_height(plus(body(report)["at"]["world"], body(report)["from"]), travel_y))
     user.bring_grip(lambda report: plus(body(report)["at"]["world"], body(report)["from"]))
     user.bring_grip(lambda report: body(report)["at"]["world"], FINE_M)
-    user.xdotool("mousedown", 1)
-    user.wait(f"{name} held", lambda report: report["held"] == name, 60)
-    user.rise(travel_y)
+    user.pick_up(name, travel_y)
     user.turn_held(name)
     user.bring_grip(lambda report: to_grip(report, at_height(before(report), travel_y)))
     user.bring_grip(lambda report: to_grip(report, before(report)))
