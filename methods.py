@@ -330,7 +330,7 @@ def find_godot_cpp(option, library):
 
 
 def write_class_documentation(target, source, env):
-    """The XML files as one C++ source, for gdextension/godot/class_documentation.h."""
+    """The XML files as one C++ source, for gdextension/godot/base/class_documentation.h."""
     texts = []
     for node in source:
         with open(str(node), encoding="utf-8") as file:
@@ -338,7 +338,7 @@ def write_class_documentation(target, source, env):
     with open(str(target[0]), "w", encoding="utf-8") as file:
         file.write(
             "// Written by the build from gdextension/doc_classes/.\n"
-            '#include "godot/class_documentation.h"\n\n'
+            '#include "godot/base/class_documentation.h"\n\n'
             "namespace spidar {\n\n"
             f"const int kClassDocumentationCount = {len(texts)};\n"
             "const char *const kClassDocumentation[] = {\n"

@@ -4,13 +4,13 @@
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
 
-#include "godot/class_documentation.h"
-#include "godot/project_options.h"
-#include "godot/spidar_g.h"
-#include "godot/spidar_g_calibration.h"
-#include "godot/spidar_g_calibrator.h"
-#include "godot/spidar_g_config.h"
-#include "godot/spidar_g_workspace.h"
+#include "godot/base/class_documentation.h"
+#include "godot/calibration/spidar_g_calibrator.h"
+#include "godot/device/spidar_g.h"
+#include "godot/settings/project_options.h"
+#include "godot/settings/spidar_g_calibration.h"
+#include "godot/settings/spidar_g_config.h"
+#include "godot/workspace/spidar_g_workspace.h"
 
 namespace {
 

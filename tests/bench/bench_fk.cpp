@@ -12,10 +12,10 @@
 #include "bench/methods/dense_gauss_newton.h"
 #include "bench/methods/paper_polynomials.h"
 #include "bench/repeated_times.h"
-#include "core/closed_form.h"
-#include "core/crossed_step.h"
-#include "core/forward_kinematics.h"
-#include "core/string_calibration.h"
+#include "core/calibration/string_calibration.h"
+#include "core/kinematics/forward_kinematics.h"
+#include "core/kinematics/search/closed_form.h"
+#include "core/kinematics/steps/crossed_step.h"
 
 namespace spidar::bench {
 

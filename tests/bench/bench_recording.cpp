@@ -11,8 +11,8 @@
 
 #include "bench/repeated_times.h"
 #include "device/recording/recorder.h"
-#include "device/servo_step.h"
-#include "device/triple_buffer.h"
+#include "device/step/servo_step.h"
+#include "device/threads/triple_buffer.h"
 
 namespace spidar::bench {
 

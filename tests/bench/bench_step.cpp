@@ -11,12 +11,12 @@
 #include "bench/bench_recording.h"
 #include "bench/daqp_clock.h"
 #include "bench/repeated_times.h"
-#include "core/forward_kinematics.h"
-#include "core/tension_solver.h"
-#include "core/wrench_matrix.h"
-#include "device/servo_loop.h"
-#include "device/servo_step.h"
-#include "device/simulated_transport.h"
+#include "core/geometry/wrench_matrix.h"
+#include "core/kinematics/forward_kinematics.h"
+#include "core/tension/tension_solver.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
+#include "device/step/servo_step.h"
 
 namespace spidar::bench {
 

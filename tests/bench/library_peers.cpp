@@ -5,7 +5,7 @@
 #include <dlfcn.h>
 
 #include "bench/quadratic.h"
-#include "core/simd_level.h"
+#include "core/base/simd_level.h"
 
 namespace spidar::bench {
 

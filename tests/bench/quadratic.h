@@ -1,7 +1,7 @@
 // H and f of 1/2 x'Hx + f'x, for the peers that want them.
 #pragma once
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 
 namespace spidar::bench {
 

@@ -7,7 +7,7 @@
 
 #include "bench/library_peers.h"
 #include "bench/quadratic.h"
-#include "core/simd_level.h"
+#include "core/base/simd_level.h"
 
 namespace spidar::bench {
 

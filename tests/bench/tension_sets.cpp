@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "bench/bench_report.h"
-#include "core/frame_geometry.h"
-#include "core/grip_geometry.h"
-#include "core/wrench_matrix.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
+#include "core/geometry/wrench_matrix.h"
 #include "support/problem_generator.h"
 
 namespace spidar::bench {

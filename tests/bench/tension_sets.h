@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 
 namespace spidar::bench {
 

@@ -10,7 +10,7 @@
 
 #include "check/checks.h"
 #include "check/csv_reader.h"
-#include "core/forward_kinematics.h"
+#include "core/kinematics/forward_kinematics.h"
 
 namespace spidar::check {
 

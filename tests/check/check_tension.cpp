@@ -8,7 +8,7 @@
 
 #include "check/checks.h"
 #include "check/csv_reader.h"
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 #include "support/exact_optimum.h"
 
 namespace spidar::check {

@@ -14,7 +14,7 @@ def read(path):
 
 
 def main():
-    header = read("gdextension/device/hid/hid_descriptor.h")
+    header = read("gdextension/device/hid/protocol/hid_descriptor.h")
     body = header[header.index("kHidReportDescriptor") : header.index("};")]
     code = [int(byte, 16) for byte in re.findall(r"0x([0-9A-F]{2}),", re.sub(r"//.*", "", body))]
     page = read("docs/hid_protocol.md")

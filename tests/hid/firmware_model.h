@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "device/hid/hid_codec.h"
-#include "device/hid/report_sequence.h"
+#include "device/hid/protocol/hid_codec.h"
+#include "device/hid/protocol/report_sequence.h"
 
 namespace spidar::test {
 

@@ -10,8 +10,8 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "device/hid/hid_descriptor.h"
-#include "device/real_time_thread.h"
+#include "device/hid/protocol/hid_descriptor.h"
+#include "device/threads/real_time_thread.h"
 
 namespace spidar::test {
 

@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "device/hid/hid_descriptor.h"
 #include "device/hid/hid_device_filter.h"
-#include "device/real_time_thread.h"
+#include "device/hid/protocol/hid_descriptor.h"
+#include "device/threads/real_time_thread.h"
 #include "hid/vm_host.h"
 
 namespace spidar::test {

@@ -6,7 +6,7 @@
 #include <sys/timerfd.h>
 #include <time.h>
 
-#include "core/string_calibration.h"
+#include "core/calibration/string_calibration.h"
 
 namespace spidar::test {
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <vector>
 
-#include "core/frame_geometry.h"
-#include "core/grip_geometry.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
 #include "hid/firmware_model.h"
 
 namespace spidar::test {

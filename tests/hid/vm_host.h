@@ -6,7 +6,7 @@
 #include <string>
 
 #include "device/hid/hid_transport.h"
-#include "device/servo_loop.h"
+#include "device/loop/servo_loop.h"
 
 namespace spidar::test {
 

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "device/device_claims.h"
+#include "device/contract/device_claims.h"
 #include "hid/uhid_device.h"
 #include "hid/vm_host.h"
 

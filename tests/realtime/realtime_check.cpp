@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "device/nonblocking.h"
-#include "device/servo_loop.h"
-#include "device/simulated_transport.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
+#include "device/threads/nonblocking.h"
 
 using namespace spidar;
 

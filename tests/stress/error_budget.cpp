@@ -8,7 +8,7 @@
 
 #include "core/calibration/exit_pulley.h"
 #include "core/calibration/home_zero.h"
-#include "core/forward_kinematics.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "support/command_line.h"
 #include "support/length_error_model.h"
 

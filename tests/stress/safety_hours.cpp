@@ -14,8 +14,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "device/servo_loop.h"
-#include "device/simulated_transport.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
 
 using namespace spidar;
 

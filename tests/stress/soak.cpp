@@ -17,8 +17,8 @@
 #include <thread>
 #include <vector>
 
-#include "device/servo_loop.h"
-#include "device/simulated_transport.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
 
 using namespace spidar;
 

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "core/closed_form.h"
-#include "core/constants.h"
-#include "core/forward_kinematics.h"
-#include "core/pose_helpers.h"
-#include "core/pose_polish.h"
-#include "core/string_calibration.h"
+#include "core/calibration/string_calibration.h"
+#include "core/kinematics/constants.h"
+#include "core/kinematics/forward_kinematics.h"
+#include "core/kinematics/search/closed_form.h"
+#include "core/kinematics/search/pose_polish.h"
 #include "support/command_line.h"
+#include "support/pose_helpers.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "device/hid/hid_codec.h"
+#include "device/hid/protocol/hid_codec.h"
 #include "device/hid/report_intake.h"
-#include "device/servo_step.h"
+#include "device/step/servo_step.h"
 
 using namespace spidar;
 

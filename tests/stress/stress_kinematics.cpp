@@ -10,10 +10,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/forward_kinematics.h"
-#include "core/presets.h"
-#include "core/rigid_step.h"
-#include "core/string_exit.h"
+#include "core/geometry/string_exit.h"
+#include "core/kinematics/forward_kinematics.h"
+#include "core/kinematics/steps/rigid_step.h"
+#include "core/presets/presets.h"
 #include "support/case_random.h"
 #include "support/command_line.h"
 

@@ -12,9 +12,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/loop/servo_loop.h"
 #include "device/recording/replay_transport.h"
-#include "device/servo_loop.h"
-#include "device/simulated_transport.h"
+#include "device/simulation/simulated_transport.h"
 #include "support/snapshot_bits.h"
 
 using namespace spidar;

@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "device/servo_loop.h"
-#include "device/simulated_transport.h"
-#include "device/tension_diagnosis.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
+#include "device/step/tension_diagnosis.h"
 
 using namespace spidar;
 

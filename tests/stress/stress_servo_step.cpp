@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/simd_level.h"
-#include "core/wrench_matrix.h"
-#include "device/servo_step.h"
-#include "device/workspace_guard.h"
+#include "core/base/simd_level.h"
+#include "core/geometry/wrench_matrix.h"
+#include "device/safety/monitors/workspace_guard.h"
+#include "device/step/servo_step.h"
 #include "support/command_line.h"
 #include "support/servo_step_input.h"
 #include "support/snapshot_bits.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 #include "support/exact_optimum.h"
 #include "support/problem_generator.h"
 

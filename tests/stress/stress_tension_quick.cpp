@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/simd_level.h"
-#include "core/tension_solver.h"
+#include "core/base/simd_level.h"
+#include "core/tension/tension_solver.h"
 
 namespace {
 

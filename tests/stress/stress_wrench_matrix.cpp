@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/presets.h"
-#include "core/string_exit.h"
-#include "core/tension_solver.h"
-#include "core/wrench_matrix.h"
+#include "core/geometry/string_exit.h"
+#include "core/geometry/wrench_matrix.h"
+#include "core/presets/presets.h"
+#include "core/tension/tension_solver.h"
 #include "support/case_random.h"
 #include "support/command_line.h"
 

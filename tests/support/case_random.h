@@ -9,7 +9,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 namespace spidar::test {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 
 namespace spidar::test {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/string_fault_observer.h"
-#include "core/forward_kinematics.h"
+#include "core/diagnosis/string_fault_observer.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "support/motion_samples.h"
 
 namespace spidar::test {

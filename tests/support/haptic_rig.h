@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "device/servo_step.h"
-#include "device/simulated_plant.h"
+#include "device/simulation/simulated_plant.h"
+#include "device/step/servo_step.h"
 
 namespace spidar::test {
 

@@ -9,8 +9,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/calibration/string_scale_fit.h"
-#include "device/drum_winding.h"
+#include "core/calibration/fit/string_scale_fit.h"
+#include "device/simulation/drum_winding.h"
 #include "support/motion_samples.h"
 
 namespace spidar::test {

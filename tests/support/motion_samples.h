@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/calibration/self_calibration.h"
+#include "core/calibration/fit/self_calibration.h"
 
 namespace spidar::test {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 
 namespace spidar::test {
 

@@ -10,10 +10,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/presets.h"
-#include "device/servo_settings.h"
-#include "device/servo_snapshot.h"
-#include "device/transport.h"
+#include "core/presets/presets.h"
+#include "device/contract/servo_snapshot.h"
+#include "device/contract/transport.h"
+#include "device/settings/servo_settings.h"
 #include "support/case_random.h"
 
 namespace spidar::test {

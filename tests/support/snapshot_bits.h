@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "device/servo_snapshot.h"
+#include "device/contract/servo_snapshot.h"
 
 namespace spidar::test {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/grip_geometry.h"
-#include "core/types.h"
+#include "core/base/types.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar::test {
 

@@ -7,7 +7,7 @@
 #include <windows.h>
 
 #include "device/hid/hid_bus.h"
-#include "device/real_time_thread.h"
+#include "device/threads/real_time_thread.h"
 
 namespace {
 

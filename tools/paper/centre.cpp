@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/tension_solver.h"
-#include "device/simulated_plant.h"
+#include "core/tension/tension_solver.h"
+#include "device/simulation/simulated_plant.h"
 #include "paper/closure.h"
 #include "paper/paper_device.h"
 #include "paper/sections.h"

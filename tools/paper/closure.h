@@ -1,7 +1,7 @@
 // Vector closure (section II): the two theories of the paper, from the null vector of A.
 #pragma once
 
-#include "core/wrench_matrix.h"
+#include "core/geometry/wrench_matrix.h"
 
 namespace spidar::paper {
 

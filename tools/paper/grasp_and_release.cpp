@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/forward_kinematics.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "paper/measured_strings.h"
 #include "paper/paper_device.h"
 #include "paper/sections.h"

@@ -6,9 +6,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/frame_geometry.h"
-#include "core/grasp_detector.h"
-#include "core/grip_geometry.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
+#include "core/kinematics/grasp_detector.h"
 
 namespace spidar::paper {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "check/csv_reader.h"
-#include "core/forward_kinematics.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "paper/measured_strings.h"
 #include "paper/paper_device.h"
 #include "paper/sections.h"

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/forward_kinematics.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "paper/closure.h"
 #include "paper/paper_device.h"
 #include "paper/sections.h"

@@ -1,7 +1,7 @@
 // How much of a wrench the strings can give: the paper's "capacity" (section VI.2), from the real solver.
 #pragma once
 
-#include "core/tension_solver.h"
+#include "core/tension/tension_solver.h"
 
 namespace spidar::paper {
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "core/string_calibration.h"
+#include "core/calibration/string_calibration.h"
+#include "device/loop/servo_loop.h"
 #include "device/recording/replay_transport.h"
-#include "device/servo_loop.h"
 
 using namespace spidar;
 

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/string_exit.h"
+#include "core/geometry/string_exit.h"
 
 namespace spidar {
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/calibration/length_corrections.h"
-#include "core/frame_geometry.h"
-#include "core/grip_geometry.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar {
 

@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include "core/base/status.h"
 #include "core/calibration/length_corrections.h"
-#include "core/frame_geometry.h"
-#include "core/grip_geometry.h"
-#include "core/status.h"
-#include "core/string_calibration.h"
+#include "core/calibration/string_calibration.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar {
 

@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/constants.h"
-#include "core/describe_value.h"
+#include "core/base/describe_value.h"
+#include "core/kinematics/constants.h"
 
 namespace spidar {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/string_calibration.h"
-#include "core/types.h"
+#include "core/base/types.h"
+#include "core/calibration/string_calibration.h"
 
 namespace spidar {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "device/hid/hid_protocol.h"
+#include "device/hid/protocol/hid_protocol.h"
 
 namespace spidar {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "device/hid/hid_codec.h"
+#include "device/hid/protocol/hid_codec.h"
 
 namespace spidar {
 

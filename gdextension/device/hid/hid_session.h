@@ -5,7 +5,7 @@
 #include <string>
 
 #include "device/hid/hid_bus.h"
-#include "device/hid/hid_protocol.h"
+#include "device/hid/protocol/hid_protocol.h"
 
 namespace spidar {
 

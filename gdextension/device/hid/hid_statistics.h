@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "device/loop_histogram.h"
+#include "device/threads/loop_histogram.h"
 
 namespace spidar {
 

@@ -10,11 +10,11 @@
 #include <thread>
 #include <utility>
 
-#include "device/hid/hid_codec.h"
 #include "device/hid/hid_session.h"
+#include "device/hid/protocol/hid_codec.h"
+#include "device/hid/protocol/report_sequence.h"
 #include "device/hid/report_intake.h"
-#include "device/hid/report_sequence.h"
-#include "device/real_time_thread.h"
+#include "device/threads/real_time_thread.h"
 
 namespace spidar {
 

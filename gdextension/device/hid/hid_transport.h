@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "device/contract/transport.h"
 #include "device/hid/hid_bus.h"
 #include "device/hid/hid_device_filter.h"
-#include "device/hid/hid_protocol.h"
 #include "device/hid/hid_statistics.h"
-#include "device/transport.h"
+#include "device/hid/protocol/hid_protocol.h"
 
 namespace spidar {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "device/device_claims.h"
+#include "device/contract/device_claims.h"
 #include "device/hid/hid_transport.h"
 
 namespace spidar {

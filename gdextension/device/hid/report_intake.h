@@ -1,11 +1,11 @@
 // Everything between the bytes of an input report and a reading that may be trusted. The servo loop's own.
 #pragma once
 
-#include "device/hid/hid_codec.h"
+#include "device/contract/transport.h"
 #include "device/hid/hid_statistics.h"
+#include "device/hid/protocol/hid_codec.h"
+#include "device/hid/protocol/report_sequence.h"
 #include "device/hid/report_monitor.h"
-#include "device/hid/report_sequence.h"
-#include "device/transport.h"
 
 namespace spidar {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "device/hid/report_sequence.h"
+#include "device/hid/protocol/report_sequence.h"
 
 namespace spidar {
 

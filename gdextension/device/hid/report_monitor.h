@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "device/hid/hid_protocol.h"
+#include "device/hid/protocol/hid_protocol.h"
 
 namespace spidar {
 

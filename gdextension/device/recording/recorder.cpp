@@ -6,7 +6,7 @@
 #include <system_error>
 #include <type_traits>
 
-#include "device/servo_step.h"
+#include "device/step/servo_step.h"
 
 namespace spidar {
 

@@ -12,7 +12,7 @@
 
 #include "device/recording/recorder_statistics.h"
 #include "device/recording/recording_file.h"
-#include "device/recording/spsc_ring.h"
+#include "device/threads/spsc_ring.h"
 
 namespace spidar {
 

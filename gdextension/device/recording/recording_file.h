@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "device/recording/cycle_codec.h"
+#include "device/recording/codec/cycle_codec.h"
 #include "device/recording/recording_info.h"
 
 namespace spidar {

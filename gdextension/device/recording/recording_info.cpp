@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "device/recording/build_identity.h"
-#include "device/recording/command_fields.h"
-#include "device/recording/reading_fields.h"
-#include "device/recording/settings_fields.h"
-#include "device/servo_step.h"
+#include "device/recording/codec/command_fields.h"
+#include "device/recording/codec/reading_fields.h"
+#include "device/recording/codec/settings_fields.h"
+#include "device/step/servo_step.h"
 
 namespace spidar {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/simd_level.h"
-#include "device/servo_settings.h"
+#include "core/base/simd_level.h"
+#include "device/settings/servo_settings.h"
 
 namespace spidar {
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <new>
 
-#include "device/recording/command_fields.h"
-#include "device/servo_step.h"
+#include "device/recording/codec/command_fields.h"
+#include "device/step/servo_step.h"
 
 namespace spidar {
 

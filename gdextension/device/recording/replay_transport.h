@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "device/contract/transport.h"
 #include "device/recording/recording_file.h"
-#include "device/transport.h"
 
 namespace spidar {
 

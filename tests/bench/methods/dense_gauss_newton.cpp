@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/pose_tangents.h"
+#include "core/geometry/pose_tangents.h"
 
 namespace spidar::bench {
 

@@ -3,8 +3,8 @@
 // normal equations by Cholesky; no residual test. Here in doubles, on the seven unknowns of the paper's grip.
 #pragma once
 
-#include "core/frame_geometry.h"
-#include "core/grip_geometry.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar::bench {
 

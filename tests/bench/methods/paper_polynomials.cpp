@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/closed_form.h"
+#include "core/kinematics/search/closed_form.h"
 
 namespace spidar::bench {
 

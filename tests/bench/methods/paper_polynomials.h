@@ -5,7 +5,7 @@
 // With errors in the lengths there is no common root, and both lose accuracy.
 #pragma once
 
-#include "core/grip_geometry.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar::bench {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <thread>
 
-#include "device/hid/fake_hid_bus.h"
 #include "device/hid/hid_transport.h"
+#include "support/fake_hid_bus.h"
 
 using namespace spidar;
 using spidar::test::FakeDevice;

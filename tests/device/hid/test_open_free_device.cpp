@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "device/hid/fake_hid_bus.h"
 #include "device/hid/open_free_device.h"
+#include "support/fake_hid_bus.h"
 
 using namespace spidar;
 using spidar::test::FakeHidBus;

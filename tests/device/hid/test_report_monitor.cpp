@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "device/hid/protocol/report_sequence.h"
 #include "device/hid/report_monitor.h"
-#include "device/hid/report_sequence.h"
 
 using namespace spidar;
 using Verdict = ReportMonitor::Verdict;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "device/recording/command_fields.h"
-#include "device/recording/reading_fields.h"
-#include "device/recording/recording_fixture.h"
+#include "device/recording/codec/command_fields.h"
+#include "device/recording/codec/reading_fields.h"
+#include "support/recording_fixture.h"
 
 using namespace spidar;
 using namespace spidar::test;

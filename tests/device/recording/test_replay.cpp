@@ -4,9 +4,9 @@
 #include <new>
 #include <thread>
 
-#include "device/allocation_trap.h"
-#include "device/recording/command_fields.h"
-#include "device/recording/recording_fixture.h"
+#include "device/recording/codec/command_fields.h"
+#include "support/allocation_trap.h"
+#include "support/recording_fixture.h"
 
 using namespace spidar;
 using namespace spidar::test;

@@ -1,0 +1,297 @@
+#include "core/analysis/wrench_closure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/tension/exact/box_least_squares.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
+constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
+
+// A pivot below this share of the largest element: the direction is lost to rounding.
+constexpr double kLostPivot = 1e-12;
+// How far outside its limits a string may be at a corner of the feasible region: rounding of 10 N.
+constexpr double kSlack_n = 1e-11;
+
+// All tensions with W A tau = s W q: tau = s particular + t null.
+struct Solutions {
+    bool full_rank = false;
+    StringArray particular{};
+    StringArray null{}; // largest element +1
+};
+
+Solutions solve_all(const WrenchMatrix &matrix, const DofArray &wrench,
+                    const TensionSettings &settings) noexcept {
+    const DofArray weights = {settings.weight_force,        settings.weight_force,
+                              settings.weight_force,        settings.weight_moment_per_m,
+                              settings.weight_moment_per_m, settings.weight_moment_per_m,
+                              settings.weight_grasp_per_m};
+    std::array<std::array<double, kStrings + 1>, kDofs> m{}; // last column: q
+    std::array<std::size_t, kStrings> order{};
+    double largest = 0.0;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        order[i] = i;
+        const bool broken = ((static_cast<unsigned>(settings.broken_mask) >> i) & 1U) != 0U;
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            m[k][i] = broken ? 0.0 : weights[k] * matrix.columns[i][k];
+            m[k][kStrings] = weights[k] * wrench[k];
+            largest = std::max(largest, std::abs(m[k][i]));
+        }
+    }
+    // Gauss-Jordan with complete pivoting; columns swap, `order` remembers.
+    for (std::size_t step = 0; step < kDofs; ++step) {
+        std::size_t row = step;
+        std::size_t column = step;
+        for (std::size_t k = step; k < kDofs; ++k) {
+            for (std::size_t c = step; c < kStrings; ++c) {
+                if (std::abs(m[k][c]) > std::abs(m[row][column])) {
+                    row = k;
+                    column = c;
+                }
+            }
+        }
+        const double pivot = m[row][column];
+        if (!(std::abs(pivot) > kLostPivot * largest) || !std::isfinite(pivot)) {
+            return {};
+        }
+        std::swap(m[step], m[row]);
+        std::swap(order[step], order[column]);
+        for (auto &line : m) {
+            std::swap(line[step], line[column]);
+        }
+        for (double &value : m[step]) {
+            value /= pivot;
+        }
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            const double factor = m[k][step];
+            if (k == step) {
+                continue;
+            }
+            for (std::size_t c = step; c <= kStrings; ++c) {
+                m[k][c] -= factor * m[step][c];
+            }
+        }
+    }
+    Solutions result;
+    result.full_rank = true;
+    const std::size_t last = order[kStrings - 1];
+    result.null[last] = 1.0;
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        result.null[order[k]] = -m[k][kStrings - 1];
+        result.particular[order[k]] = m[k][kStrings];
+    }
+    double peak = 0.0;
+    for (const double value : result.null) {
+        peak = std::abs(value) > std::abs(peak) ? value : peak;
+    }
+    for (double &value : result.null) {
+        value /= peak;
+    }
+    return result;
+}
+
+// lower <= s particular + t null <= upper, for each string, with some slack.
+bool feasible(const Solutions &all, const TensionSettings &settings, double s, double t) noexcept {
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const double tension = s * all.particular[i] + t * all.null[i];
+        const double slack = kSlack_n * (1.0 + std::abs(s * all.particular[i]));
+        if (!(tension >= settings.min_tension_n - slack &&
+              tension <= settings.max_tension_n + slack)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Where the mask leaves DOF out there are many null vectors, and many tensions for one wrench: what can be given is then
+// asked of the solver itself. A weighted wrench nearer than this is given (unit: N at the pole ends).
+constexpr double kGiven_n = 1e-9;
+// Stands for "no regularising term".
+constexpr double kVanishingWeight = 1e-12;
+// Halvings of an interval of 1 until rounding.
+constexpr int kHalvings = 45;
+// A margin below this is none.
+constexpr double kNoMargin = 1e-7;
+
+TensionProblem masked_problem(const WrenchMatrix &matrix, const TensionSettings &settings,
+                              double least_n, double most_n) noexcept {
+    TensionProblem problem;
+    problem.matrix = matrix;
+    problem.weights = tension_weights(settings);
+    problem.proximal_weight = kVanishingWeight;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = !has_string(settings.broken_mask, i);
+        problem.lower_n[i] = works ? least_n : 0.0;
+        problem.upper_n[i] = works ? most_n : 0.0;
+        problem.proximal_target_n[i] = problem.upper_n[i];
+    }
+    return problem;
+}
+
+WrenchClosure masked_closure(const WrenchMatrix &matrix, const TensionSettings &settings) noexcept {
+    WrenchClosure closure;
+    double can = 0.0;
+    double cannot = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+        const double margin = 0.5 * (can + cannot);
+        const TensionSolution solution =
+            solve_tension_problem(masked_problem(matrix, settings, margin, 1.0), nullptr);
+        const bool closed = solution.status == Status::ok && solution.largest_error_n <= kGiven_n;
+        if (closed) {
+            closure.null_tensions = solution.tensions_n;
+        }
+        (closed ? can : cannot) = margin;
+    }
+    closure.margin = can > kNoMargin ? can : 0.0;
+    if (closure.margin <= 0.0) {
+        closure.null_tensions = {};
+    }
+    return closure;
+}
+
+FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+                           const TensionSettings &settings) noexcept {
+    TensionProblem problem =
+        masked_problem(matrix, settings, settings.min_tension_n, settings.max_tension_n);
+    double request = 0.0; // |W q| squared
+    double reach_n = 0.0; // no weighted wrench is larger
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        const double weighted = problem.weights[k] * wrench[k];
+        request += weighted * weighted;
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            reach_n += std::abs(problem.weights[k] * matrix.columns[i][k]) * settings.max_tension_n;
+        }
+    }
+    struct Look {
+        bool given = false;
+        bool too_small = false; // a larger scale comes nearer
+    };
+    const auto look_at = [&](double scale) {
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            problem.wrench[k] = scale * wrench[k];
+        }
+        const TensionSolution solution = solve_tension_problem(problem, nullptr);
+        const DofArray achieved = spidar::apply(matrix, solution.tensions_n);
+        double along = 0.0;
+        for (std::size_t k = 0; k < kDofs; ++k) {
+            const double square = problem.weights[k] * problem.weights[k];
+            along += square * (achieved[k] - problem.wrench[k]) * wrench[k];
+        }
+        return Look{solution.status == Status::ok && solution.largest_error_n <= kGiven_n,
+                    along > 0.0};
+    };
+    const Look none = look_at(0.0);
+    FeasibleScale result;
+    if (!(request > 0.0)) {
+        result.any = none.given;
+        result.largest = none.given ? std::numeric_limits<double>::infinity() : 0.0;
+        return result;
+    }
+    // The distance to what can be given is convex in the scale: halve towards its least.
+    const double most = reach_n / std::sqrt(request);
+    double low = 0.0;
+    double high = most;
+    double inside = 0.0;
+    bool found = none.given;
+    for (int halving = 0; halving < kHalvings && !found; ++halving) {
+        inside = 0.5 * (low + high);
+        const Look look = look_at(inside);
+        found = look.given;
+        (look.too_small ? low : high) = inside;
+    }
+    if (!found) {
+        return result;
+    }
+    const auto border = [&](double given, double not_given) {
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            const double middle = 0.5 * (given + not_given);
+            (look_at(middle).given ? given : not_given) = middle;
+        }
+        return given;
+    };
+    result.any = true;
+    result.least = none.given ? 0.0 : border(inside, 0.0);
+    result.largest = border(inside, 2.0 * most);
+    return result;
+}
+
+} // namespace
+
+WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &settings) noexcept {
+    if (settings.dof_mask != kAllDofs) {
+        return masked_closure(matrix, settings);
+    }
+    WrenchClosure closure;
+    const Solutions all = solve_all(matrix, DofArray{}, settings);
+    if (!all.full_rank) {
+        return closure;
+    }
+    closure.null_tensions = all.null;
+    // The largest element is 1, so the smallest is the ratio.
+    const double smallest = *std::min_element(all.null.begin(), all.null.end());
+    closure.margin = settings.broken_mask == 0 ? std::max(smallest, 0.0) : 0.0;
+    return closure;
+}
+
+FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+                             const TensionSettings &settings) noexcept {
+    FeasibleScale scale;
+    if (!std::all_of(wrench.begin(), wrench.end(), [](double q) { return std::isfinite(q); })) {
+        return scale;
+    }
+    if (settings.dof_mask != kAllDofs || settings.broken_mask != 0) {
+        return masked_scale(matrix, wrench, settings);
+    }
+    const Solutions all = solve_all(matrix, wrench, settings);
+    if (!all.full_rank) {
+        return scale;
+    }
+    const double limits[2] = {settings.min_tension_n, settings.max_tension_n};
+    const auto include = [&scale](double s) {
+        scale.least = scale.any ? std::min(scale.least, s) : s;
+        scale.largest = scale.any ? std::max(scale.largest, s) : s;
+        scale.any = true;
+    };
+    // A zero request: any t that keeps the null tensions within the limits will do.
+    if (std::all_of(wrench.begin(), wrench.end(), [](double q) { return q == 0.0; })) {
+        for (std::size_t i = 0; i < kStrings && !scale.any; ++i) {
+            for (const double limit : limits) {
+                if (all.null[i] != 0.0 && feasible(all, settings, 0.0, limit / all.null[i])) {
+                    scale = {true, 0.0, std::numeric_limits<double>::infinity()};
+                }
+            }
+        }
+        return scale;
+    }
+    // The region is a polygon in (s, t): its extremes in s lie on corners, where two strings are at a limit; or on s = 0,
+    // below which the request would change its sign.
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        for (const double limit : limits) {
+            if (all.null[i] != 0.0 && feasible(all, settings, 0.0, limit / all.null[i])) {
+                include(0.0);
+            }
+            for (std::size_t j = 0; j < i; ++j) {
+                const double determinant =
+                    all.particular[i] * all.null[j] - all.particular[j] * all.null[i];
+                for (const double other : limits) {
+                    const double s = (limit * all.null[j] - other * all.null[i]) / determinant;
+                    const double t =
+                        (all.particular[i] * other - all.particular[j] * limit) / determinant;
+                    if (std::isfinite(s) && std::isfinite(t) && s >= 0.0 &&
+                        feasible(all, settings, s, t)) {
+                        include(s);
+                    }
+                }
+            }
+        }
+    }
+    return scale;
+}
+
+} // namespace spidar

@@ -1,0 +1,95 @@
+// The sentences of self-calibration.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/describe_value.h"
+#include "core/calibration/fit/self_calibration.h"
+
+namespace spidar {
+
+namespace {
+
+// Parts named in a description, and the least share worth naming.
+constexpr std::size_t kNamedParts = 4;
+constexpr double kNamedShare = 0.2;
+
+std::string out_of_range(const char *field, double value, const char *unit, const char *remedy) {
+    return std::string(field) + " is " + with_unit(value, unit) + "; " + remedy;
+}
+
+} // namespace
+
+std::string validate(const SelfCalibrationSettings &settings) {
+    const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+    if (!positive(settings.offset_prior_m)) {
+        return out_of_range("offset_prior_m", settings.offset_prior_m, "m",
+                            "give how far the offsets may be off at the start, for instance 0.02.");
+    }
+    if (!positive(settings.gain_prior)) {
+        return out_of_range("gain_prior", settings.gain_prior, "m/m",
+                            "give how far the gains may be off, for instance 0.05.");
+    }
+    if (!positive(settings.winding_prior_1_m)) {
+        return out_of_range("winding_prior_1_m", settings.winding_prior_1_m, "1/m",
+                            "give how large the winding curvature may be, for instance 0.1.");
+    }
+    if (!positive(settings.size_prior)) {
+        return out_of_range("size_prior", settings.size_prior, "m/m",
+                            "give how far the sizes may be off, for instance 0.02.");
+    }
+    if (!(settings.central_share > 0.0) || !(settings.central_share <= settings.middle_share) ||
+        !(settings.middle_share <= 1.0)) {
+        return out_of_range("central_share", settings.central_share, "of the poses",
+                            "give 0 < central_share <= middle_share <= 1.");
+    }
+    if (!(settings.min_singular >= 0.0) || !(settings.min_singular < 1.0)) {
+        return out_of_range("min_singular", settings.min_singular, "m/m",
+                            "give 0 to 1; 0.25 keeps poses that determine the grip well.");
+    }
+    if (!(settings.outlier_sigmas >= 1.0)) {
+        return out_of_range("outlier_sigmas", settings.outlier_sigmas, "sigma",
+                            "give 1 or more; 5 is usual.");
+    }
+    if ((settings.fit_winding || settings.fit_sizes) && !settings.fit_gains) {
+        return "fit_gains is false; winding and sizes can be told from the gains only when these "
+               "are fitted too: set it.";
+    }
+    return {};
+}
+
+std::string unknown_name(std::size_t unknown) {
+    constexpr std::array<const char *, 4> kSizes{"frame size along x", "frame size along y",
+                                                 "frame size along z", "pole length"};
+    const std::string string = " of string " + std::to_string(unknown % kStringCount + 1);
+    if (unknown < kGainUnknowns) {
+        return "offset" + string;
+    }
+    if (unknown < kWindingUnknowns) {
+        return "gain" + string;
+    }
+    if (unknown < kSizeUnknowns) {
+        return "winding" + string;
+    }
+    return unknown < kCalibrationUnknowns ? kSizes[unknown - kSizeUnknowns] : "no unknown";
+}
+
+std::string describe(const WeakCombination &combination) {
+    std::array<std::size_t, kCalibrationUnknowns> order{};
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::fabs(combination.coefficients[a]) > std::fabs(combination.coefficients[b]);
+    });
+    std::string text = "left open to " +
+                       std::to_string(static_cast<int>(std::lround(100 * combination.left_open))) +
+                       " % of what was assumed:";
+    for (std::size_t k = 0; k < kNamedParts; ++k) {
+        const double part = combination.coefficients[order[k]];
+        if (k == 0 || std::fabs(part) >= kNamedShare) {
+            text += (part < 0.0 ? " - " : " + ") + unknown_name(order[k]);
+        }
+    }
+    return text;
+}
+
+} // namespace spidar

@@ -1,0 +1,58 @@
+// Small dense least squares, for calibration: Householder QR, then the singular values of R by
+// one-sided Jacobi rotations. QR never squares the conditioning; the rotations give the small
+// singular values to full relative accuracy, which is what says what a set of measurements cannot
+// tell. Allocates: not for the servo loop.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/base/status.h"
+
+namespace spidar {
+
+// Unknowns a problem may have: 8 offsets, 8 gains, 8 winding terms, 4 sizes, and room.
+inline constexpr std::size_t kMaxUnknowns = 32;
+
+// Rows are appended one by one: a measurement each.
+class DenseMatrix {
+public:
+    explicit DenseMatrix(std::size_t columns) : columns_(columns) {}
+    DenseMatrix(std::size_t rows, std::size_t columns)
+        : rows_(rows), columns_(columns), values_(rows * columns, 0.0) {}
+
+    void append(const std::vector<double> &row); // exactly columns() values
+    [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
+    [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
+    double &operator()(std::size_t row, std::size_t column) noexcept {
+        return values_[row * columns_ + column];
+    }
+    double operator()(std::size_t row, std::size_t column) const noexcept {
+        return values_[row * columns_ + column];
+    }
+
+private:
+    std::size_t rows_ = 0;
+    std::size_t columns_ = 0;
+    std::vector<double> values_;
+};
+
+struct LeastSquaresSolution {
+    // ok; near_singular (directions below the cutoff were left at zero); invalid_settings (no or
+    // too many unknowns, fewer rows than unknowns, sizes that do not match); not_finite.
+    Status status = Status::invalid_settings;
+    std::vector<double> x;        // minimises |A x - b|; the shortest such x when rank deficient
+    double residual_norm = 0.0;   // |A x - b|
+    std::size_t rank = 0;         // singular values above the cutoff
+    std::vector<double> singular; // descending
+    DenseMatrix right{0}; // column j: the combination of unknowns that belongs to singular[j]
+};
+
+// Directions whose singular value is below relative_cutoff * the largest are left out of x.
+[[nodiscard]] LeastSquaresSolution solve_least_squares(DenseMatrix a, std::vector<double> b,
+                                                       double relative_cutoff);
+
+// (A^T A)^-1 over the directions above the cutoff: times the variance of b, the covariance of x.
+[[nodiscard]] DenseMatrix inverse_normal(const LeastSquaresSolution &solution);
+
+} // namespace spidar

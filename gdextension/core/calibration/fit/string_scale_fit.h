@@ -1,0 +1,40 @@
+// One string on the bench: encoder counts against lengths read off a ruler, fitted by least squares
+// (paper, section VI.1, method 2; Table 1 is its data). Allocates: not for the servo loop.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/status.h"
+
+namespace spidar {
+
+struct CountLengthPair {
+    std::int32_t count = 0;
+    double length_m = 0.0; // ruler; equal values are repeated trials of one point
+};
+
+struct StringScaleFit {
+    // ok; too_few_samples (fewer than two different counts); not_finite. Negative: the rest is
+    // zero.
+    Status status = Status::too_few_samples;
+    double offset_m = 0.0;          // length at count 0
+    double scale_m_per_count = 0.0; // negative: wound the other way
+    double offset_error_m = 0.0;    // expected (standard) errors of both
+    double scale_error_m_per_count = 0.0;
+    double residual_rms_m = 0.0; // of the fit
+    double residual_max_m = 0.0;
+    // Spread of repeated trials about their own mean, pooled over all points with two or more
+    // (unit: m of string). A residual much larger than the spread is the string's own curve
+    // (winding), not chance.
+    double repeat_spread_m = 0.0;
+    int repeated_points = 0;
+};
+
+[[nodiscard]] StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs);
+
+// What stands in the way of a fit, in one sentence with the remedy; empty when nothing does.
+[[nodiscard]] std::string validate(const std::vector<CountLengthPair> &pairs);
+
+} // namespace spidar

@@ -1,0 +1,60 @@
+// Two doubles side by side, one a pole: lane 0 belongs to pole 1, lane 1 to pole 2. Vector extension of the compiler,
+// so the same code (and, without contraction, the same bits) on every processor with doubles.
+#pragma once
+
+#include <cmath>
+
+#include "core/base/types.h"
+
+namespace spidar {
+
+using Lanes = double __attribute__((vector_size(16)));
+
+[[nodiscard]] inline Lanes both(double value) noexcept {
+    return Lanes{value, value};
+}
+
+[[nodiscard]] inline double sum_of(Lanes a) noexcept {
+    return a[0] + a[1];
+}
+
+[[nodiscard]] inline Lanes square_root(Lanes a) noexcept {
+#if __has_builtin(__builtin_ia32_sqrtpd) // by name: not every compiler joins two scalar roots
+    return __builtin_ia32_sqrtpd(a);
+#else
+    return Lanes{std::sqrt(a[0]), std::sqrt(a[1])};
+#endif
+}
+
+// A vector of space for each pole.
+struct LaneVec {
+    Lanes x{};
+    Lanes y{};
+    Lanes z{};
+};
+
+[[nodiscard]] inline LaneVec lanes_of(const Vec3 &one, const Vec3 &two) noexcept {
+    return {Lanes{one.x, two.x}, Lanes{one.y, two.y}, Lanes{one.z, two.z}};
+}
+
+[[nodiscard]] inline Vec3 lane(const LaneVec &v, int pole) noexcept {
+    return {v.x[pole], v.y[pole], v.z[pole]};
+}
+
+[[nodiscard]] inline LaneVec operator+(const LaneVec &a, const LaneVec &b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+[[nodiscard]] inline LaneVec operator-(const LaneVec &a, const LaneVec &b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+[[nodiscard]] inline LaneVec operator*(Lanes s, const LaneVec &a) noexcept {
+    return {s * a.x, s * a.y, s * a.z};
+}
+
+[[nodiscard]] inline Lanes dot(const LaneVec &a, const LaneVec &b) noexcept {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+} // namespace spidar

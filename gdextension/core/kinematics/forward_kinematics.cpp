@@ -1,0 +1,365 @@
+#include "core/kinematics/forward_kinematics.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/geometry/string_exit.h"
+#include "core/kinematics/constants.h"
+#include "core/kinematics/search/closed_form.h"
+#include "core/kinematics/search/pose_search.h"
+#include "core/kinematics/steps/gauss_newton.h"
+#include "core/kinematics/steps/rigid_step.h"
+
+namespace spidar {
+
+namespace {
+
+// Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
+constexpr double kFaceMargin_m = 1e-6;
+
+bool all_finite(const StringArray &lengths_m) noexcept {
+    for (const double length : lengths_m) {
+        if (!std::isfinite(length)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool all_possible(const StringArray &lengths_m) noexcept {
+    for (const double length : lengths_m) {
+        if (!(length > 0.0 && length <= kLongestString_m)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
+    return {a.position_m - b.position_m, a.poles_m - b.poles_m};
+}
+
+// Residual once a step is taken, by the linear model that the step comes from.
+double rms_after(const CrossedErrors &errors, const CrossedStep &step) noexcept {
+    const double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
+    return std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
+}
+
+double squared(const CrossedPose &change) noexcept {
+    return dot(change.position_m, change.position_m)[0] +
+           sum_of(dot(change.poles_m, change.poles_m));
+}
+
+// The pose one change on. Poles back on their spheres to second order: a start needs no more.
+CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
+    const LaneVec poles = pose.poles_m + change.poles_m;
+    const Lanes excess = dot(poles, poles) * both(1.0 / (d * d)) - both(1.0);
+    const Lanes scale = both(1.0) + excess * (both(0.375) * excess - both(0.5));
+    return {pose.position_m + change.position_m, scale * poles};
+}
+
+} // namespace
+
+Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept {
+    if (!is_usable(frame) || !is_usable(grip, frame)) {
+        return Status::invalid_geometry;
+    }
+    frame_ = frame;
+    grip_ = grip;
+    const std::optional<Vec3> box = box_half_extents(frame);
+    is_box_ = box.has_value();
+    half_extents_m_ = box.value_or(Vec3(0.0));
+    has_layout_ = make_layout(frame, grip, layout_);
+    crossed_ = has_layout_ && !(frame.pulley_radius_m > 0.0);
+    closed_form_ = is_box_ && has_paper_attachments(grip);
+    last_pose_ = rest_pose(grip);
+    reset();
+    return Status::ok;
+}
+
+void ForwardKinematics::set_last_pose(const GripPose &pose) noexcept {
+    reset();
+    last_pose_ = pose;
+    warm_ = true;
+}
+
+KinematicsResult ForwardKinematics::hold(const KinematicsResult &from,
+                                         Status status) const noexcept {
+    KinematicsResult result = from;
+    result.pose = last_pose_;
+    result.status = status;
+    return result;
+}
+
+KinematicsResult ForwardKinematics::refuse(const StringArray &lengths_m,
+                                           const KinematicsResult &result) const noexcept {
+    return hold(result, all_finite(lengths_m) ? Status::impossible_lengths : Status::not_finite);
+}
+
+// The gates that every new pose passes; on success it becomes the last pose.
+KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
+    if (!(result.residual_rms_m <= kImpossibleResidual_m)) {
+        return hold(result, Status::impossible_lengths);
+    }
+    if (is_box_ && grip_.kind == GripKind::crossed &&
+        !(std::fabs(result.pose.position_m.z) < half_extents_m_.z - kFaceMargin_m)) {
+        return hold(result, Status::outside_frame);
+    }
+    if (!(result.conditioning >= kRankDeficientPivot)) {
+        return hold(result, Status::rank_deficient);
+    }
+    if (result.status == Status::ok && result.conditioning < kNearSingularPivot) {
+        result.status = Status::near_singular;
+    }
+    last_pose_ = result.pose;
+    warm_ = true;
+    return result;
+}
+
+KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcept {
+    if (!warm_) {
+        return solve_cold(lengths_m);
+    }
+    if (!all_possible(lengths_m)) {
+        return refuse(lengths_m, KinematicsResult());
+    }
+    return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
+}
+
+KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
+    const double d = layout_.pole_half_length_m;
+    const CrossedPose last = lanes_of(last_pose_);
+    CrossedPose pose = foreseeing_ ? one_change_on(last, foreseen_change_, d) : last;
+    CrossedErrors errors = errors_at(layout_, lengths_m, pose);
+    CrossedFactor factor = factorise(errors, pose, d);
+    const CrossedStep first = solve(factor, errors);
+    if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
+        const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
+        const bool trust = first.size_m2 <= kTrustedStep_m * kTrustedStep_m;
+        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kContentResidual_m : 0.0);
+    }
+    pose = moved(pose, first, d);
+    KinematicsResult result;
+    result.steps = 1;
+    result.residual_rms_m = rms_after(errors, first);
+    // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
+    // factorisation (k s)^2 s. One that leaves too little to matter is not looked at again.
+    const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
+    const double allowed = enough_m * enough_m * factor.min_pivot;
+    const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
+    if (!(bend2 * first.size_m2 <= allowed)) {
+        errors = errors_at(layout_, lengths_m, pose);
+        const bool again = bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot;
+        if (!again) {
+            factor = factorise(errors, pose, d);
+        }
+        const CrossedStep second =
+            again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
+        if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
+            return search(lengths_m, &last_pose_, kContentResidual_m);
+        }
+        pose = moved(pose, second, d);
+        result.steps = 2;
+        result.residual_rms_m = rms_after(errors, second);
+        if (!(second.size_m2 <= kThirdStep_m * kThirdStep_m)) {
+            errors = errors_at(layout_, lengths_m, pose);
+            factor = factorise(errors, pose, d);
+            const CrossedStep third = solve(factor, errors);
+            if (!factor.solvable || !(third.size_m2 <= second.size_m2)) {
+                return search(lengths_m, &last_pose_, kContentResidual_m);
+            }
+            pose = moved(pose, third, d);
+            result.steps = 3;
+            result.residual_rms_m = rms_after(errors, third);
+        }
+    }
+    if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
+        return search(lengths_m, &last_pose_, kContentResidual_m);
+    }
+    foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
+    result.pose = pose_of(pose);
+    result.conditioning = factor.min_pivot;
+    if (closed_form_ && --ticks_to_rivals_ <= 0) {
+        look_for_rivals(lengths_m, result);
+    }
+    if (ambiguous_) {
+        result.status = Status::ambiguous_pose;
+    }
+    return accept(result);
+}
+
+void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
+                                        const KinematicsResult &found) noexcept {
+    PolishResult known;
+    known.pose = found.pose;
+    known.residual_rms_m = found.residual_rms_m;
+    ambiguous_ = has_rival({frame_, grip_, lengths_m}, search_tools(), known);
+    ticks_to_rivals_ = kRivalPeriod;
+}
+
+// The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
+// best for the change just seen. Noise makes the higher orders worse, smooth motion much better.
+void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
+    const CrossedPose turn = minus(change, last_change_);
+    const double still2 = squared(change);
+    const double steady2 = squared(turn);
+    const double turning2 = squared(minus(turn, last_turn_));
+    last_change_ = change;
+    last_turn_ = turn;
+    foreseeing_ = steady2 < kForeseenShare * still2;
+    foreseen_change_ = change;
+    if (turning2 < kForeseenShare * steady2) {
+        foreseeing_ = true;
+        foreseen_change_ = {change.position_m + turn.position_m, change.poles_m + turn.poles_m};
+    }
+}
+
+// Rigid grips, strings that leave over pulleys, and grips with other than two strings to a pole end.
+KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
+    const LengthProblem problem{frame_, grip_, lengths_m};
+    GripPose pose = last_pose_;
+    const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    if (!first.solvable || !(first.step_m <= kMaxWarmStep_m)) {
+        const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m);
+        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
+    }
+    const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    GaussNewtonStep last = second;
+    int steps = 2;
+    if (second.solvable && second.step_m <= kMaxSecondStep_m &&
+        kLengthCurvature * second.step_m * second.step_m > kTrackingFloor_m) {
+        last = gauss_newton_step(problem, length_errors(problem, pose), pose);
+        ++steps;
+    }
+    const double residual_rms_m = length_errors(problem, pose).rms_m();
+    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) ||
+        !(residual_rms_m <= kWarmResidualGate_m)) {
+        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
+    }
+    KinematicsResult result;
+    result.pose = pose;
+    result.residual_rms_m = residual_rms_m;
+    result.conditioning = last.min_pivot;
+    result.steps = steps;
+    return accept(result);
+}
+
+KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noexcept {
+    KinematicsResult result;
+    result.cold_start = true;
+    if (!all_possible(lengths_m)) {
+        return refuse(lengths_m, result);
+    }
+    return search(lengths_m, nullptr, 0.0);
+}
+
+std::optional<Twist> ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
+    const LengthProblem problem{frame_, grip_, rates_m_s};
+    LengthErrors rates = length_errors(problem, last_pose_);
+    rates.residual_m = rates_m_s;
+    const RigidSolution solution = solve_rigid(problem, rates, last_pose_);
+    if (!solution.solvable || !(solution.min_pivot >= kRankDeficientPivot)) {
+        return std::nullopt;
+    }
+    const RigidStep &x = solution.step;
+    Twist twist;
+    twist.linear_m_s = Vec3(x[0], x[1], x[2]);
+    twist.angular_rad_s = Vec3(x[3], x[4], x[5]) * (1.0 / grip_.pole_half_length_m);
+    return twist;
+}
+
+std::optional<Twist>
+ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
+    if (grip_.kind == GripKind::rigid) {
+        return rigid_twist(rates_m_s);
+    }
+    const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
+    const double size = glm::length(area);
+    const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
+    if (!has_layout_ || !(size > kParallelAngle_rad * d2)) {
+        return std::nullopt;
+    }
+    const CrossedPose pose = lanes_of(last_pose_);
+    const LengthErrors paths = length_errors({frame_, grip_, rates_m_s}, last_pose_);
+    CrossedErrors rates;
+    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
+        const auto &strings = layout_.strings[slot];
+        rates.direction[slot] = lanes_of(paths.direction[strings[0]], paths.direction[strings[1]]);
+        rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
+    }
+    const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
+    if (!factor.solvable || !(factor.min_pivot >= kRankDeficientPivot)) {
+        return std::nullopt;
+    }
+    const CrossedStep step = solve(factor, rates);
+    if (!std::isfinite(step.size_m2)) {
+        return std::nullopt;
+    }
+    // Pole k turns by omega +- alpha n, n the normal of both, alpha half the grasp rate.
+    const Vec3 n = area / size;
+    const Vec3 rate1 = lane(step.poles_m, 0);
+    const Vec3 rate2 = lane(step.poles_m, 1);
+    const double turn1 = glm::dot(rate1, glm::cross(n, last_pose_.r1_m)) / d2;
+    const double turn2 = glm::dot(rate2, glm::cross(n, last_pose_.r2_m)) / d2;
+    Twist twist;
+    twist.linear_m_s = lane(step.position_m, 0);
+    twist.grasp_rate_rad_s = turn1 - turn2;
+    // Out of their plane: omega . (r x n) = rate . n for both poles.
+    twist.angular_rad_s = 0.5 * (turn1 + turn2) * n +
+                          (glm::dot(rate1, n) * glm::cross(glm::cross(last_pose_.r2_m, n), n) -
+                           glm::dot(rate2, n) * glm::cross(glm::cross(last_pose_.r1_m, n), n)) /
+                              size;
+    return twist;
+}
+
+SearchTools ForwardKinematics::search_tools() const noexcept {
+    SearchTools tools;
+    tools.layout = crossed_ ? &layout_ : nullptr;
+    if (closed_form_) {
+        tools.closed_form_half_extents_m = half_extents_m_;
+    }
+    return tools;
+}
+
+KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const GripPose *remembered,
+                                           double content_m) noexcept {
+    const LengthProblem problem{frame_, grip_, lengths_m};
+    SearchTools tools = search_tools();
+    StringArray eyelets_m = lengths_m;
+    if (frame_.pulley_radius_m > 0.0) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            const Vec3 end = attachment_point(grip_, last_pose_, static_cast<int>(i));
+            eyelets_m[i] +=
+                glm::distance(end, frame_.motors_m[i]) - string_path(frame_, i, end).length_m;
+        }
+        tools.eyelet_lengths_m = &eyelets_m;
+    }
+    SearchResult found = search_pose(problem, tools, remembered, content_m);
+    if (found.any && !found.best.converged && found.best.residual_rms_m <= kImpossibleResidual_m) {
+        // One start in a million, far away, meets the bound just before the end: it may go on once.
+        found.best = polish_pose(problem, found.best.pose);
+        found.steps += found.best.steps;
+    }
+    KinematicsResult result;
+    result.cold_start = true;
+    result.steps = found.steps;
+    if (!found.any) {
+        return hold(result, Status::impossible_lengths);
+    }
+    result.pose = found.best.pose;
+    result.residual_rms_m = found.best.residual_rms_m;
+    result.conditioning = found.best.min_pivot;
+    if (!found.best.converged && found.best.residual_rms_m <= kImpossibleResidual_m) {
+        return hold(result, Status::not_converged);
+    }
+    ambiguous_ = found.ambiguous;
+    ticks_to_rivals_ = kRivalPeriod;
+    if (ambiguous_) {
+        result.status = Status::ambiguous_pose;
+    }
+    forget_motion();
+    return accept(result);
+}
+
+} // namespace spidar

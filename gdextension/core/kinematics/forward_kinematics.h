@@ -1,0 +1,99 @@
+// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
+// step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
+// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md). Rigid grips, exit
+// pulleys and other frames take the same way with general steps: gauss_newton.h, and seven starts without closed form.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/status.h"
+#include "core/base/types.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
+#include "core/kinematics/steps/crossed_step.h"
+
+namespace spidar {
+
+struct SearchTools; // core/kinematics/search/pose_search.h
+
+struct KinematicsResult {
+    GripPose pose;
+    double residual_rms_m =
+        0.0; // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
+    double conditioning =
+        0.0;       // smallest pivot of the scaled normal equations, 0..1; small = near singular
+    int steps = 0; // Gauss-Newton steps taken
+    bool cold_start = false;    // the closed form was used
+    Status status = Status::ok; // >= 0: pose is new; < 0: pose is the last good one
+};
+
+class ForwardKinematics {
+public:
+    // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
+    Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
+
+    // One servo tick: one to three steps; falls back to a search when the residual or the step size
+    // says so; holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
+    // ambiguous_pose, where there is a closed form: looked for every kRivalPeriod ticks, stands in between.
+    KinematicsResult update(const StringArray &lengths_m) noexcept;
+
+    // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
+    KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
+
+    // Velocity of the grip at the last pose from the rates of the string lengths (growing is positive; unit: m/s), by
+    // least squares as the pose itself. Empty where the poles are parallel or the lengths leave it open, and for
+    // crossed grips with other than two strings to a pole end.
+    [[nodiscard]] std::optional<Twist>
+    twist_of_length_rates(const StringArray &rates_m_s) const noexcept;
+
+    // Warm start from here at the next update().
+    void set_last_pose(const GripPose &pose) noexcept;
+    [[nodiscard]] const GripPose &last_pose() const noexcept { return last_pose_; }
+    // Forget the last pose: the next update() is cold.
+    void reset() noexcept {
+        warm_ = false;
+        ambiguous_ = false;
+        ticks_to_rivals_ = 0;
+        forget_motion();
+    }
+
+private:
+    KinematicsResult track_crossed(const StringArray &lengths_m) noexcept;
+    KinematicsResult track_any(const StringArray &lengths_m) noexcept;
+    KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered,
+                            double content_m) noexcept;
+    [[nodiscard]] SearchTools search_tools() const noexcept;
+    void look_for_rivals(const StringArray &lengths_m, const KinematicsResult &found) noexcept;
+    [[nodiscard]] std::optional<Twist> rigid_twist(const StringArray &rates_m_s) const noexcept;
+    void foresee(const CrossedPose &change) noexcept;
+    void forget_motion() noexcept {
+        last_change_ = CrossedPose();
+        last_turn_ = CrossedPose();
+        foreseeing_ = false;
+    }
+    // Changes `result` in place and returns it: the tick makes no copy that it can spare.
+    KinematicsResult accept(KinematicsResult &result) noexcept;
+    [[nodiscard]] KinematicsResult hold(const KinematicsResult &from, Status status) const noexcept;
+    [[nodiscard]] KinematicsResult refuse(const StringArray &lengths_m,
+                                          const KinematicsResult &result) const noexcept;
+
+    FrameGeometry frame_{};
+    GripGeometry grip_{};
+    CrossedLayout layout_;
+    bool has_layout_ = false;  // layout_ is valid
+    bool crossed_ = false;     // and the strings leave from eyelets: the fast steps serve
+    Vec3 half_extents_m_{0.0}; // valid when is_box_
+    bool is_box_ = false;
+    bool closed_form_ = false;
+    bool warm_ = false;
+    GripPose last_pose_{};
+    CrossedPose last_change_{}; // of the last warm tick
+    CrossedPose last_turn_{};   // change of that change
+    CrossedPose foreseen_change_{};
+    bool foreseeing_ = false;
+    bool ambiguous_ = false;  // at the last look
+    int ticks_to_rivals_ = 0; // warm ticks until the next one
+};
+
+} // namespace spidar

@@ -1,0 +1,98 @@
+#include "core/kinematics/grasp_detector.h"
+
+#include <cmath>
+
+#include "core/base/describe_value.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr double kHalfPi = 1.5707963267948966;
+// A dwell longer than this is a unit mistake (milliseconds typed as seconds).
+constexpr double kMaxDwell_s = 5.0;
+
+// The phase this angle asks for; the present one decides which side of each hysteresis band holds.
+GraspPhase phase_asked(const GraspSettings &settings, GraspPhase now, double angle_rad) noexcept {
+    const double over =
+        now == GraspPhase::over_closed ? settings.over_closed_leave_rad : settings.over_closed_rad;
+    const double grasp = now == GraspPhase::open ? settings.enter_rad : settings.leave_rad;
+    // Entering grasped from over-closed needs to be below over_closed_leave_rad, leaving it above
+    // over_closed_rad.
+    if (now == GraspPhase::over_closed ? angle_rad >= over : angle_rad > over) {
+        return GraspPhase::over_closed;
+    }
+    return angle_rad >= grasp ? GraspPhase::grasped : GraspPhase::open;
+}
+
+std::string angle_message(const char *field, double value_rad, const char *remedy) {
+    return std::string(field) + " is " + with_unit(value_rad, "rad") + " (" +
+           with_unit(value_rad / kDegree_rad, "degrees") + "); " + remedy;
+}
+
+} // namespace
+
+GraspPhase GraspDetector::update(double grasp_angle_rad, double dt_s) noexcept {
+    if (!std::isfinite(grasp_angle_rad)) {
+        return phase_;
+    }
+    const GraspPhase asked = phase_asked(settings_, phase_, grasp_angle_rad);
+    if (asked == phase_) {
+        candidate_ = phase_;
+        candidate_age_s_ = 0.0;
+        return phase_;
+    }
+    if (asked != candidate_) {
+        candidate_ = asked;
+        candidate_age_s_ = 0.0; // the time before this sample belongs to what was seen before it
+    } else if (dt_s > 0.0 && std::isfinite(dt_s)) {
+        candidate_age_s_ += dt_s;
+    }
+    if (candidate_age_s_ >= settings_.dwell_s) {
+        phase_ = candidate_;
+        candidate_age_s_ = 0.0;
+    }
+    return phase_;
+}
+
+void GraspDetector::reset() noexcept {
+    phase_ = GraspPhase::open;
+    candidate_ = GraspPhase::open;
+    candidate_age_s_ = 0.0;
+}
+
+std::string validate(const GraspSettings &settings) {
+    const struct {
+        const char *name;
+        double value_rad;
+    } angles[] = {{"leave_rad", settings.leave_rad},
+                  {"enter_rad", settings.enter_rad},
+                  {"over_closed_leave_rad", settings.over_closed_leave_rad},
+                  {"over_closed_rad", settings.over_closed_rad}};
+    for (const auto &angle : angles) {
+        if (!(std::fabs(angle.value_rad) <= kHalfPi)) {
+            return angle_message(angle.name, angle.value_rad,
+                                 "give an angle between -90 and 90 degrees, in radians.");
+        }
+    }
+    if (!(settings.leave_rad <= settings.enter_rad)) {
+        return angle_message(
+            "leave_rad", settings.leave_rad,
+            "it must not exceed enter_rad: a grasp is left below where it begins.");
+    }
+    if (!(settings.over_closed_leave_rad <= settings.over_closed_rad)) {
+        return angle_message("over_closed_leave_rad", settings.over_closed_leave_rad,
+                             "it must not exceed over_closed_rad.");
+    }
+    if (!(settings.enter_rad < settings.over_closed_leave_rad)) {
+        return angle_message("enter_rad", settings.enter_rad,
+                             "it must be below over_closed_leave_rad, or nothing is ever grasped.");
+    }
+    if (!(settings.dwell_s >= 0.0) || !(settings.dwell_s <= kMaxDwell_s)) {
+        return "dwell_s is " + with_unit(settings.dwell_s, "s") + "; give 0 to " +
+               with_unit(kMaxDwell_s, "s") + " (default 0.03 s).";
+    }
+    return {};
+}
+
+} // namespace spidar

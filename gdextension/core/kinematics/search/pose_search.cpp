@@ -1,0 +1,249 @@
+#include "core/kinematics/search/pose_search.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/kinematics/constants.h"
+#include "core/kinematics/search/closed_form.h"
+#include "core/kinematics/search/pose_starts.h"
+
+namespace spidar {
+
+namespace {
+
+// How many times better a pose must fit than one that fits to `residual_m` before chance explains it no more.
+double beyond_chance(double residual_m) noexcept {
+    return residual_m > kSuspiciousResidual_m ? kClearlyBetter : kBeyondChance;
+}
+
+// Whether a pose that fits to `candidate_m` is an answer too where the best fits to `best_m`.
+bool fits_as_well(double candidate_m, double best_m) noexcept {
+    return !(candidate_m > kResidualFloor_m && best_m < beyond_chance(candidate_m) * candidate_m);
+}
+
+double pole_distance(const GripPose &a, const GripPose &b) noexcept {
+    return std::fmax(glm::distance(a.position_m, b.position_m),
+                     std::fmax(glm::distance(a.r1_m, b.r1_m), glm::distance(a.r2_m, b.r2_m)));
+}
+
+class Search {
+public:
+    Search(const LengthProblem &problem, const SearchTools &tools, SearchResult &found) noexcept
+        : problem_(problem), tools_(tools), found_(found) {}
+
+    void offer(const GripPose &start) noexcept { judge(polished(start)); }
+    // The best so far comes from memory, which outweighs how well another fits.
+    void trust_memory() noexcept { remembers_ = true; }
+    void try_root_pairs() noexcept;
+    void try_rivals(const ClosedForm &form, int first_pair) noexcept;
+    [[nodiscard]] bool settled() const noexcept {
+        return found_.any && found_.best.residual_rms_m <= kResidualFloor_m;
+    }
+
+private:
+    [[nodiscard]] double relevant_m() const noexcept {
+        return found_.any ? found_.best.residual_rms_m / beyond_chance(found_.best.residual_rms_m)
+                          : HUGE_VAL;
+    }
+    PolishResult polished(const GripPose &start) noexcept {
+        return tools_.layout != nullptr ? refined(lanes_of(start)) : polish_pose(problem_, start);
+    }
+    PolishResult refined(const CrossedPose &start) noexcept;
+    [[nodiscard]] bool replaces_best(double candidate_m) const noexcept;
+    void judge(const PolishResult &candidate) noexcept;
+
+    const LengthProblem &problem_;
+    const SearchTools &tools_;
+    SearchResult &found_;
+    bool remembers_ = false;
+    bool first_stands_ = true; // the best is the first: upright or remembered
+};
+
+// Gauss-Newton with the fast steps as long as it converges fast: to the end when the lengths are good. Where it does
+// not, the damped Newton method takes over; where it can only end far above the best, it is given up.
+PolishResult Search::refined(const CrossedPose &start) noexcept {
+    const CrossedLayout &layout = *tools_.layout;
+    const double d = layout.pole_half_length_m;
+    const double hopeless_m2 = kStringCount * relevant_m() * relevant_m();
+    PolishResult result;
+    CrossedPose pose = start;
+    CrossedErrors errors = errors_at(layout, problem_.lengths_m, pose);
+    CrossedFactor factor;
+    double gauss_pivot = 0.0;
+    double last_size_m = HUGE_VAL;
+    double bend_m = HUGE_VAL; // what bends the next step if it uses this factorisation
+    while (result.steps < kMaxRefineSteps && !result.converged) {
+        const bool first = result.steps == 0;
+        const bool again = bend_m <= kRefactorStep_m;
+        ++result.steps;
+        if (first) {
+            factor = factorise(errors, pose, d);
+            gauss_pivot = factor.min_pivot;
+        } else if (!again) {
+            factor = factorise_curved(errors, pose, d);
+        }
+        const CrossedStep step = again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
+        const double size_m = std::sqrt(step.size_m2);
+        const bool tiny = size_m < kStagnantStep_m;
+        const double rate = size_m / last_size_m;
+        const bool slow = !tiny && !(rate <= kSlowestRate);
+        const bool settled_high =
+            errors.sum_of_squares_m2 - step.decrease_m2 > hopeless_m2 &&
+            (slow || step.decrease_m2 < kSettledDecrease * errors.sum_of_squares_m2);
+        // The closed form starts next to a pose that matters: a rival that must go far is none.
+        const bool rival_leaves = found_.any && !(size_m <= kMaxTrialStep_m) &&
+                                  found_.best.residual_rms_m <= kSuspiciousResidual_m;
+        if (settled_high || rival_leaves) {
+            result.residual_rms_m = HUGE_VAL;
+            return result;
+        }
+        if (!factor.solvable || !(size_m <= kMaxTrialStep_m) || slow) {
+            break;
+        }
+        const double before_m2 = errors.sum_of_squares_m2;
+        const CrossedPose before = pose;
+        pose = moved(pose, step, d);
+        // A step this small changes the residual as foretold.
+        const double foretold_m2 = std::fmax(before_m2 - step.decrease_m2, 0.0);
+        double bends_m = size_m;
+        if (first) {
+            bends_m += kResidualCurvature * std::sqrt(foretold_m2 / kStringCount);
+        } else if (again) {
+            bends_m = kNearbyBend * last_size_m;
+        }
+        const double left_m = size_m * std::fmax(kWorstCurvature * bends_m / gauss_pivot,
+                                                 first ? 0.0 : (again ? 2.0 * rate : rate * rate));
+        // By a factorisation from elsewhere a step may fail to shrink for that reason: then a new one tells.
+        const bool outworn = again && !(rate <= kOutwornRate);
+        result.converged = left_m <= kConvergedStep_m || (tiny && !again && rate > 0.5);
+        const bool foretells = !again || step.size_m2 < kForetoldShare * before_m2;
+        if (result.converged && size_m < kForetoldStep_m && foretells) {
+            errors.sum_of_squares_m2 = foretold_m2;
+        } else {
+            errors = errors_at(layout, problem_.lengths_m, pose);
+            if (!tiny && !(errors.sum_of_squares_m2 <= before_m2)) {
+                pose = before;
+                result.converged = false;
+                break;
+            }
+        }
+        last_size_m = size_m;
+        bend_m = first ? bends_m : outworn ? HUGE_VAL : size_m;
+    }
+    result.residual_rms_m = std::sqrt(errors.sum_of_squares_m2 / kStringCount);
+    result.pose = pose_of(pose);
+    result.min_pivot = gauss_pivot;
+    if (!result.converged) {
+        const int before = result.steps;
+        result = polish_pose(problem_, result.pose);
+        result.steps += before;
+    }
+    return result;
+}
+
+bool Search::replaces_best(double candidate_m) const noexcept {
+    const double best_m = found_.best.residual_rms_m;
+    const double prior = remembers_ ? beyond_chance(best_m) : kUprightPrior;
+    return best_m > kResidualFloor_m && candidate_m < (first_stands_ ? prior : 1.0) * best_m;
+}
+
+void Search::judge(const PolishResult &candidate) noexcept {
+    found_.steps += candidate.steps;
+    if (!std::isfinite(candidate.residual_rms_m)) {
+        return;
+    }
+    if (!found_.any) {
+        found_.best = candidate;
+        found_.any = true;
+        return;
+    }
+    const bool another = pole_distance(candidate.pose, found_.best.pose) > kDistinctPose_m;
+    if (another && replaces_best(candidate.residual_rms_m)) {
+        found_.ambiguous = fits_as_well(found_.best.residual_rms_m, candidate.residual_rms_m);
+        found_.best = candidate;
+        first_stands_ = false;
+    } else if (another && fits_as_well(candidate.residual_rms_m, found_.best.residual_rms_m)) {
+        found_.ambiguous = true;
+    }
+}
+
+void Search::try_root_pairs() noexcept {
+    const ClosedForm form = solve_closed_form(
+        *tools_.closed_form_half_extents_m, problem_.grip.pole_half_length_m,
+        tools_.eyelet_lengths_m != nullptr ? *tools_.eyelet_lengths_m : problem_.lengths_m);
+    if (tools_.layout == nullptr) {
+        // Starts too rough for their misfits to mean anything.
+        for (int pair = 0; pair < kRootPairCount && !settled(); ++pair) {
+            offer(pose_of(root_pair_start(form, pair)));
+        }
+        return;
+    }
+    if (!found_.any) {
+        judge(refined(root_pair_start(form, 0)));
+        if (!settled()) {
+            try_rivals(form, 1);
+        }
+    } else {
+        try_rivals(form, 0);
+    }
+}
+
+void Search::try_rivals(const ClosedForm &form, int first_pair) noexcept {
+    const RootHeights heights = root_heights(form);
+    for (int pair = first_pair; pair < kRootPairCount && !settled(); ++pair) {
+        // Errors of the lengths reach the misfit magnified, the more the nearer a face is.
+        const MisfitForecast forecast =
+            forecast_misfit(heights, problem_.grip.pole_half_length_m, pair);
+        const double limit_m = kMisfitGain * forecast.gain * relevant_m();
+        if (forecast.misfit_m > kForecastSlack * limit_m) {
+            continue;
+        }
+        const RootPairPose start = root_pair_pose(form, pair);
+        const bool known =
+            remembers_ && pole_distance(pose_of(start.pose), found_.best.pose) < kSamePose_m;
+        if (start.misfit_m <= limit_m && !known) {
+            judge(refined(start.pose));
+        }
+    }
+}
+
+} // namespace
+
+SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
+                         const GripPose *remembered, double content_m) noexcept {
+    SearchResult found;
+    Search search(problem, tools, found);
+    if (remembered != nullptr) {
+        search.offer(*remembered);
+        search.trust_memory();
+        const PolishResult &best = found.best;
+        if (found.any && best.converged && best.residual_rms_m <= content_m) {
+            return found;
+        }
+    }
+    if (tools.closed_form_half_extents_m.has_value()) {
+        search.try_root_pairs();
+        return found;
+    }
+    for (int start = 0; start < kStartCount && !search.settled(); ++start) {
+        search.offer(start_pose(problem, start));
+    }
+    return found;
+}
+
+bool has_rival(const LengthProblem &problem, const SearchTools &tools,
+               const PolishResult &known) noexcept {
+    if (!tools.closed_form_half_extents_m.has_value() || tools.layout == nullptr) {
+        return false;
+    }
+    SearchResult found;
+    found.best = known;
+    found.any = true;
+    Search search(problem, tools, found);
+    search.trust_memory();
+    search.try_root_pairs();
+    return found.ambiguous || pole_distance(found.best.pose, known.pose) > kDistinctPose_m;
+}
+
+} // namespace spidar

@@ -1,0 +1,295 @@
+// Gauss-Newton on R3 x S2 x S2 for the grip as the paper strings it, two strings to each pole end: the work of
+// gauss_newton.h with both poles computed side by side. Slot 2e+k holds the k-th string of pole end e (0: +, 1: -).
+//
+// A string at end s of a pole, with direction e, has the slopes (e, s e) in (P0, r). So all that the normal
+// equations need are the outer products e e' summed over the strings of an end: their sum over both ends serves
+// P0 and r alone, their difference couples the two. Unknowns and the meaning of the pivots are those of gauss_newton.h.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/geometry/frame_geometry.h"
+#include "core/geometry/grip_geometry.h"
+#include "core/geometry/pole_lanes.h"
+
+namespace spidar {
+
+inline constexpr std::size_t kSlotCount = 4;
+
+// Which string sits in which slot, and from where it comes.
+struct CrossedLayout {
+    std::array<LaneVec, kSlotCount> motors_m;
+    std::array<std::array<std::uint8_t, 2>, kSlotCount> strings{}; // [slot][pole]
+    double pole_half_length_m = 0.0;
+};
+
+// False, layout untouched, when some pole end does not carry exactly two strings, or the grip is rigid.
+[[nodiscard]] bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,
+                               CrossedLayout &layout) noexcept;
+
+struct CrossedPose {
+    LaneVec position_m; // P0 in both lanes
+    LaneVec poles_m;    // r1, r2
+};
+
+[[nodiscard]] inline CrossedPose lanes_of(const GripPose &pose) noexcept {
+    return {lanes_of(pose.position_m, pose.position_m), lanes_of(pose.r1_m, pose.r2_m)};
+}
+
+[[nodiscard]] inline GripPose pose_of(const CrossedPose &pose) noexcept {
+    return {lane(pose.position_m, 0), lane(pose.poles_m, 0), lane(pose.poles_m, 1)};
+}
+
+// Measured minus computed lengths, and the directions in which the lengths grow.
+struct CrossedErrors {
+    std::array<LaneVec, kSlotCount> direction;
+    std::array<Lanes, kSlotCount> residual_m{};
+    std::array<Lanes, kSlotCount> per_length{}; // 1 / computed length (unit: 1/m)
+    double sum_of_squares_m2 = 0.0;
+};
+
+// Normal equations of one pose: the poles' blocks eliminated and what then stays of the position, both inverted by
+// cofactors. One division each: the latency of divisions is what a step costs most.
+struct CrossedFactor {
+    LaneVec u; // tangents of the poles
+    LaneVec v;
+    LaneVec carry_u; // coupling of the position to u and v times the inverse of the pole's block
+    LaneVec carry_v;
+    Lanes inverse_uu{};
+    Lanes inverse_uv{};
+    Lanes inverse_vv{};
+    std::array<double, 6> inverse_position{}; // xx xy xz yy yz zz
+    double min_pivot = 0.0;                   // as in GaussNewtonStep
+    bool solvable = false;
+};
+
+struct CrossedStep {
+    LaneVec position_m;
+    LaneVec poles_m;
+    double size_m2 = 0.0;     // squared norm of the seven displacements
+    double decrease_m2 = 0.0; // of the sum of squares, as the linear model has it
+};
+
+namespace crossed_detail {
+
+// Sum of e e' over strings: xx xy xz yy yz zz, a pole a lane.
+using LaneMatrix = std::array<Lanes, 6>;
+
+[[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b) noexcept {
+    return {a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.x * a.z + b.x * b.z,
+            a.y * a.y + b.y * b.y, a.y * a.z + b.y * b.z, a.z * a.z + b.z * b.z};
+}
+
+// The same with a weight each.
+[[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b, Lanes wa,
+                                                   Lanes wb) noexcept {
+    const LaneVec p = wa * a;
+    const LaneVec q = wb * b;
+    return {p.x * a.x + q.x * b.x, p.x * a.y + q.x * b.y, p.x * a.z + q.x * b.z,
+            p.y * a.y + q.y * b.y, p.y * a.z + q.y * b.z, p.z * a.z + q.z * b.z};
+}
+
+[[gnu::always_inline]] inline LaneVec product(const LaneMatrix &m, const LaneVec &v) noexcept {
+    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
+            m[2] * v.x + m[4] * v.y + m[5] * v.z};
+}
+
+// Residuals times directions, summed over each end: their sum and their difference over the two ends.
+struct Gradients {
+    LaneVec sum;
+    LaneVec difference;
+};
+
+[[gnu::always_inline]] inline Gradients gradients(const CrossedErrors &errors) noexcept {
+    const LaneVec plus =
+        errors.residual_m[0] * errors.direction[0] + errors.residual_m[1] * errors.direction[1];
+    const LaneVec minus =
+        errors.residual_m[2] * errors.direction[2] + errors.residual_m[3] * errors.direction[3];
+    return {plus + minus, plus - minus};
+}
+
+// Two unit tangents of each pole without a square root (Duff et al. 2017, "Building an orthonormal basis, revisited").
+[[gnu::always_inline]] inline void tangents(const LaneVec &poles_m, double d, LaneVec &u,
+                                            LaneVec &v) noexcept {
+    const LaneVec n = both(1.0 / d) * poles_m;
+    const Lanes sign{std::copysign(1.0, n.z[0]), std::copysign(1.0, n.z[1])};
+    const Lanes a = both(-1.0) / (sign + n.z);
+    const Lanes b = n.x * n.y * a;
+    u = {both(1.0) + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    v = {b, sign + n.y * n.y * a, -n.y};
+}
+
+[[gnu::always_inline]] inline double smaller(double a, double b) noexcept {
+    return b < a ? b : a; // a when b is NaN: the pivots themselves decide then
+}
+
+// Eliminates the matrix whose strings sum to `plus` and `minus` at the two ends; `fall` adds to the poles' diagonals.
+[[nodiscard, gnu::always_inline]] inline CrossedFactor
+eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, const CrossedPose &pose,
+          double pole_half_length_m) noexcept {
+    CrossedFactor f;
+    LaneMatrix sum;
+    LaneMatrix difference;
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        sum[i] = plus[i] + minus[i];
+        difference[i] = plus[i] - minus[i];
+    }
+    tangents(pose.poles_m, pole_half_length_m, f.u, f.v);
+    const LaneVec sum_u = product(sum, f.u);
+    const Lanes uu = dot(f.u, sum_u) + fall;
+    const Lanes uv = dot(f.v, sum_u);
+    const Lanes vv = dot(f.v, product(sum, f.v)) + fall;
+    const Lanes area = uu * vv - uv * uv;
+    const Lanes per_area = both(1.0) / area;
+    f.inverse_uu = per_area * vv;
+    f.inverse_uv = -(per_area * uv);
+    f.inverse_vv = per_area * uu;
+    const LaneVec couple_u = product(difference, f.u);
+    const LaneVec couple_v = product(difference, f.v);
+    f.carry_u = f.inverse_uu * couple_u + f.inverse_uv * couple_v;
+    f.carry_v = f.inverse_uv * couple_u + f.inverse_vv * couple_v;
+
+    const LaneVec &a = f.carry_u;
+    const LaneVec &b = f.carry_v;
+    const double s0 = sum_of(sum[0] - a.x * couple_u.x - b.x * couple_v.x);
+    const double s1 = sum_of(sum[1] - a.x * couple_u.y - b.x * couple_v.y);
+    const double s2 = sum_of(sum[2] - a.x * couple_u.z - b.x * couple_v.z);
+    const double s3 = sum_of(sum[3] - a.y * couple_u.y - b.y * couple_v.y);
+    const double s4 = sum_of(sum[4] - a.y * couple_u.z - b.y * couple_v.z);
+    const double s5 = sum_of(sum[5] - a.z * couple_u.z - b.z * couple_v.z);
+    const double minor_yz = s3 * s5 - s4 * s4;
+    const double minor_xy = s0 * s3 - s1 * s1;
+    const double cofactor_xy = s2 * s4 - s1 * s5;
+    const double cofactor_xz = s1 * s4 - s2 * s3;
+    const double volume = s0 * minor_yz + s1 * cofactor_xy + s2 * cofactor_xz;
+    const double per_volume = 1.0 / volume;
+    f.inverse_position = {minor_yz * per_volume,
+                          cofactor_xy * per_volume,
+                          cofactor_xz * per_volume,
+                          (s0 * s5 - s2 * s2) * per_volume,
+                          (s1 * s2 - s0 * s4) * per_volume,
+                          minor_xy * per_volume};
+
+    // Of the poles the determinant over the squared mean of the diagonal: the same in every basis.
+    const Lanes mean = both(0.5) * (uu + vv);
+    const Lanes pole = area / (mean * mean);
+    const double pivot_x = s0 / sum_of(sum[0]);
+    const double pivot_y = minor_xy / (s0 * sum_of(sum[3]));
+    const double pivot_z = volume / (minor_xy * sum_of(sum[5]));
+    f.min_pivot = smaller(smaller(smaller(pole[0], pole[1]), pivot_x), smaller(pivot_y, pivot_z));
+    f.solvable = uu[0] > 0.0 && uu[1] > 0.0 && area[0] > 0.0 && area[1] > 0.0 && s0 > 0.0 &&
+                 minor_xy > 0.0 && volume > 0.0;
+    return f;
+}
+
+[[gnu::always_inline]] inline CrossedStep step_of(const CrossedFactor &f,
+                                                  const Gradients &g) noexcept {
+    const Lanes gradient_u = dot(f.u, g.difference);
+    const Lanes gradient_v = dot(f.v, g.difference);
+    const LaneVec rest = g.sum - gradient_u * f.carry_u - gradient_v * f.carry_v;
+    const double rx = sum_of(rest.x);
+    const double ry = sum_of(rest.y);
+    const double rz = sum_of(rest.z);
+    const std::array<double, 6> &p = f.inverse_position;
+    const double x = p[0] * rx + p[1] * ry + p[2] * rz;
+    const double y = p[1] * rx + p[3] * ry + p[4] * rz;
+    const double z = p[2] * rx + p[4] * ry + p[5] * rz;
+
+    CrossedStep step;
+    step.position_m = {both(x), both(y), both(z)};
+    // What the poles would do alone, less what the position takes.
+    const Lanes u =
+        f.inverse_uu * gradient_u + f.inverse_uv * gradient_v - dot(f.carry_u, step.position_m);
+    const Lanes v =
+        f.inverse_uv * gradient_u + f.inverse_vv * gradient_v - dot(f.carry_v, step.position_m);
+    step.poles_m = u * f.u + v * f.v;
+    step.size_m2 = x * x + y * y + z * z + sum_of(u * u + v * v);
+    step.decrease_m2 = x * sum_of(g.sum.x) + y * sum_of(g.sum.y) + z * sum_of(g.sum.z) +
+                       sum_of(u * gradient_u + v * gradient_v);
+    return step;
+}
+
+} // namespace crossed_detail
+
+[[nodiscard, gnu::always_inline]] inline CrossedErrors errors_at(const CrossedLayout &layout,
+                                                                 const StringArray &lengths_m,
+                                                                 const CrossedPose &pose) noexcept {
+    CrossedErrors errors;
+    const std::array<LaneVec, 2> ends{pose.position_m + pose.poles_m,
+                                      pose.position_m - pose.poles_m};
+    Lanes squares{};
+#pragma GCC unroll 4 // by hand: at -O2 the compiler keeps the loop, and a fifth of the time with it
+    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
+        const LaneVec string = ends[slot / 2] - layout.motors_m[slot];
+        const Lanes length = square_root(dot(string, string));
+        const Lanes measured{lengths_m[layout.strings[slot][0]],
+                             lengths_m[layout.strings[slot][1]]};
+        errors.per_length[slot] = both(1.0) / length;
+        errors.direction[slot] = errors.per_length[slot] * string;
+        errors.residual_m[slot] = measured - length;
+        squares += errors.residual_m[slot] * errors.residual_m[slot];
+    }
+    errors.sum_of_squares_m2 = sum_of(squares);
+    return errors;
+}
+
+[[nodiscard, gnu::always_inline]] inline CrossedFactor
+factorise(const CrossedErrors &errors, const CrossedPose &pose,
+          double pole_half_length_m) noexcept {
+    return crossed_detail::eliminate(
+        crossed_detail::outer_sum(errors.direction[0], errors.direction[1]),
+        crossed_detail::outer_sum(errors.direction[2], errors.direction[3]), both(0.0), pose,
+        pole_half_length_m);
+}
+
+// The same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically where lengths err.
+// Its pivots are those of the normal equations as far as the residual is small against the poles.
+[[nodiscard, gnu::always_inline]] inline CrossedFactor
+factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
+                 double pole_half_length_m) noexcept {
+    // A length l with residual f bends by -(f / l) (I - e e') ...
+    const auto end = [&errors](std::size_t slot) {
+        const Lanes w0 = errors.residual_m[slot] * errors.per_length[slot];
+        const Lanes w1 = errors.residual_m[slot + 1] * errors.per_length[slot + 1];
+        crossed_detail::LaneMatrix sum = crossed_detail::outer_sum(
+            errors.direction[slot], errors.direction[slot + 1], both(1.0) + w0, both(1.0) + w1);
+        for (const std::size_t diagonal : {0U, 3U, 5U}) {
+            sum[diagonal] -= w0 + w1;
+        }
+        return sum;
+    };
+    // ... and a displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
+    const Lanes fall = dot(crossed_detail::gradients(errors).difference, pose.poles_m) *
+                       both(1.0 / (pole_half_length_m * pole_half_length_m));
+    return crossed_detail::eliminate(end(0), end(2), fall, pose, pole_half_length_m);
+}
+
+// The step that `errors` ask for, by the factorisation made there.
+[[nodiscard, gnu::always_inline]] inline CrossedStep solve(const CrossedFactor &factor,
+                                                           const CrossedErrors &errors) noexcept {
+    return crossed_detail::step_of(factor, crossed_detail::gradients(errors));
+}
+
+// The same by a factorisation made close by; `pose` is where the errors are. Ends at the same pose.
+[[nodiscard, gnu::always_inline]] inline CrossedStep
+solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors,
+             const CrossedPose &pose) noexcept {
+    crossed_detail::Gradients g = crossed_detail::gradients(errors);
+    // The factor's tangents are not quite those of this pose: what pulls along a pole must not turn it.
+    const Lanes along = dot(pose.poles_m, g.difference) / dot(pose.poles_m, pose.poles_m);
+    g.difference = g.difference - along * pose.poles_m;
+    return crossed_detail::step_of(factor, g);
+}
+
+// Moved, and the poles back on their spheres to rounding.
+[[nodiscard, gnu::always_inline]] inline CrossedPose
+moved(const CrossedPose &pose, const CrossedStep &step, double pole_half_length_m) noexcept {
+    const LaneVec poles = pose.poles_m + step.poles_m;
+    return {pose.position_m + step.position_m,
+            (both(pole_half_length_m) / square_root(dot(poles, poles))) * poles};
+}
+
+} // namespace spidar

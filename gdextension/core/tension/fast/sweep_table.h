@@ -1,0 +1,238 @@
+// The symmetric table of principal pivots: H swept on the free strings F,
+//   T_FF = -H_FF^-1,  T_FB = H_FF^-1 H_FB,  T_BB = H_BB - H_BF H_FF^-1 H_FB,
+// for one vector type; see fast_tension_kernel.h.
+#pragma once
+
+#include "core/tension/fast/fast_tension_limits.h"
+
+namespace spidar {
+
+inline constexpr std::uint64_t kOn = ~std::uint64_t{0};
+alignas(32) inline constexpr std::uint64_t kLanes[16][4] = {
+    {0, 0, 0, 0},     {kOn, 0, 0, 0},     {0, kOn, 0, 0},     {kOn, kOn, 0, 0},
+    {0, 0, kOn, 0},   {kOn, 0, kOn, 0},   {0, kOn, kOn, 0},   {kOn, kOn, kOn, 0},
+    {0, 0, 0, kOn},   {kOn, 0, 0, kOn},   {0, kOn, 0, kOn},   {kOn, kOn, 0, kOn},
+    {0, 0, kOn, kOn}, {kOn, 0, kOn, kOn}, {0, kOn, kOn, kOn}, {kOn, kOn, kOn, kOn}};
+
+namespace { // each source compiles its own, for its own target
+
+// One value a string.
+template <class Four>
+struct StringRow {
+    Four a{}; // strings 0-3
+    Four b{}; // strings 4-7
+    static StringRow load(const double *p) noexcept { return {Four::load(p), Four::load(p + 4)}; }
+    void store(double *p) const noexcept {
+        a.store(p);
+        b.store(p + 4);
+    }
+    // A mask of four, of eight, and back.
+    static Four lanes(unsigned four) noexcept {
+        return Four::load(reinterpret_cast<const double *>(kLanes[four & 15U]));
+    }
+    static StringRow strings(unsigned mask) noexcept { return {lanes(mask), lanes(mask >> 4U)}; }
+    static unsigned bits(Four a, Four b) noexcept { return a.bits() | (b.bits() << 4U); }
+};
+
+template <class Four>
+class SweepTable {
+public:
+    using Row = StringRow<Four>;
+
+    // Trace of H: a bound on its largest element and eigenvalue.
+    static double trace(const double (&rows)[kFastDofs][kFastStrings], double weight) noexcept {
+        Four even = Four::all(0.0);
+        Four odd = even;
+        for (const auto &row : rows) {
+            const Row r = Row::load(row);
+            even = Four::mul_add(r.a, r.a, even);
+            odd = Four::mul_add(r.b, r.b, odd);
+        }
+        return (even + odd).sum() + 8.0 * weight;
+    }
+
+    // The table of H swept on `table`: -H^-1 there, unit rows elsewhere.
+    void invert(const double (&rows)[kFastDofs][kFastStrings], double weight,
+                unsigned table) noexcept {
+        const Row mask = Row::strings(table);
+        alignas(32) double m[kFastDofs][kFastStrings];
+        for (std::size_t k = 0; k < kFastDofs; ++k) {
+            const Row r = Row::load(rows[k]);
+            Row{r.a & mask.a, r.b & mask.b}.store(m[k]);
+        }
+        const Four w = Four::all(weight);
+        const Four one = Four::all(1.0);
+        const Row diagonal{Four::select(mask.a, w, one), Four::select(mask.b, w, one)};
+        Row t[kFastStrings];
+#pragma GCC unroll 8
+        for (std::size_t i = 0; i < kFastStrings; ++i) {
+            const Four own = Row::lanes(1U << (i & 3U));
+            t[i].a = i < 4 ? diagonal.a & own : Four::all(0.0);
+            t[i].b = i < 4 ? Four::all(0.0) : diagonal.b & own;
+        }
+        // The lower left quarter is the upper right one turned over: it is left out until a pivot row needs it.
+#pragma GCC unroll 2
+        for (std::size_t i = 0; i < 4; i += 2) {
+#pragma GCC unroll 7
+            for (std::size_t k = 0; k < kFastDofs; ++k) {
+                const Row r = Row::load(m[k]);
+                const Four u = Four::all(m[k][i]);
+                const Four v = Four::all(m[k][i + 1]);
+                t[i].a = Four::mul_add(r.a, u, t[i].a);
+                t[i].b = Four::mul_add(r.b, u, t[i].b);
+                t[i + 1].a = Four::mul_add(r.a, v, t[i + 1].a);
+                t[i + 1].b = Four::mul_add(r.b, v, t[i + 1].b);
+            }
+        }
+#pragma GCC unroll 7
+        for (std::size_t k = 0; k < kFastDofs; ++k) {
+            const Four r = Four::load(&m[k][4]);
+            t[4].b = Four::mul_add(r, Four::all(m[k][4]), t[4].b);
+            t[5].b = Four::mul_add(r, Four::all(m[k][5]), t[5].b);
+            t[6].b = Four::mul_add(r, Four::all(m[k][6]), t[6].b);
+            t[7].b = Four::mul_add(r, Four::all(m[k][7]), t[7].b);
+        }
+        Four smallest = Four::all(kLargest);
+        sweep_pair<0>(t, smallest);
+        sweep_pair<2>(t, smallest);
+        t[4].a = t[0].b;
+        t[5].a = t[1].b;
+        t[6].a = t[2].b;
+        t[7].a = t[3].b;
+        Four::transpose(t[4].a, t[5].a, t[6].a, t[7].a);
+        sweep_pair<4>(t, smallest);
+        sweep_pair<6>(t, smallest);
+        smallest_pivot_ = smallest.first();
+        for (std::size_t i = 0; i < kFastStrings; ++i) {
+            t[i].store(table_[i]);
+        }
+    }
+
+    // The sweep of string c: sign is -1 when it was swept before (free), +1 when not; inverse = 1 / at(c).
+    void pivot(std::size_t c, double inverse, double sign) noexcept {
+        const Row row = Row::load(table_[c]);
+        const Row own = Row::strings(1U << c);
+        const Row others = Row::strings(0xFFU & ~(1U << c));
+        const Four inv = Four::all(inverse);
+        // Column c becomes sign T_cr / T_cc, as row c does: from nothing, since the difference of T_rc and
+        // T_cr (1 - sign / T_cc) would be rounding alone where T_cc is large.
+        const Four corner = Four::all(-sign * inverse);
+        const Row w{Four::select(own.a, corner, row.a * inv),
+                    Four::select(own.b, corner, row.b * inv)};
+        alignas(32) double entries[kFastStrings];
+        row.store(entries);
+        for (std::size_t r = 0; r < kFastStrings; ++r) {
+            const Four e = Four::all(entries[r]);
+            const Row t = Row::load(table_[r]);
+            Row{Four::sub_mul(e, w.a, t.a & others.a), Four::sub_mul(e, w.b, t.b & others.b)}.store(
+                table_[r]);
+        }
+        const Four signed_inverse = Four::all(sign * inverse);
+        const Four pivot_entry = Four::all(-inverse);
+        Row{Four::select(own.a, pivot_entry, row.a * signed_inverse),
+            Four::select(own.b, pivot_entry, row.b * signed_inverse)}
+            .store(table_[c]);
+    }
+
+    [[nodiscard]] double at(std::size_t c) const noexcept {
+        return table_[c][c];
+    }
+    [[nodiscard]] Row row(std::size_t c) const noexcept {
+        return Row::load(table_[c]);
+    }
+    // Smallest determinant of the pairs that invert() swept.
+    [[nodiscard]] double smallest_pivot() const noexcept {
+        return smallest_pivot_;
+    }
+
+    // Largest diagonal element within the mask.
+    [[nodiscard]] double softest(const Row &mask) const noexcept {
+        Four a = Four::load(table_[0]);
+        a = Four::select(Row::lanes(2), Four::load(table_[1]), a);
+        a = Four::select(Row::lanes(4), Four::load(table_[2]), a);
+        a = Four::select(Row::lanes(8), Four::load(table_[3]), a);
+        Four b = Four::load(table_[4] + 4);
+        b = Four::select(Row::lanes(2), Four::load(table_[5] + 4), b);
+        b = Four::select(Row::lanes(4), Four::load(table_[6] + 4), b);
+        b = Four::select(Row::lanes(8), Four::load(table_[7] + 4), b);
+        return Four::max(a.absolute() & mask.a, b.absolute() & mask.b).largest();
+    }
+
+    [[nodiscard]] Row times(const Row &g) const noexcept {
+        Row even{Four::all(0.0), Four::all(0.0)};
+        Row odd = even;
+        add_table<0, 0>(g.a, even, odd);
+        add_table<2, 2>(g.a, even, odd);
+        add_table<4, 0>(g.b, even, odd);
+        add_table<6, 2>(g.b, even, odd);
+        return {even.a + odd.a, even.b + odd.b};
+    }
+
+private:
+    template <int kPair>
+    static Four &half(Row &r) noexcept {
+        return kPair < 4 ? r.a : r.b;
+    }
+
+    // Sweeps rows kPair and kPair + 1 together. T_RR - T_RP adj(T_PP) T_PR / det: the products do not wait for 1 / det.
+    template <int kPair>
+    static void sweep_pair(Row (&t)[kFastStrings], Four &smallest) noexcept {
+        constexpr int kLane = kPair & 3;
+        const Row p = t[kPair];
+        const Row q = t[kPair + 1];
+        const Four a = half<kPair>(t[kPair]).template lane<kLane>();
+        const Four b = half<kPair>(t[kPair]).template lane<kLane + 1>();
+        const Four c = half<kPair>(t[kPair + 1]).template lane<kLane + 1>();
+        const Four determinant = Four::sub_mul(b, b, a * c);
+        const Four inverse = Four::all(1.0) / determinant;
+        smallest = Four::min(smallest, determinant);
+        const Four zero = Four::all(0.0);
+        Row u{Four::sub_mul(b, q.a, c * p.a), Four::sub_mul(b, q.b, c * p.b)};
+        Row v{Four::sub_mul(b, p.a, a * q.a), Four::sub_mul(b, p.b, a * q.b)};
+        half<kPair>(u) = half<kPair>(u).template with_pair<kLane>(zero - c, b);
+        half<kPair>(v) = half<kPair>(v).template with_pair<kLane>(b, zero - a);
+#pragma GCC unroll 8
+        for (int r = 0; r < 8; ++r) {
+            if (r == kPair || r == kPair + 1 || (kPair < 4 && r >= 4)) {
+                continue;
+            }
+            const Four x = half<kPair>(t[r]).template lane<kLane>();
+            const Four y = half<kPair>(t[r]).template lane<kLane + 1>();
+            half<kPair>(t[r]) = half<kPair>(t[r]).template with_pair<kLane>(zero, zero);
+            t[r].a = Four::sub_mul(inverse, Four::mul_add(x, u.a, y * v.a), t[r].a);
+            t[r].b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), t[r].b);
+        }
+        if (kPair < 4) { // T_rP = T_Pr
+            sweep_lower<0>(t[4].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<1>(t[5].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<2>(t[6].b, p.b, q.b, u.b, v.b, inverse);
+            sweep_lower<3>(t[7].b, p.b, q.b, u.b, v.b, inverse);
+        }
+        t[kPair] = {inverse * u.a, inverse * u.b};
+        t[kPair + 1] = {inverse * v.a, inverse * v.b};
+    }
+
+    template <int kLane>
+    static void sweep_lower(Four &row, Four p, Four q, Four u, Four v, Four inverse) noexcept {
+        const Four x = p.template lane<kLane>();
+        const Four y = q.template lane<kLane>();
+        row = Four::sub_mul(inverse, Four::mul_add(x, u, y * v), row);
+    }
+
+    template <int kFirst, int kLane>
+    void add_table(Four g, Row &even, Row &odd) const noexcept {
+        const Four u = g.template lane<kLane>();
+        const Four v = g.template lane<kLane + 1>();
+        even.a = Four::mul_add(Four::load(&table_[kFirst][0]), u, even.a);
+        even.b = Four::mul_add(Four::load(&table_[kFirst][4]), u, even.b);
+        odd.a = Four::mul_add(Four::load(&table_[kFirst + 1][0]), v, odd.a);
+        odd.b = Four::mul_add(Four::load(&table_[kFirst + 1][4]), v, odd.b);
+    }
+
+    alignas(32) double table_[kFastStrings][kFastStrings];
+    double smallest_pivot_ = 0.0;
+};
+
+} // namespace
+
+} // namespace spidar

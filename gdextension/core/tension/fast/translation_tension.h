@@ -1,0 +1,215 @@
+// Forces alone (the first three DOF): three unknowns in place of eight tensions.
+//
+//   min ||R x - b||^2 + w |x - t|^2,  lower <= x <= upper,   R = W A (3 x 8), b = W q
+//
+// is met by x = clamp(t + R'z), z the one root of  b - R x(z) - w z = 0: monotone and piecewise linear, so Newton's
+// method on it (its Jacobian R_F R_F' + w I, F the strings not clamped) ends in a few steps, warm mostly in one.
+// Included by the sources that compile it, each for its own target.
+#pragma once
+
+#include "core/tension/fast/fast_tension_limits.h"
+#include "core/tension/fast/sweep_table.h"
+
+namespace spidar {
+
+// Newton steps until the general path takes over: strings may swap for ever in theory.
+inline constexpr int kTranslationSteps = 16;
+
+namespace { // each source compiles its own, for its own target
+
+// NOLINTNEXTLINE(misc-definitions-in-headers): `inline` would let the linker mix the targets
+[[nodiscard]] bool is_translation_only(const TensionProblem &problem) noexcept {
+    const DofArray &w = problem.weights;
+    return w[3] == 0.0 && w[4] == 0.0 && w[5] == 0.0 && w[6] == 0.0;
+}
+
+template <class Four>
+class TranslationTension {
+public:
+    explicit TranslationTension(const FastInput &input) noexcept
+        : p_(input.problem), matrix_(input.matrix), wrench_(input.wrench) {}
+
+    // False: `solution` means nothing, as for solve_fast().
+    bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
+        const Row lower = Row::load(p_.lower_n.data());
+        const Row upper = Row::load(p_.upper_n.data());
+        const Row target = Row::load(p_.proximal_target_n.data());
+        const Four most = Four::all(kLargest);
+        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
+        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
+        const unsigned fine = Row::bits((lower.a <= upper.a) & (size_a <= most),
+                                        (lower.b <= upper.b) & (size_b <= most));
+        const double w = p_.proximal_weight;
+        if (fine != 0xFFU || !(w > 0.0)) {
+            return false;
+        }
+        const unsigned movable = Row::bits(lower.a < upper.a, lower.b < upper.b);
+        read_half(0);
+        read_half(4);
+        const double b0 = p_.weights[0] * wrench_[0];
+        const double b1 = p_.weights[1] * wrench_[1];
+        const double b2 = p_.weights[2] * wrench_[2];
+        unsigned low = ~movable & 0xFFU;
+        unsigned high = 0;
+        if (warm != nullptr) {
+            low |= strings_at(*warm, 0);
+            high = strings_at(*warm, 1) & ~low;
+        }
+        const Row at_low = Row::strings(low);
+        const Row at_high = Row::strings(high);
+        // The first step takes the guess at its word: strings thought free are free, wherever they start.
+        Row x{Four::select(at_low.a, lower.a, Four::select(at_high.a, upper.a, target.a)),
+              Four::select(at_low.b, lower.b, Four::select(at_high.b, upper.b, target.b))};
+        unsigned free = movable & ~(low | high);
+        double z0 = 0.0;
+        double z1 = 0.0;
+        double z2 = 0.0;
+        bool same = false;
+        bool settled = false; // x is t + R'z, clamped where it was thought to be
+        for (int step = 0; step < kTranslationSteps; ++step) {
+            if (!same && !factor(free)) {
+                return false;
+            }
+            const double r0 = b0 - dot(row_[0], x) - w * z0;
+            const double r1 = b1 - dot(row_[1], x) - w * z1;
+            const double r2 = b2 - dot(row_[2], x) - w * z2;
+            // The step times the determinant: nothing waits for the division but what needs it.
+            const double e0 = adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2;
+            const double e1 = adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2;
+            const double e2 = adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2;
+            // No string of R_F would move further than this: |R_F'd|^2 <= trace(R_F R_F') |d|^2.
+            if (settled && (e0 * e0 + e1 * e1 + e2 * e2) * trace_ <= least_ * least_) {
+                return report(x, low, high, step, largest_of(w * z0, w * z1, w * z2),
+                              largest_of(b0, b1, b2), solution);
+            }
+            // From z afresh: summed up u would keep the rounding of a far start.
+            const Row away = combine(z0, z1, z2);
+            const Row move = combine(e0, e1, e2);
+            const Four over = Four::all(over_);
+            const Row u{Four::mul_add(move.a, over, target.a + away.a),
+                        Four::mul_add(move.b, over, target.b + away.b)};
+            z0 += e0 * over_;
+            z1 += e1 * over_;
+            z2 += e2 * over_;
+            x = {Four::min(Four::max(u.a, lower.a), upper.a),
+                 Four::min(Four::max(u.b, lower.b), upper.b)};
+            const unsigned at_least =
+                (~movable & 0xFFU) | Row::bits(u.a <= lower.a, u.b <= lower.b);
+            const unsigned at_most = Row::bits(upper.a <= u.a, upper.b <= u.b) & ~at_least;
+            settled = at_least == low && at_most == high;
+            low = at_least;
+            high = at_most;
+            const unsigned now = movable & ~(low | high);
+            same = now == free;
+            free = now;
+        }
+        return false;
+    }
+
+private:
+    using Row = StringRow<Four>;
+
+    static double size(double v) noexcept { return v < 0.0 ? -v : v; }
+    static double largest_of(double a, double b, double c) noexcept {
+        const double ab = size(a) > size(b) ? size(a) : size(b);
+        return ab > size(c) ? ab : size(c);
+    }
+
+    // Strings whose byte of the set has this bit.
+    static unsigned strings_at(const ActiveSet &active, unsigned bit) noexcept {
+        constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
+        constexpr std::uint64_t kGather = 0x0102040810204080ULL;
+        const auto bytes = std::bit_cast<std::uint64_t>(active);
+        return static_cast<unsigned>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
+    }
+
+    static constexpr auto kAtLower = static_cast<std::uint64_t>(StringBound::at_lower);
+    static constexpr auto kAtUpper = static_cast<std::uint64_t>(StringBound::at_upper);
+    // 1 in byte k where bit k is set: each byte keeps its own bit of the copies, and what is not 0 carries into bit 7.
+    static std::uint64_t a_byte_a_string(unsigned strings) noexcept {
+        constexpr std::uint64_t kCopies = 0x0101010101010101ULL;
+        constexpr std::uint64_t kOwnBit = 0x8040201008040201ULL;
+        constexpr std::uint64_t kAllButTop = 0x7F7F7F7F7F7F7F7FULL;
+        const std::uint64_t own = (strings * kCopies) & kOwnBit;
+        return (((own & kAllButTop) + kAllButTop) | own) >> 7U & kCopies;
+    }
+
+    void read_half(std::size_t first) noexcept {
+        Four c0 = Four::load(&matrix_.columns[first][0]);
+        Four c1 = Four::load(&matrix_.columns[first + 1][0]);
+        Four c2 = Four::load(&matrix_.columns[first + 2][0]);
+        Four c3 = Four::load(&matrix_.columns[first + 3][0]);
+        Four::transpose(c0, c1, c2, c3);
+        (first == 0 ? row_[0].a : row_[0].b) = c0 * Four::all(p_.weights[0]);
+        (first == 0 ? row_[1].a : row_[1].b) = c1 * Four::all(p_.weights[1]);
+        (first == 0 ? row_[2].a : row_[2].b) = c2 * Four::all(p_.weights[2]);
+    }
+
+    static double dot(const Row &p, const Row &q) noexcept {
+        return Four::mul_add(p.a, q.a, p.b * q.b).sum();
+    }
+
+    // R'd
+    [[nodiscard]] Row combine(double d0, double d1, double d2) const noexcept {
+        const Four f0 = Four::all(d0);
+        const Four f1 = Four::all(d1);
+        const Four f2 = Four::all(d2);
+        return {Four::mul_add(row_[2].a, f2, Four::mul_add(row_[1].a, f1, row_[0].a * f0)),
+                Four::mul_add(row_[2].b, f2, Four::mul_add(row_[1].b, f1, row_[0].b * f0))};
+    }
+
+    // Inverse of R_F R_F' + w I as adjugate over determinant. False where it has cancelled.
+    bool factor(unsigned free) noexcept {
+        const Row mask = Row::strings(free);
+        const Row m0{row_[0].a & mask.a, row_[0].b & mask.b};
+        const Row m1{row_[1].a & mask.a, row_[1].b & mask.b};
+        const Row m2{row_[2].a & mask.a, row_[2].b & mask.b};
+        const double w = p_.proximal_weight;
+        const double xx = dot(m0, m0) + w;
+        const double xy = dot(m0, m1);
+        const double xz = dot(m0, m2);
+        const double yy = dot(m1, m1) + w;
+        const double yz = dot(m1, m2);
+        const double zz = dot(m2, m2) + w;
+        adjugate_[0] = yy * zz - yz * yz;
+        adjugate_[1] = xz * yz - xy * zz;
+        adjugate_[2] = xy * yz - xz * yy;
+        adjugate_[3] = xx * zz - xz * xz;
+        adjugate_[4] = xy * xz - xx * yz;
+        adjugate_[5] = xx * yy - xy * xy;
+        const double determinant = xx * adjugate_[0] + xy * adjugate_[1] + xz * adjugate_[2];
+        trace_ = xx + yy + zz;
+        over_ = 1.0 / determinant;
+        least_ = kStep_n * determinant;
+        return determinant > kCancelled * trace_ * trace_ * trace_ && determinant < kLargest;
+    }
+
+    bool report(const Row &x, unsigned low, unsigned high, int steps, double error_n,
+                double request_n, TensionSolution &solution) const noexcept {
+        // Rounding of the residual moves a string by this at most: s / (s^2 + w) is largest at s^2 = w.
+        const double noise = kNoise * (error_n + request_n);
+        if (!(noise * noise <= 4.0 * p_.proximal_weight * kNoiseMove_n * kNoiseMove_n)) {
+            return false;
+        }
+        x.store(solution.tensions_n.data());
+        solution.active = std::bit_cast<ActiveSet>(a_byte_a_string(low) * kAtLower |
+                                                   a_byte_a_string(high) * kAtUpper);
+        solution.largest_error_n = error_n;
+        solution.iterations = steps;
+        solution.status = Status::ok;
+        return true;
+    }
+
+    const TensionProblem &p_;
+    const WrenchMatrix &matrix_;
+    const DofArray &wrench_;
+    Row row_[3];         // R
+    double adjugate_[6]; // xx xy xz yy yz zz
+    double over_ = 0.0;  // 1 / determinant
+    double trace_ = 0.0; // of R_F R_F' + w I
+    double least_ = 0.0; // a step below this, times the determinant, is none
+};
+
+} // namespace
+
+} // namespace spidar

@@ -1,0 +1,106 @@
+#include "core/tension/tension_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tension/exact/box_least_squares.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
+constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
+
+// Stands for "no regularising term": costs nothing and still leaves one answer.
+constexpr double kVanishingWeight = 1e-12;
+
+DofArray difference(const DofArray &a, const DofArray &b) noexcept {
+    DofArray result{};
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        result[k] = a[k] - b[k];
+    }
+    return result;
+}
+
+bool finite(const DofArray &values) noexcept {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+} // namespace
+
+DofArray TensionReport::bias() const noexcept {
+    DofArray sum{};
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        sum[k] = ridge[k] + reference[k];
+    }
+    return sum;
+}
+
+TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
+                             const StringArray &tensions_n,
+                             const TensionSettings &settings) noexcept {
+    TensionReport report;
+    TensionSolver checked;
+    report.status = checked.configure(settings);
+    if (!usable(report.status)) {
+        return report;
+    }
+    const DofArray achieved = spidar::apply(matrix, tensions_n);
+    TensionProblem problem;
+    problem.matrix = matrix;
+    problem.wrench = wrench;
+    problem.weights = tension_weights(settings);
+    StringArray reference_n{};
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = !has_string(settings.broken_mask, i);
+        problem.lower_n[i] = works ? settings.min_tension_n : 0.0;
+        problem.upper_n[i] = works ? settings.max_tension_n : 0.0;
+        reference_n[i] = works ? settings.reference_tension_n : 0.0;
+    }
+    TensionSolution steady;
+    const auto error_with = [&](double weight, const StringArray &target_n) {
+        problem.proximal_weight = weight;
+        problem.proximal_target_n = target_n;
+        steady = solve_tension_problem(problem, nullptr);
+        if (!usable(steady.status)) {
+            report.status = steady.status;
+        }
+        return difference(spidar::apply(matrix, steady.tensions_n), wrench);
+    };
+    const DofArray limits = error_with(kVanishingWeight, tensions_n);
+    const DofArray with_ridge =
+        settings.ridge > kVanishingWeight ? error_with(settings.ridge, StringArray{}) : limits;
+    const double weight = settings.ridge + settings.reference_weight;
+    StringArray target_n{};
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        target_n[i] = settings.reference_weight * reference_n[i] / weight;
+    }
+    const DofArray whole = error_with(weight, target_n);
+    if (!finite(achieved) || !usable(report.status)) {
+        report.status = usable(report.status) ? Status::not_finite : report.status;
+        return report;
+    }
+    report.achieved = achieved;
+    report.error = difference(achieved, wrench);
+    report.limits = limits;
+    report.ridge = difference(with_ridge, limits);
+    report.reference = difference(whole, with_ridge);
+    report.transient = difference(report.error, whole);
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = problem.lower_n[i] < problem.upper_n[i];
+        if (works && steady.active[i] == StringBound::at_lower) {
+            report.at_min_mask = with_string(report.at_min_mask, i);
+        } else if (works && steady.active[i] == StringBound::at_upper) {
+            report.at_max_mask = with_string(report.at_max_mask, i);
+        }
+    }
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        if (std::abs(problem.weights[k] * limits[k]) > kNoticeableLimit_n) {
+            report.status = Status::wrench_limited;
+        }
+    }
+    return report;
+}
+
+} // namespace spidar

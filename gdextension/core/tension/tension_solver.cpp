@@ -1,0 +1,299 @@
+#include "core/tension/tension_solver.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "core/tension/exact/box_least_squares.h"
+#include "core/tension/fast/fast_tension.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
+constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
+
+// An error of the weighted wrench above this is reported (unit: N at the pole ends; a tenth of what a fingertip
+// can tell), when the regularising terms do not explain it.
+constexpr double kWrenchLimited_n = 1e-3;
+// What they explain: R'f = -w (x - t) where no bound holds, so |f| <= sqrt(8) w |x - t| / s, and s, the smallest
+// singular value of R = W A, is 0.7 or more within 20 cm of the centre.
+constexpr double kTermReach = 4.0;
+
+// Ridge and pull together: below this nothing makes the answer unique in double precision.
+constexpr double kVanishingWeight = 1e-12;
+
+// Tensions nearer to the last ones than this are the last ones: rounding of the solver is 1e-14 N, and the change
+// term lets them creep by a 200th of their distance a tick, so that they end 2e-10 N from where they were going.
+constexpr double kSettled_n = 1e-12;
+
+// Above this a setting is a slip of units, and squares of it lose the digits of the rest.
+constexpr double kLargestSetting = 1e6;
+
+bool finite(const DofArray &values) noexcept {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool finite(const WrenchMatrix &matrix) noexcept {
+    return std::all_of(matrix.columns.begin(), matrix.columns.end(),
+                       [](const DofArray &column) { return finite(column); });
+}
+
+template <class T>
+bool same_bits(const T &a, const T &b) noexcept {
+    // Bits are what is asked: -0 and NaN too.
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+// The strings whose byte has this bit: the product gathers the lowest bits of all eight in its top byte.
+std::uint8_t strings_at(const ActiveSet &active, unsigned bit) noexcept {
+    constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
+    constexpr std::uint64_t kGather = 0x0102040810204080ULL;
+    const auto bytes = std::bit_cast<std::uint64_t>(active);
+    return static_cast<std::uint8_t>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
+}
+
+// Largest |a - b|. In four chains: one alone would wait for itself eight times.
+double largest_distance(const StringArray &a, const StringArray &b) noexcept {
+    std::array<double, 4> largest{};
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+        largest[i] = std::max(std::abs(a[i] - b[i]), std::abs(a[i + 4] - b[i + 4]));
+    }
+    return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+// The first setting that is out of range; field null when none is.
+struct Fault {
+    const char *field = nullptr;
+    double value = 0.0;
+    const char *unit = "";
+    const char *remedy = "";
+};
+
+Fault find_fault(const TensionSettings &s) noexcept {
+    struct NamedValue {
+        const char *field;
+        double value;
+        const char *unit;
+    };
+    const NamedValue values[] = {{"min_tension_n", s.min_tension_n, "N"},
+                                 {"max_tension_n", s.max_tension_n, "N"},
+                                 {"reference_tension_n", s.reference_tension_n, "N"},
+                                 {"weight_force", s.weight_force, ""},
+                                 {"weight_moment_per_m", s.weight_moment_per_m, "1/m"},
+                                 {"weight_grasp_per_m", s.weight_grasp_per_m, "1/m"},
+                                 {"ridge", s.ridge, ""},
+                                 {"reference_weight", s.reference_weight, ""},
+                                 {"change_weight", s.change_weight, ""}};
+    for (const NamedValue &v : values) {
+        if (!std::isfinite(v.value)) {
+            return {v.field, v.value, v.unit, "give a finite number"};
+        }
+        if (!(v.value >= 0.0)) {
+            return {v.field, v.value, v.unit, "give 0 or more"};
+        }
+        if (!(v.value <= kLargestSetting)) {
+            return {v.field, v.value, v.unit, "give 1e6 or less"};
+        }
+    }
+    if (!(s.max_tension_n > s.min_tension_n)) {
+        return {"max_tension_n", s.max_tension_n, "N", "raise it above min_tension_n"};
+    }
+    if (!(s.reference_tension_n >= s.min_tension_n && s.reference_tension_n <= s.max_tension_n)) {
+        return {"reference_tension_n", s.reference_tension_n, "N",
+                "put it between min_tension_n and max_tension_n"};
+    }
+    if ((s.dof_mask & kAllDofs) == 0 || s.dof_mask > kAllDofs) {
+        return {"dof_mask", static_cast<double>(s.dof_mask), "",
+                "give 1 to 127, bit k for DOF k of the wrench (127 is all)"};
+    }
+    if (!(s.weight_force > 0.0)) {
+        return {"weight_force", s.weight_force, "", "give more than 0 (1 is usual)"};
+    }
+    if (!(s.ridge + s.reference_weight >= kVanishingWeight)) {
+        return {"ridge", s.ridge, "",
+                "give 1e-12 or more (1e-9 is usual): it makes the answer unique"};
+    }
+    return {};
+}
+
+} // namespace
+
+Status TensionSolver::configure(const TensionSettings &settings) noexcept {
+    if (find_fault(settings).field != nullptr) {
+        return Status::invalid_settings;
+    }
+    settings_ = settings;
+    prepare();
+    return Status::ok;
+}
+
+void TensionSolver::prepare() noexcept {
+    const TensionSettings &s = settings_;
+    problem_.weights = tension_weights(s);
+    working_mask_ = static_cast<std::uint8_t>(~static_cast<unsigned>(s.broken_mask));
+    const double steady_weight = s.ridge + s.reference_weight;
+    const double whole_weight = steady_weight + s.change_weight;
+    for (std::size_t i = 0; i < kStrings; ++i) {
+        const bool works = has_string(working_mask_, i);
+        const double pull = works ? s.reference_weight * s.reference_tension_n : 0.0;
+        problem_.lower_n[i] = works ? s.min_tension_n : 0.0;
+        problem_.upper_n[i] = works ? s.max_tension_n : 0.0;
+        steady_target_n_[i] = pull / steady_weight;
+        steady_pull_[i] = pull / whole_weight;
+        change_pull_[i] = works ? s.change_weight / whole_weight : 0.0;
+    }
+    settled_ = false;
+    aim();
+}
+
+// The proximal term of the next tick: known as soon as this one's tensions are, and then at hand.
+void TensionSolver::aim() noexcept {
+    problem_.proximal_weight = settings_.ridge + settings_.reference_weight;
+    problem_.proximal_target_n = steady_target_n_;
+    if (has_last_) {
+        problem_.proximal_weight += settings_.change_weight;
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            problem_.proximal_target_n[i] = steady_pull_[i] + change_pull_[i] * last_tensions_n_[i];
+        }
+    }
+}
+
+TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+    if (settled_ && same_bits(wrench, problem_.wrench) &&
+        same_bits(matrix.columns, problem_.matrix.columns)) {
+        last_result_.skipped = true;
+        return last_result_;
+    }
+    // The fast path certifies its answer, so it refuses whatever is not finite.
+    if (solve_fast({problem_, matrix, wrench}, warm_ ? &last_active_ : nullptr, fast_)) {
+        return remember(fast_, matrix, wrench);
+    }
+    return update_carefully(matrix, wrench);
+}
+
+void TensionSolver::keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+    problem_.matrix = matrix;
+    problem_.wrench = wrench;
+}
+
+TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
+                                              const DofArray &wrench) noexcept {
+    keep(matrix, wrench);
+    TensionResult result;
+    settled_ = false;
+    if (!finite(problem_.matrix)) {
+        result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
+        result.status = Status::not_finite;
+        return result;
+    }
+    const bool wrench_is_finite = finite(wrench);
+    if (!wrench_is_finite) {
+        problem_.wrench = {};
+    }
+    const TensionSolution solution =
+        solve_tension_problem(problem_, warm_ ? &last_active_ : nullptr);
+    if (!usable(solution.status)) {
+        result.tensions_n = solution.tensions_n;
+        result.iterations = solution.iterations;
+        result.status = solution.status;
+        return result;
+    }
+    result = remember(solution, matrix, problem_.wrench);
+    if (!wrench_is_finite) {
+        result.status = Status::not_finite;
+        settled_ = false;
+    }
+    return result;
+}
+
+TensionResult TensionSolver::remember(const TensionSolution &solution, const WrenchMatrix &matrix,
+                                      const DofArray &wrench) noexcept {
+    TensionResult result;
+    result.iterations = solution.iterations;
+    result.at_min_mask = strings_at(solution.active, 0) & working_mask_;
+    result.at_max_mask = strings_at(solution.active, 1) & working_mask_;
+    result.tensions_n = solution.tensions_n;
+    bool near_last = has_last_;
+    for (std::size_t i = 0; near_last && i < kStrings; ++i) {
+        near_last = std::abs(solution.tensions_n[i] - last_tensions_n_[i]) <= kSettled_n &&
+                    last_tensions_n_[i] >= problem_.lower_n[i] &&
+                    last_tensions_n_[i] <= problem_.upper_n[i];
+    }
+    if (near_last) {
+        for (std::size_t i = 0; i < kStrings; ++i) {
+            if (solution.active[i] == StringBound::free) {
+                result.tensions_n[i] = last_tensions_n_[i];
+            }
+        }
+    }
+    settled_ = near_last && same_bits(result.tensions_n, last_tensions_n_) &&
+               same_bits(solution.active, last_active_);
+
+    if (solution.largest_error_n > kWrenchLimited_n) {
+        const double furthest_n = largest_distance(result.tensions_n, problem_.proximal_target_n);
+        if (solution.largest_error_n >
+            kWrenchLimited_n + kTermReach * problem_.proximal_weight * furthest_n) {
+            result.status = Status::wrench_limited;
+        }
+    }
+    last_tensions_n_ = result.tensions_n;
+    last_active_ = solution.active;
+    if (settled_) { // what a skipped tick gives, and how it is known
+        last_result_ = result;
+        keep(matrix, wrench);
+    }
+    warm_ = true;
+    has_last_ = true;
+    aim();
+    return result;
+}
+
+void TensionSolver::set_last_tensions(const StringArray &tensions_n) noexcept {
+    if (std::all_of(tensions_n.begin(), tensions_n.end(),
+                    [](double t) { return std::isfinite(t); })) {
+        settled_ = settled_ && same_bits(tensions_n, last_tensions_n_);
+        last_tensions_n_ = tensions_n;
+        has_last_ = true;
+        aim();
+    }
+}
+
+void TensionSolver::reset() noexcept {
+    last_tensions_n_ = {};
+    last_active_ = {};
+    warm_ = false;
+    has_last_ = false;
+    settled_ = false;
+    aim();
+}
+
+DofArray tension_weights(const TensionSettings &settings) noexcept {
+    DofArray weights = {settings.weight_force,        settings.weight_force,
+                        settings.weight_force,        settings.weight_moment_per_m,
+                        settings.weight_moment_per_m, settings.weight_moment_per_m,
+                        settings.weight_grasp_per_m};
+    for (std::size_t k = 0; k < kDofs; ++k) {
+        if (((static_cast<unsigned>(settings.dof_mask) >> k) & 1U) == 0U) {
+            weights[k] = 0.0;
+        }
+    }
+    return weights;
+}
+
+std::string validate(const TensionSettings &settings) {
+    const Fault fault = find_fault(settings);
+    if (fault.field == nullptr) {
+        return {};
+    }
+    char text[256];
+    std::snprintf(text, sizeof text, "%s is %g%s%s: %s.", fault.field, fault.value,
+                  *fault.unit == '\0' ? "" : " ", fault.unit, fault.remedy);
+    return text;
+}
+
+} // namespace spidar

@@ -1,0 +1,128 @@
+// Wrench -> eight tensions that only pull, within limits:
+//   min ||W (A tau - q)||^2 + ridge ||tau||^2 + reference_weight ||tau - tau_ref||^2
+//       + change_weight ||tau - tau_last||^2          subject to tau_min <= tau <= tau_max.
+// (research: moments and g weighted by 1/d, so that all rows are newtons at the pole ends.) The exact
+// optimum by a primal active-set method, warm from the last tick's active set.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/base/status.h"
+#include "core/base/types.h"
+#include "core/geometry/wrench_matrix.h"
+
+namespace spidar {
+
+// One bounded least-squares problem, spelled out.
+struct TensionProblem {
+    WrenchMatrix matrix;
+    DofArray wrench{};  // q, the paper's order and g
+    DofArray weights{}; // diagonal of W
+    // Sum of all quadratic terms in tau alone, as one weight and one target per string:
+    // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
+    double proximal_weight = 0.0;
+    StringArray proximal_target_n{};
+    StringArray lower_n{};
+    StringArray upper_n{};
+};
+
+enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
+using ActiveSet = std::array<StringBound, kStringCount>;
+
+struct TensionSolution {
+    StringArray tensions_n{};
+    ActiveSet active{};
+    double largest_error_n = 0.0; // max |W (A tau - q)|
+    int iterations = 0;           // factorisations
+    Status status = Status::ok;
+};
+
+// Exact optimum of `problem`. `warm` (may be null) is a guess of the active set and changes only the time.
+// Not finite input: status not_finite, tensions = lower bounds clamped to [0, upper]. Never NaN.
+[[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
+                                                    const ActiveSet *warm) noexcept;
+
+// The same by the slow search that the fast path falls back to: any weights, lost rank, zero multipliers.
+[[nodiscard]] TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
+                                                           const ActiveSet *warm) noexcept;
+
+inline constexpr std::uint8_t kAllDofs = 0x7F;
+inline constexpr std::uint8_t kTranslationOnly = 0x07;
+inline constexpr std::uint8_t kNoGrasp = 0x3F;
+
+struct TensionSettings {
+    double min_tension_n = 0.3;
+    double max_tension_n = 10.0;
+    double reference_tension_n = 0.5; // tau_ref, the pretension
+    double weight_force = 1.0;
+    double weight_moment_per_m = 25.0; // 1/d
+    double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
+    double ridge = 1e-9;               // uniqueness only
+    double reference_weight = 1e-3;    // pull towards tau_ref
+    double change_weight = 0.2;        // against jumps from tick to tick
+    // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). What is left out weighs nothing: the strings give there
+    // whatever suits the rest.
+    std::uint8_t dof_mask = kAllDofs;
+    std::uint8_t broken_mask = 0; // bit i: string i is broken, its tension is 0
+};
+
+struct TensionResult {
+    StringArray tensions_n{};
+    std::uint8_t at_min_mask = 0;
+    std::uint8_t at_max_mask = 0;
+    bool skipped =
+        false; // nothing had changed and everything had settled: the last answer, bit for bit
+    int iterations = 0;
+    // wrench_limited: the wrench misses the request by more than the regularising terms explain. What each of
+    // them costs: tension_report().
+    Status status = Status::ok;
+};
+
+// The solver of the servo loop: settings and memory of the last tick. One solve a tick, no reports.
+class TensionSolver {
+public:
+    TensionSolver() noexcept { prepare(); }
+
+    // On a negative status the old settings stand.
+    Status configure(const TensionSettings &settings) noexcept;
+    [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
+
+    // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
+    TensionResult update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
+    // Ignored when not finite.
+    void set_last_tensions(const StringArray &tensions_n) noexcept;
+    // The next update() solves even when nothing has changed. It changes no answer.
+    void forget_settled() noexcept { settled_ = false; }
+    // Forget the last tick: the next update() starts cold and has no change term.
+    void reset() noexcept;
+
+private:
+    void prepare() noexcept;
+    void aim() noexcept;
+    void keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult update_carefully(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult remember(const TensionSolution &solution, const WrenchMatrix &matrix,
+                           const DofArray &wrench) noexcept;
+
+    TensionSettings settings_{};
+    TensionProblem problem_{};      // matrix and wrench: of the last tick, when it settled
+    StringArray steady_pull_{};     // proximal target without change term
+    StringArray change_pull_{};     // share of last_tensions_n_ in it
+    StringArray steady_target_n_{}; // with it, when the last tensions are not known
+    StringArray last_tensions_n_{};
+    ActiveSet last_active_{};
+    TensionResult last_result_{};
+    TensionSolution fast_{};           // scratch: not cleared for each solve
+    std::uint8_t working_mask_ = 0xFF; // strings that are not broken
+    bool warm_ = false;                // last_active_ is worth starting from
+    bool has_last_ = false;            // last_tensions_n_ is known: the change term counts
+    bool settled_ = false; // the last update left last_tensions_n_ and last_active_ as they were
+};
+
+[[nodiscard]] std::string validate(const TensionSettings &settings);
+// Diagonal of W; 0 where the mask leaves a DOF out.
+[[nodiscard]] DofArray tension_weights(const TensionSettings &settings) noexcept;
+
+} // namespace spidar

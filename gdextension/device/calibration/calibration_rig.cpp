@@ -1,0 +1,292 @@
+#include "device/calibration/calibration_rig.h"
+
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "device/safety/safety_gate.h"
+#include "device/simulation/simulated_transport.h"
+#include "device/threads/real_time_thread.h"
+#include "device/threads/spsc_ring.h"
+#include "device/threads/triple_buffer.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr double kLongestAdvance_s = 60.0;
+constexpr std::int64_t kNanoseconds = 1'000'000'000;
+// A thread that fell behind by more than this begins its time anew.
+constexpr std::int64_t kGiveUpLag_ns = 50'000'000;
+// A device that says nothing for so long cannot pull.
+constexpr double kSilent_s = 0.1;
+// How near the simulated grip comes to a place before it counts as there (unit: m), and how still (unit: m/s).
+constexpr double kArrived_m = 0.002;
+constexpr double kStill_m_s = 0.001;
+
+} // namespace
+
+struct CalibrationRig::Impl {
+    RigSettings settings;
+    MakeTransport make_transport;
+    std::unique_ptr<Transport> transport;
+    SimulatedTransport *simulated = nullptr; // the transport, when it is one
+    CalibrationTasks tasks;
+    SafetyGate gate;
+    DeviceReading reading;
+    bool has_reading = false;
+    double since_report_s = 0.0;
+    double since_beat_s = 0.0;
+    double since_sample_s = 0.0;
+    double script_time_s = 0.0;
+    RigOrders orders;
+    RigNews news;
+
+    std::thread thread;
+    std::atomic<bool> close_asked{false};
+    std::atomic<RigState> state{RigState::closed};
+    std::string problem; // written before state becomes failed or closed
+    TripleBuffer<RigOrders> orders_box;
+    TripleBuffer<RigNews> news_box;
+    SpscRing<CountArray> samples{kWaitingSamples};
+
+    bool open() noexcept;
+    void shut() noexcept;
+    void cycle(double dt_s) noexcept;
+    void take_orders(double dt_s) noexcept;
+    void move_hand(double dt_s) noexcept;
+    void drive(double dt_s) noexcept;
+    void keep_sample(double dt_s) noexcept;
+    void run() noexcept;
+};
+
+bool CalibrationRig::Impl::open() noexcept {
+    try {
+        transport = make_transport(problem);
+        if (transport) {
+            const Status status = transport->open();
+            if (!usable(status)) {
+                problem = problem.empty() ? describe(status) : problem;
+                transport.reset();
+            }
+        }
+    } catch (const std::exception &error) { // no memory, no thread
+        transport.reset();
+        problem = error.what();
+    }
+    simulated = dynamic_cast<SimulatedTransport *>(transport.get());
+    StringArray limit;
+    limit.fill(std::fmin(settings.max_tension_n, kTaskMaxTension_n));
+    gate.configure(limit, kTaskSlew_n_per_ms);
+    state.store(transport ? RigState::open : RigState::failed, std::memory_order_release);
+    return transport != nullptr;
+}
+
+void CalibrationRig::Impl::shut() noexcept {
+    if (transport) {
+        transport->write({}); // motors off
+        transport->close();
+        transport.reset();
+        simulated = nullptr;
+    }
+    if (state.load(std::memory_order_relaxed) != RigState::failed) {
+        state.store(RigState::closed, std::memory_order_release);
+    }
+}
+
+void CalibrationRig::Impl::cycle(double dt_s) noexcept {
+    take_orders(dt_s);
+    since_report_s += dt_s;
+    news.status = transport->read(reading);
+    if (usable(news.status)) {
+        has_reading = true;
+        since_report_s = 0.0;
+        news.counts = reading.counts;
+        news.device_status = reading.device_status;
+        ++news.readings;
+        keep_sample(dt_s);
+    }
+    drive(dt_s);
+    move_hand(dt_s);
+    transport->advance(dt_s);
+    news.time_s += dt_s;
+    news_box.write(news);
+}
+
+void CalibrationRig::Impl::take_orders(double dt_s) noexcept {
+    RigOrders next = orders;
+    since_beat_s += dt_s;
+    if (orders_box.read(next)) {
+        since_beat_s = next.beat != orders.beat ? 0.0 : since_beat_s;
+        script_time_s = next.hand_number != orders.hand_number ? 0.0 : script_time_s;
+        orders = next;
+    }
+    const double limit_s = simulated != nullptr ? settings.simulated_unwatched_s : kUnwatched_s;
+    if (!(since_beat_s < limit_s)) {
+        tasks.abort(TaskVerdict::stopped);
+    }
+}
+
+void CalibrationRig::Impl::drive(double dt_s) noexcept {
+    TaskInput input;
+    input.dt_s = dt_s;
+    input.device_ready = has_reading && since_report_s < kSilent_s && usable(reading.device_status);
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        input.lengths_m[i] = settings.scale_m_per_count[i] * reading.counts[i];
+    }
+    PlantTruth truth;
+    if (simulated != nullptr) {
+        truth = simulated->truth();
+        input.true_tensions_n = &truth.tensions_n;
+        news.simulated = true;
+        news.true_lengths_m = truth.lengths_m;
+        const Vec3 off = truth.pose.position_m - calibration_hand(settings.plant, orders.hand,
+                                                                  orders.hand_place, script_time_s)
+                                                     .position_m;
+        news.hand_has_arrived =
+            glm::dot(off, off) < kArrived_m * kArrived_m &&
+            glm::dot(truth.twist.linear_m_s, truth.twist.linear_m_s) < kStill_m_s * kStill_m_s;
+    }
+    const StringArray wanted_n = tasks.step(orders.task, input);
+    const TaskVerdict verdict = tasks.result().verdict;
+    if (verdict == TaskVerdict::moved_too_fast || verdict == TaskVerdict::stopped ||
+        verdict == TaskVerdict::not_ready) {
+        gate.shut(); // no slew down: off now
+    }
+    const SafetyGate::Output output = gate.pass(wanted_n, dt_s);
+    DriveCommand command;
+    command.tensions_n = output.tensions_n;
+    command.currents_a = currents_from_tensions(settings.motors, output.tensions_n).current_a;
+    bool pulling = tasks.active();
+    for (const double tension : output.tensions_n) {
+        pulling = pulling || tension > 0.0;
+    }
+    command.motors_on = pulling;
+    const Status written = transport->write(command);
+    if (pulling && !usable(written)) {
+        tasks.abort(TaskVerdict::not_ready);
+        gate.shut();
+    }
+    news.motors_on = pulling;
+    news.tensions_n = output.tensions_n;
+    news.task = tasks.result();
+}
+
+void CalibrationRig::Impl::move_hand(double dt_s) noexcept {
+    script_time_s += dt_s;
+    if (simulated != nullptr) {
+        simulated->set_hand_target(
+            calibration_hand(settings.plant, orders.hand, orders.hand_place, script_time_s));
+    }
+}
+
+void CalibrationRig::Impl::keep_sample(double dt_s) noexcept {
+    since_sample_s += dt_s;
+    if (!orders.collecting || since_sample_s < kSampleInterval_s) {
+        return;
+    }
+    if (CountArray *const slot = samples.free_slot()) { // full: nobody fetches, so leave it
+        *slot = reading.counts;
+        samples.commit();
+        since_sample_s = 0.0;
+    }
+}
+
+void CalibrationRig::Impl::run() noexcept {
+    if (open()) {
+        const auto period_ns =
+            static_cast<std::int64_t>(static_cast<double>(kNanoseconds) / settings.rate_hz);
+        const double period_s = 1.0 / settings.rate_hz;
+        const FlushDenormals flush;
+        std::int64_t next_ns = monotonic_ns();
+        while (!close_asked.load(std::memory_order_acquire)) {
+            cycle(period_s);
+            next_ns += period_ns;
+            if (monotonic_ns() - next_ns > kGiveUpLag_ns) {
+                next_ns = monotonic_ns();
+            }
+            sleep_until_ns(next_ns);
+        }
+    }
+    shut();
+}
+
+CalibrationRig::CalibrationRig(const RigSettings &settings, MakeTransport make_transport)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->settings = settings;
+    impl_->make_transport = std::move(make_transport);
+}
+
+CalibrationRig::~CalibrationRig() {
+    ask_close();
+    if (impl_->thread.joinable()) {
+        impl_->thread.join();
+    }
+    impl_->shut();
+}
+
+bool CalibrationRig::start_threaded() {
+    impl_->state.store(RigState::opening, std::memory_order_relaxed);
+    try {
+        impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+    } catch (const std::system_error &error) {
+        impl_->problem = error.what();
+        impl_->state.store(RigState::failed, std::memory_order_relaxed);
+        return false;
+    }
+    return true;
+}
+
+void CalibrationRig::start_stepped() {
+    impl_->open();
+}
+
+void CalibrationRig::advance(double seconds) noexcept {
+    if (impl_->thread.joinable() || state() != RigState::open || !(seconds > 0.0)) {
+        return;
+    }
+    const FlushDenormals flush;
+    const double period_s = 1.0 / impl_->settings.rate_hz;
+    const auto cycles = std::lround(std::fmin(seconds, kLongestAdvance_s) / period_s);
+    for (long i = 0; i < cycles; ++i) {
+        impl_->cycle(period_s);
+    }
+}
+
+void CalibrationRig::ask_close() noexcept {
+    impl_->close_asked.store(true, std::memory_order_release);
+    if (!impl_->thread.joinable()) {
+        impl_->shut();
+    }
+}
+
+RigState CalibrationRig::state() const noexcept {
+    return impl_->state.load(std::memory_order_acquire);
+}
+
+std::string CalibrationRig::problem() const {
+    return state() == RigState::failed ? impl_->problem : std::string();
+}
+
+void CalibrationRig::give(const RigOrders &orders) noexcept {
+    impl_->orders_box.write(orders);
+}
+
+bool CalibrationRig::latest(RigNews &news) noexcept {
+    return impl_->news_box.read(news);
+}
+
+bool CalibrationRig::next_sample(CountArray &counts) noexcept {
+    const CountArray *const oldest = impl_->samples.oldest();
+    if (oldest == nullptr) {
+        return false;
+    }
+    counts = *oldest;
+    impl_->samples.pop();
+    return true;
+}
+
+} // namespace spidar

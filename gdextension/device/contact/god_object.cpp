@@ -1,0 +1,184 @@
+#include "device/contact/god_object.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+
+namespace {
+
+constexpr std::size_t kMost = kMaxConstraints;
+using Values = std::array<double, kMost>;
+
+// Added to the diagonal, relative to it: eight rows in seven DOF, or equal ones, leave the pushes open. It takes
+// this part off the stiffness of a lone constraint and makes equal ones share.
+constexpr double kRegularisation = 1e-11;
+// A constraint is broken when its row falls short by more than this part of the deepest.
+constexpr double kBroken = 1e-12;
+// Each exchange of the active set lowers the energy, so none comes back; far more than problems of this size take.
+constexpr int kMostExchanges = 48;
+
+struct Problem {
+    std::size_t count = 0;
+    std::array<Values, kMost> gram{};
+    Values depth{};
+};
+
+// Solves gram * push = depth on the constraints of `mask`; the others' push is zero.
+Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
+    std::array<std::size_t, kMost> index{};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < problem.count; ++i) {
+        if ((mask >> i) & 1U) {
+            index[n++] = i;
+        }
+    }
+    // LDL^T without square roots.
+    std::array<Values, kMost> l{};
+    Values pivot{};
+    Values y{};
+    for (std::size_t r = 0; r < n; ++r) {
+        const Values &row = problem.gram[index[r]];
+        double d = row[index[r]];
+        double sum = problem.depth[index[r]];
+        for (std::size_t c = 0; c < r; ++c) {
+            double v = row[index[c]];
+            for (std::size_t k = 0; k < c; ++k) {
+                v -= l[r][k] * l[c][k] * pivot[k];
+            }
+            l[r][c] = v / pivot[c];
+            d -= l[r][c] * v;
+            sum -= l[r][c] * y[c];
+        }
+        // Regularised, so only rounding can bring a pivot down to nothing.
+        pivot[r] = std::max(d, 0.5 * kRegularisation * row[index[r]]);
+        y[r] = sum;
+    }
+    Values push{};
+    for (std::size_t r = n; r-- > 0;) {
+        double v = y[r] / pivot[r];
+        for (std::size_t k = r + 1; k < n; ++k) {
+            v -= l[k][r] * push[index[k]];
+        }
+        push[index[r]] = v;
+    }
+    return push;
+}
+
+// Constraints of `mask` whose push is negative.
+std::uint32_t negatives(const Values &push, std::uint32_t mask) noexcept {
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < kMost; ++i) {
+        found |= ((mask >> i) & 1U) != 0 && !(push[i] > 0.0) ? 1U << i : 0U;
+    }
+    return found;
+}
+
+} // namespace
+
+GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstraints> &rows,
+                                   int count, std::uint8_t first_guess) noexcept {
+    GodObjectSolution solution;
+    Problem problem;
+    problem.count = static_cast<std::size_t>(std::clamp(count, 0, kMaxConstraints));
+    double deepest = 0.0;
+    bool finite = true;
+    for (std::size_t i = 0; i < problem.count; ++i) {
+        problem.depth[i] = rows[i].depth;
+        deepest = std::max(deepest, rows[i].depth);
+        finite = finite && std::isfinite(rows[i].depth);
+    }
+    if (!finite || !(deepest > 0.0)) {
+        return solution; // nothing is broken: the usual case in free space
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < problem.count; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            double dot = 0.0;
+            for (std::size_t k = 0; k < rows[i].row.size(); ++k) {
+                dot += rows[i].row[k] * rows[j].row[k];
+            }
+            problem.gram[i][j] = dot;
+            problem.gram[j][i] = dot;
+        }
+        sum += problem.gram[i][i];
+        problem.gram[i][i] *= 1.0 + kRegularisation;
+    }
+    if (!std::isfinite(sum)) {
+        return solution;
+    }
+
+    // A guess whose pushes are all positive is a feasible start; otherwise what is negative is dropped.
+    std::uint32_t active = first_guess & ((1U << problem.count) - 1U);
+    Values push{};
+    while (active != 0) {
+        push = solve_subset(problem, active);
+        ++solution.solves;
+        const std::uint32_t bad = negatives(push, active);
+        if (bad == 0) {
+            break;
+        }
+        active &= ~bad;
+    }
+    if (active == 0) {
+        push = {};
+    }
+
+    const double tolerance = kBroken * deepest;
+    for (int exchange = 0; exchange < kMostExchanges; ++exchange) {
+        // The inactive constraint that is broken most joins.
+        double worst = tolerance;
+        std::uint32_t joining = 0;
+        for (std::size_t i = 0; i < problem.count; ++i) {
+            if ((active >> i) & 1U) {
+                continue;
+            }
+            double shortfall = problem.depth[i];
+            for (std::size_t j = 0; j < problem.count; ++j) {
+                shortfall -= problem.gram[i][j] * push[j];
+            }
+            if (shortfall > worst) {
+                worst = shortfall;
+                joining = 1U << i;
+            }
+        }
+        if (joining == 0) {
+            break;
+        }
+        active |= joining;
+        // Towards the new set's solution, as far as every push stays positive (Lawson and Hanson 1974).
+        for (std::size_t drop = 0; drop < problem.count; ++drop) {
+            const Values target = solve_subset(problem, active);
+            ++solution.solves;
+            if (negatives(target, active) == 0) {
+                push = target;
+                break;
+            }
+            double part = 1.0;
+            for (std::size_t i = 0; i < problem.count; ++i) {
+                if (((active >> i) & 1U) && !(target[i] > 0.0)) {
+                    part = std::min(part, push[i] > 0.0 ? push[i] / (push[i] - target[i]) : 0.0);
+                }
+            }
+            for (std::size_t i = 0; i < problem.count; ++i) {
+                if (!((active >> i) & 1U)) {
+                    continue;
+                }
+                const double moved = push[i] + part * (target[i] - push[i]);
+                const bool leaves = !(target[i] > 0.0) && !(moved > kBroken * std::abs(push[i]));
+                push[i] = leaves ? 0.0 : std::max(moved, 0.0);
+                active &= leaves ? ~(1U << i) : ~0U;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < problem.count; ++i) {
+        if (!std::isfinite(push[i])) {
+            return GodObjectSolution();
+        }
+    }
+    solution.push = push;
+    solution.active_mask = static_cast<std::uint8_t>(active);
+    return solution;
+}
+
+} // namespace spidar

@@ -1,0 +1,72 @@
+#include "device/contract/device_claims.h"
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace spidar {
+
+namespace {
+
+struct Claims {
+    std::mutex mutex;
+    std::map<std::string, std::string> owners; // device name -> owner
+};
+
+// Never destroyed: a claim held by a static object may be released after main().
+Claims &claims() {
+    static Claims *const kept = new Claims;
+    return *kept;
+}
+
+} // namespace
+
+DeviceClaim::~DeviceClaim() {
+    release();
+}
+
+DeviceClaim::DeviceClaim(DeviceClaim &&other) noexcept : name_(std::exchange(other.name_, {})) {}
+
+DeviceClaim &DeviceClaim::operator=(DeviceClaim &&other) noexcept {
+    if (this != &other) {
+        release();
+        name_ = std::exchange(other.name_, {});
+    }
+    return *this;
+}
+
+bool DeviceClaim::take(const std::string &name, const std::string &owner) {
+    if (!name_.empty() && name == name_) {
+        return true;
+    }
+    if (!name.empty()) {
+        Claims &all = claims();
+        const std::lock_guard<std::mutex> lock(all.mutex);
+        if (!all.owners.emplace(name, owner).second) {
+            return false; // what this claim holds already, it keeps
+        }
+    }
+    std::string taken = name;
+    release();
+    name_ = std::move(taken);
+    return true;
+}
+
+void DeviceClaim::release() noexcept {
+    if (name_.empty()) {
+        return;
+    }
+    Claims &all = claims();
+    const std::lock_guard<std::mutex> lock(all.mutex);
+    all.owners.erase(name_);
+    name_.clear();
+}
+
+std::string DeviceClaim::owner_of(const std::string &name) {
+    Claims &all = claims();
+    const std::lock_guard<std::mutex> lock(all.mutex);
+    const auto found = all.owners.find(name);
+    return found == all.owners.end() ? std::string() : found->second;
+}
+
+} // namespace spidar

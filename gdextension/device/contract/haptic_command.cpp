@@ -1,0 +1,173 @@
+#include "device/contract/haptic_command.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace spidar {
+
+namespace {
+
+bool all_finite(const Vec3 &v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// A normal this far from unit length is a mistake, not rounding: games compute in single precision (1e-7).
+constexpr double kUnitTolerance = 1e-3;
+
+bool all_finite(const Mat3 &m) noexcept {
+    return all_finite(m[0]) && all_finite(m[1]) && all_finite(m[2]);
+}
+
+bool all_finite(const Twist &twist) noexcept {
+    return all_finite(twist.linear_m_s) && all_finite(twist.angular_rad_s) &&
+           std::isfinite(twist.grasp_rate_rad_s);
+}
+
+bool all_finite(const DofGains &gains) noexcept {
+    for (const double gain : gains) {
+        if (!std::isfinite(gain)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool none_negative(const DofGains &gains) noexcept {
+    for (const double gain : gains) {
+        if (!(gain >= 0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Orthonormal, right-handed.
+bool is_rotation(const Mat3 &m) noexcept {
+    const auto near = [](double value, double wanted) {
+        return std::abs(value - wanted) <= kUnitTolerance;
+    };
+    return near(glm::dot(m[0], m[0]), 1.0) && near(glm::dot(m[1], m[1]), 1.0) &&
+           near(glm::dot(m[2], m[2]), 1.0) && near(glm::dot(m[0], m[1]), 0.0) &&
+           near(glm::dot(m[1], m[2]), 0.0) && near(glm::dot(m[2], m[0]), 0.0) &&
+           glm::dot(glm::cross(m[0], m[1]), m[2]) > 0.0;
+}
+
+} // namespace
+
+Status validate_wrench(const Wrench &wrench, double duration_s) noexcept {
+    if (!all_finite(wrench.force_n) || !all_finite(wrench.moment_nm) ||
+        !std::isfinite(wrench.grasp_torque_nm) || !std::isfinite(duration_s)) {
+        return Status::not_finite;
+    }
+    if (!(duration_s >= 0.0 && duration_s <= kMaxWrenchDuration_s)) {
+        return Status::invalid_request;
+    }
+    return Status::ok;
+}
+
+Status validate_contact(const ContactPlane &contact) noexcept {
+    if (!all_finite(contact.normal) || !all_finite(contact.velocity_m_s) ||
+        !std::isfinite(contact.offset_m) || !std::isfinite(contact.stiffness_n_m) ||
+        !std::isfinite(contact.damping_n_s_m) || !std::isfinite(contact.friction)) {
+        return Status::not_finite;
+    }
+    if (contact.target > ContactTarget::turn_stop) {
+        return Status::invalid_request;
+    }
+    if (contact.target == ContactTarget::grasp_stop) {
+        if (!(std::abs(std::abs(contact.normal.x) - 1.0) <= kUnitTolerance)) {
+            return Status::invalid_request;
+        }
+    } else {
+        const Vec3 &n = contact.normal;
+        const double length = std::hypot(n.x, n.y, n.z);
+        if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
+            return Status::invalid_request;
+        }
+    }
+    if (!(contact.stiffness_n_m >= 0.0) || !(contact.damping_n_s_m >= 0.0) ||
+        !(contact.friction >= 0.0)) {
+        return Status::invalid_request;
+    }
+    return Status::ok;
+}
+
+Status validate_contacts(const HapticCommand &command) noexcept {
+    if (!std::isfinite(command.contacts_state_time_s)) {
+        return Status::not_finite;
+    }
+    if (command.contact_count < 0 || command.contact_count > kMaxContacts) {
+        return Status::invalid_request;
+    }
+    for (int i = 0; i < command.contact_count; ++i) {
+        const Status status = validate_contact(command.contacts[static_cast<std::size_t>(i)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    return Status::ok;
+}
+
+Status validate_coupling(const Coupling &coupling) noexcept {
+    if (!all_finite(coupling.position_m) || !all_finite(coupling.rotation) ||
+        !std::isfinite(coupling.grasp_angle_rad) || !all_finite(coupling.twist) ||
+        !all_finite(coupling.stiffness) || !all_finite(coupling.damping) ||
+        !std::isfinite(coupling.max_force_n) || !std::isfinite(coupling.max_moment_nm) ||
+        !std::isfinite(coupling.max_grasp_torque_nm) || !std::isfinite(coupling.state_time_s)) {
+        return Status::not_finite;
+    }
+    const bool usable_gains = none_negative(coupling.stiffness) && none_negative(coupling.damping);
+    const bool usable_caps = coupling.max_force_n >= 0.0 && coupling.max_moment_nm >= 0.0 &&
+                             coupling.max_grasp_torque_nm >= 0.0;
+    return usable_gains && usable_caps && is_rotation(coupling.rotation) &&
+                   coupling.dof_mask <= kAllDof
+               ? Status::ok
+               : Status::invalid_request;
+}
+
+Status validate_effect(const Effect &effect) noexcept {
+    if (!all_finite(effect.gain) || !all_finite(effect.centre_m) ||
+        !all_finite(effect.centre_rotation) || !std::isfinite(effect.centre_grasp_rad) ||
+        !std::isfinite(effect.frequency_hz) || !all_finite(effect.spacing) ||
+        !std::isfinite(effect.duration_s)) {
+        return Status::not_finite;
+    }
+    if (static_cast<int>(effect.kind) >= kEffectKindCount || effect.dof_mask > kAllDof ||
+        !(effect.duration_s >= 0.0 && effect.duration_s <= kMaxWrenchDuration_s)) {
+        return Status::invalid_request;
+    }
+    bool good = true;
+    if (effect.kind != EffectKind::constant && effect.kind != EffectKind::vibration) {
+        good = none_negative(effect.gain); // a negative one would drive the hand
+    }
+    if (effect.kind == EffectKind::spring || effect.kind == EffectKind::detents) {
+        good = good && is_rotation(effect.centre_rotation);
+    }
+    if (effect.kind == EffectKind::vibration) {
+        good = good && effect.frequency_hz >= kMinVibration_hz &&
+               effect.frequency_hz <= kMaxVibration_hz;
+    }
+    if (effect.kind == EffectKind::detents) {
+        for (std::size_t i = 0; i < effect.spacing.size(); ++i) {
+            const bool used = ((effect.dof_mask >> i) & 1U) != 0;
+            good = good && (!used || effect.spacing[i] >= kMinDetentSpacing);
+        }
+    }
+    return good ? Status::ok : Status::invalid_request;
+}
+
+Status validate_effects(const HapticCommand &command) noexcept {
+    if (command.effect_count < 0 || command.effect_count > kMaxEffects) {
+        return Status::invalid_request;
+    }
+    for (int i = 0; i < command.effect_count; ++i) {
+        const Status status = validate_effect(command.effects[static_cast<std::size_t>(i)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    return Status::ok;
+}
+
+} // namespace spidar

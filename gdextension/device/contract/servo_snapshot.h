@@ -1,0 +1,100 @@
+// What the device thread publishes each cycle: a plain value, device frame, SI.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/status.h"
+#include "core/base/types.h"
+#include "core/geometry/grip_geometry.h"
+#include "core/kinematics/grasp_detector.h"
+#include "device/contract/haptic_command.h"
+#include "device/settings/gain_clamp.h"
+
+namespace spidar {
+
+// Simulated device: CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED.
+// Real device: CLOSED -> CONNECTED -> TAUT -> CALIBRATED -> ARMING -> ACTIVE -> FADING -> CALIBRATED.
+// FAULT is latched.
+enum class DeviceState : std::uint8_t {
+    closed = 0,    // no device
+    connected = 1, // reading; motors at zero
+    arming = 2,    // forces rise
+    active = 3,
+    fading = 4, // forces fall, then connected
+    fault = 5,  // motors off until clear_fault() and arm()
+    taut = 6,   // zero_at_home(): strings drawn taut, zero taken, then checked by moving the grip
+    calibrated = 7, // zero known; pretension keeps the strings taut, so that it stays known
+};
+[[nodiscard]] const char *describe(DeviceState state) noexcept;
+
+struct GripState {
+    GripPose pose;
+    GripFrame frame;
+    Twist twist; // filtered
+    double residual_rms_m = 0.0;
+    double conditioning = 0.0;
+    Status status = Status::held_last_pose; // < 0 or held_last_pose: the pose is an old one
+};
+
+struct ContactReport {
+    std::int32_t id = 0;
+    Vec3 impulse_ns{0.0};           // on the grip, summed since this id appeared
+    double grasp_impulse_nms = 0.0; // grasp_stop
+    bool touching = false;
+};
+
+// Each only grows.
+struct ServoCounters {
+    std::uint64_t ticks = 0;
+    std::uint64_t kinematics_skipped = 0; // counts unchanged
+    std::uint64_t tension_skipped = 0;    // same pose and request, all settled: the last tensions
+    std::uint64_t steps_skipped = 0;      // at rest, nothing new: the last answer, whole
+    std::uint64_t cold_starts = 0;
+    std::uint64_t bad_samples = 0; // count jumps and impossible lengths
+    std::uint64_t read_timeouts = 0;
+    std::uint64_t rejected_requests = 0; // not finite or malformed, seen in the loop
+    std::uint64_t clamped_requests = 0;
+    std::uint64_t expired_requests = 0;
+    std::uint64_t saturated_ticks = 0; // strings at a bound changed the wrench
+    std::uint64_t slewed_ticks = 0;    // the slew limit changed a tension
+    std::uint64_t write_failures = 0;
+    std::uint64_t reports_missed = 0; // gaps in the device's sequence numbers
+    std::uint64_t old_reports = 0;    // repeated or out of order: left out
+    std::uint64_t faded_ticks = 0;    // a safety monitor scaled the wrench down
+    std::uint64_t bad_time_steps = 0; // not in [1e-6, 0.05] s: taken as 1 / rate
+    std::uint64_t gate_clamps =
+        0; // a tension outside [0, max] or NaN reached the safety gate: a defect
+};
+
+struct ServoSnapshot {
+    double time_s = 0.0; // sum of the time steps
+    DeviceState state = DeviceState::closed;
+    Status fault = Status::ok;     // why, when state is fault
+    std::int8_t fault_string = -1; // 0-7, or -1
+    GripState grip;
+    GraspPhase grasp = GraspPhase::open;
+    CountArray counts{};
+    StringArray lengths_m{};
+    StringArray tensions_n{}; // commanded, after every limit
+    Wrench requested;         // all requests summed, after limits and ramp
+    Wrench achieved;          // what tensions_n give; where the rest went: tension_report()
+    std::uint8_t at_min_mask = 0;
+    std::uint8_t at_max_mask = 0;
+    Status tension_status = Status::ok;
+    double force_scale = 0.0;    // arming ramp, 0..1
+    double tension_scale = 0.0;  // the part of it that scales all tensions, pretension too
+    double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
+    double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
+    double parity_error_m = 0.0; // what no pose explains of the eight lengths
+    bool zero_known = false;
+    int contact_count = 0;
+    std::array<ContactReport, kMaxContacts> contacts{};
+    // Work done on the hand in each DOF since the start: commanded tensions times the motion that the lengths show.
+    DofGains injected_j{};
+    GainClamp clamp; // the last gain that was brought down
+    ServoCounters counters;
+    std::uint8_t buttons = 0;
+};
+
+} // namespace spidar

@@ -1,0 +1,69 @@
+// The border to a device: encoder counts in, motor currents out. One thread owns a transport; only write() of
+// one that says write_may_block() may run in a second thread at the same time.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/status.h"
+#include "core/base/types.h"
+
+namespace spidar {
+
+class ReplayTransport;
+
+struct DeviceReading {
+    CountArray counts{};
+    std::uint64_t device_time_us = 0; // the device's own clock; 0 when it has none
+    std::uint16_t sequence = 0;
+    std::uint8_t buttons = 0;
+    // False: the counts have no reference yet (a real device before it was zeroed, or plugged in anew).
+    bool zeroed = true;
+    // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
+    Status device_status = Status::ok;
+};
+
+// What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and
+// the motor currents that MotorCalibration makes of them.
+struct DriveCommand {
+    StringArray tensions_n{};
+    StringArray currents_a{};
+    bool motors_on = false; // false: currents are zero and the device may cut power
+    bool clear_faults =
+        false; // acts only with motors_on false: the device may forget latched faults
+};
+
+class Transport {
+public:
+    Transport() = default;
+    Transport(const Transport &) = delete;
+    Transport &operator=(const Transport &) = delete;
+    virtual ~Transport() = default;
+
+    // Not from a servo step: may allocate and wait.
+    virtual Status open() noexcept = 0;
+    // Motors off first, then the handle. Safe when not open.
+    virtual void close() noexcept = 0;
+
+    // The newest reading. read_timeout: nothing new (reading untouched); read_failed: device lost.
+    virtual Status read(DeviceReading &reading) noexcept = 0;
+    virtual Status write(const DriveCommand &command) noexcept = 0;
+
+    // write() waits for the device, for seconds if that hangs: keep it out of the loop's thread.
+    [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
+
+    // Waits for the next report, until this instant of monotonic_ns() at the latest, and leaves it to read(). False at
+    // once: this device cannot clock the loop. True: a report waits, or the time is up.
+    [[nodiscard]] virtual bool wait_report(std::int64_t until_ns) noexcept {
+        (void)until_ns;
+        return false;
+    }
+
+    // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
+    virtual void advance(double dt_s) noexcept { (void)dt_s; }
+    // A simulated device may arm itself when forces are enabled; a real one arms only on arm().
+    [[nodiscard]] virtual bool simulated() const noexcept { return false; }
+    // A recording brings the loop its commands and time steps too; null: this is a device.
+    [[nodiscard]] virtual ReplayTransport *as_replay() noexcept { return nullptr; }
+};
+
+} // namespace spidar

@@ -1,0 +1,33 @@
+// Reports to bytes and back. Decoding trusts nothing: length, report id, CRC and ranges are checked in this order, and
+// the value is written only when all hold. noexcept, no allocation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "device/hid/protocol/hid_protocol.h"
+
+namespace spidar {
+
+enum class Decoded : std::uint8_t { ok, wrong_length, wrong_id, bad_crc, bad_value };
+
+using ReportBytes = std::span<const std::uint8_t>;
+
+[[nodiscard]] std::array<std::uint8_t, kStateSize> encode(const StateReport &report) noexcept;
+[[nodiscard]] std::array<std::uint8_t, kCommandSize> encode(const CommandReport &report) noexcept;
+[[nodiscard]] std::array<std::uint8_t, kCapabilitiesSize>
+encode(const HidCapabilities &report) noexcept;
+[[nodiscard]] std::array<std::uint8_t, kLimitsSize> encode(const HidLimits &report) noexcept;
+[[nodiscard]] std::array<std::uint8_t, kZeroSize> encode(const HidZero &report) noexcept;
+[[nodiscard]] std::array<std::uint8_t, kDeviceControlSize> encode(DeviceControl report) noexcept;
+
+[[nodiscard]] Decoded decode(ReportBytes bytes, StateReport &report) noexcept;
+[[nodiscard]] Decoded decode(ReportBytes bytes, CommandReport &report) noexcept;
+// Reads those of any protocol version: the caller compares protocol_version.
+[[nodiscard]] Decoded decode(ReportBytes bytes, HidCapabilities &report) noexcept;
+[[nodiscard]] Decoded decode(ReportBytes bytes, HidLimits &report) noexcept;
+[[nodiscard]] Decoded decode(ReportBytes bytes, HidZero &report) noexcept;
+[[nodiscard]] Decoded decode(ReportBytes bytes, DeviceControl &report) noexcept;
+
+} // namespace spidar

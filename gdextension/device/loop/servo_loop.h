@@ -1,0 +1,82 @@
+// Owns a transport and drives ServoStep: by its own real-time thread, or stepped in simulated time.
+// One controlling thread (the game's) calls everything here.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "device/contract/transport.h"
+#include "device/recording/recorder_statistics.h"
+#include "device/step/servo_step.h"
+#include "device/threads/loop_histogram.h"
+
+namespace spidar {
+
+struct LoopStatistics {
+    double measured_rate_hz = 0.0; // over the last second; the set rate when stepped
+    double lateness_p50_us = 0.0;  // wake-up after the deadline; 0 when stepped
+    double lateness_p99_us = 0.0;
+    double lateness_max_us = 0.0;
+    double step_p50_us = 0.0; // read + compute + write
+    double step_p99_us = 0.0;
+    std::uint64_t missed_deadlines = 0;
+    std::uint64_t late_cycles = 0;   // more than 1 ms after the deadline
+    bool real_time_priority = false; // SCHED_FIFO granted
+};
+
+class ServoLoop {
+public:
+    explicit ServoLoop(std::unique_ptr<Transport> transport);
+    ~ServoLoop(); // stop()
+    ServoLoop(const ServoLoop &) = delete;
+    ServoLoop &operator=(const ServoLoop &) = delete;
+
+    // Opens the transport. On failure nothing runs, unless reopen_interval_s lets the thread try again: then the
+    // state is closed until the device opens.
+    Status start_threaded(const ServoSettings &settings);
+    Status start_stepped(const ServoSettings &settings);
+    // Motors to zero, thread joined, then the handle closed. Safe at any time, twice too. Waits for a write that is
+    // under way.
+    void stop() noexcept;
+    // From any thread, at any time, one atomic: the motors go off in the next cycle, and at once where a writer thread
+    // serves the device. Latched: clear_fault() and arm() lead back.
+    void panic_stop() noexcept;
+    // Since the thread began its last cycle (unit: s); 0 when none runs. What a game watches the loop by.
+    [[nodiscard]] double since_last_cycle_s() const noexcept;
+    // What happened, in order. False: nothing more. From the controlling thread.
+    bool next_event(DeviceEvent &event) noexcept;
+    [[nodiscard]] bool running() const noexcept;
+    [[nodiscard]] bool threaded() const noexcept;
+
+    // Stepped only: advance by numerator/denominator seconds of simulated time in whole servo cycles; the rest
+    // is carried (rational accumulator: 1/60 s at 1 kHz gives 16 or 17 cycles). Returns the cycles run.
+    int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
+
+    // Newest command wins. Wait-free.
+    void publish(const HapticCommand &command) noexcept;
+    // The newest snapshot. True when it is newer than at the last call. Wait-free.
+    bool latest(ServoSnapshot &snapshot) noexcept;
+    [[nodiscard]] LoopStatistics statistics() const noexcept;
+    // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
+    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
+    lateness_counts() const noexcept;
+    [[nodiscard]] Transport &transport() noexcept;
+
+    // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
+    // a recording that runs goes on. stop() ends a recording too.
+    [[nodiscard]] std::string start_recording(const std::string &path);
+    void stop_recording() noexcept;
+    [[nodiscard]] bool recording() const noexcept;
+    // Of the recording that runs, or else of the last one.
+    [[nodiscard]] RecorderStatistics recording_statistics() const noexcept;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace spidar

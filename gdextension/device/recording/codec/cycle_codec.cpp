@@ -1,0 +1,287 @@
+#include "device/recording/codec/cycle_codec.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "device/recording/codec/command_fields.h"
+#include "device/recording/codec/reading_fields.h"
+
+namespace spidar {
+
+namespace {
+
+// What follows in a cycle; the commonest come first, so that the flags are mostly one byte.
+constexpr std::uint64_t kCounts = 1;
+constexpr std::uint64_t kTensions = 2;
+constexpr std::uint64_t kReading = 4; // the rest of the reading is not what was to be expected
+constexpr std::uint64_t kTimeStep = 8;
+constexpr std::uint64_t kCommand = 16;
+constexpr std::uint64_t kState = 32;
+constexpr std::uint64_t kReadStatus = 64;
+constexpr std::uint64_t kWriteStatus = 128;
+constexpr std::uint64_t kMayArm = 256; // the flag itself, not a change of it
+constexpr std::uint64_t kSegment = 512;
+constexpr std::uint64_t kAllFlags = 1023;
+
+// Where clock and sequence number stand in the list of a reading.
+constexpr std::size_t kClockWord = 0;
+constexpr std::size_t kSequenceWord = 1;
+constexpr std::size_t kLeastReadingWords = 2;
+
+constexpr int kDigestBytes = 4;
+constexpr int kWordBytes = 8;
+constexpr double kNanosecond_s = 1e-9;
+constexpr double kLongestWhole_ns = 1e15; // llround() of more is not exact
+
+std::int32_t difference(std::int32_t a, std::int32_t b) noexcept { // wraps, as the counts do
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+std::int32_t sum(std::int32_t a, std::int64_t b) noexcept {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+
+// Measured time steps are whole nanoseconds times 1e-9: three bytes. What is not, is kept as it is.
+void encode_time_step(double dt_s, ByteWriter &to) {
+    const double steps = dt_s / kNanosecond_s;
+    if (std::abs(steps) < kLongestWhole_ns) {
+        const auto whole = static_cast<std::int64_t>(std::llround(steps));
+        if (std::bit_cast<std::uint64_t>(static_cast<double>(whole) * kNanosecond_s) ==
+            std::bit_cast<std::uint64_t>(dt_s)) {
+            to.varint(zigzag(whole) << 1U);
+            return;
+        }
+    }
+    to.varint(1);
+    to.fixed(std::bit_cast<std::uint64_t>(dt_s), kWordBytes);
+}
+
+double decode_time_step(ByteReader &from) noexcept {
+    const std::uint64_t head = from.varint();
+    if (head == 1) {
+        return std::bit_cast<double>(from.fixed(kWordBytes));
+    }
+    return static_cast<double>(from_zigzag(head >> 1U)) * kNanosecond_s;
+}
+
+// What a device says when nothing happens: its clock and sequence number go on as they did.
+DeviceReading expected_after(const DeviceReading &before, std::uint64_t clock_step_us) noexcept {
+    DeviceReading expected = before;
+    expected.device_time_us += clock_step_us;
+    ++expected.sequence;
+    return expected;
+}
+
+// State, phase, fault and statuses: they change rarely, and together.
+template <typename Output>
+bool same_state(const Output &a, const Output &b) noexcept {
+    return a.state == b.state && a.grasp == b.grasp && a.fault_string == b.fault_string &&
+           a.motors_on == b.motors_on && a.fault == b.fault && a.pose_status == b.pose_status &&
+           a.tension_status == b.tension_status;
+}
+
+} // namespace
+
+CycleEncoder::CycleEncoder()
+    : last_command_(count_fields(HapticCommand{})), command_(last_command_.size()),
+      reading_(count_fields(DeviceReading{})), expected_(reading_.size()) {}
+
+void CycleEncoder::encode_command(const HapticCommand &command, ByteWriter &to) {
+    // Pairs (words skipped, change), ended by a skip to the end.
+    store_words(command, command_);
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < command_.size(); ++i) {
+        if (command_[i] != last_command_[i]) {
+            to.varint(i - done);
+            to.sparse_word(command_[i] ^ last_command_[i]);
+            done = i + 1;
+        }
+    }
+    to.varint(command_.size() - done);
+    last_command_ = command_;
+}
+
+void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &command, ByteWriter &to) {
+    if (record.segment_start) { // readable without what came before
+        last_ = CycleRecord();
+        last_tensions_mn_ = {};
+        last_clock_step_us_ = 0;
+        last_command_.assign(last_command_.size(), 0);
+    }
+    const CycleInput &now = record.input;
+    const CycleInput &before = last_.input;
+    store_words(expected_after(before.reading, last_clock_step_us_), expected_);
+    store_words(now.reading, reading_);
+    const MillinewtonArray tensions_mn = millinewtons_of(record.output);
+    const bool whole_command = record.segment_start || record.command_is_new;
+
+    std::uint64_t flags = 0;
+    flags |= now.reading.counts != before.reading.counts ? kCounts : 0;
+    flags |= tensions_mn != last_tensions_mn_ ? kTensions : 0;
+    flags |= reading_ != expected_ ? kReading : 0;
+    flags |= std::bit_cast<std::uint64_t>(now.dt_s) != std::bit_cast<std::uint64_t>(before.dt_s)
+                 ? kTimeStep
+                 : 0;
+    flags |= whole_command ? kCommand : 0;
+    flags |= same_state(record.output, last_.output) ? 0 : kState;
+    flags |= now.read_status != before.read_status ? kReadStatus : 0;
+    flags |= now.write_status != before.write_status ? kWriteStatus : 0;
+    flags |= now.may_arm_itself ? kMayArm : 0;
+    flags |= record.segment_start ? kSegment : 0;
+
+    to.varint(flags);
+    if ((flags & kSegment) != 0) {
+        to.varint(record.tick);
+    }
+    if ((flags & kCounts) != 0) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            to.signed_varint(difference(now.reading.counts[i], before.reading.counts[i]));
+        }
+    }
+    if ((flags & kReading) != 0) {
+        for (std::size_t i = 0; i < reading_.size(); ++i) {
+            to.sparse_word(reading_[i] ^ expected_[i]);
+        }
+    }
+    if ((flags & kTimeStep) != 0) {
+        encode_time_step(now.dt_s, to);
+    }
+    if ((flags & kReadStatus) != 0) {
+        to.signed_varint(static_cast<std::int32_t>(now.read_status));
+    }
+    if ((flags & kWriteStatus) != 0) {
+        to.signed_varint(static_cast<std::int32_t>(now.write_status));
+    }
+    if ((flags & kCommand) != 0) {
+        encode_command(command, to);
+    }
+    if ((flags & kTensions) != 0) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            to.signed_varint(difference(tensions_mn[i], last_tensions_mn_[i]));
+        }
+    }
+    if ((flags & kState) != 0) {
+        const CycleOutput &output = record.output;
+        to.fixed(static_cast<std::uint64_t>(output.state), 1);
+        to.fixed(static_cast<std::uint64_t>(output.grasp) | (output.motors_on ? 0x80U : 0U), 1);
+        to.signed_varint(output.fault_string);
+        to.signed_varint(static_cast<std::int32_t>(output.fault));
+        to.signed_varint(static_cast<std::int32_t>(output.pose_status));
+        to.signed_varint(static_cast<std::int32_t>(output.tension_status));
+    }
+    to.fixed(digest_of(record.output), kDigestBytes);
+    last_clock_step_us_ = now.reading.device_time_us - before.reading.device_time_us;
+    last_ = record;
+    last_tensions_mn_ = tensions_mn;
+}
+
+CycleDecoder::CycleDecoder(std::size_t command_words, std::size_t reading_words)
+    : reading_(std::max(reading_words, kLeastReadingWords)) {
+    last_.command_words.resize(command_words);
+}
+
+void CycleDecoder::decode_reading(bool told, ByteReader &from) {
+    const std::uint64_t clock_before_us = reading_[kClockWord];
+    reading_[kClockWord] += last_clock_step_us_;
+    reading_[kSequenceWord] = static_cast<std::uint16_t>(reading_[kSequenceWord] + 1);
+    if (told) {
+        for (std::uint64_t &word : reading_) {
+            word ^= from.sparse_word();
+        }
+    }
+    last_clock_step_us_ = reading_[kClockWord] - clock_before_us;
+    std::size_t next = 0;
+    for_each_field(last_.input.reading, [this, &next](std::string_view, int, auto &field) {
+        if (next < reading_.size()) {
+            from_word(reading_[next], field);
+        }
+        ++next;
+    });
+}
+
+void CycleDecoder::start_segment(ByteReader &from) {
+    RecordedCycle fresh;
+    fresh.command_words.assign(last_.command_words.size(), 0);
+    fresh.segment_start = true;
+    fresh.command_is_new = true;
+    fresh.tick = from.varint();
+    last_ = fresh;
+    last_clock_step_us_ = 0;
+    std::vector<std::uint64_t> words(count_fields(DeviceReading{}));
+    store_words(DeviceReading{}, words);
+    words.resize(reading_.size());
+    reading_ = words;
+}
+
+void CycleDecoder::decode_inputs(std::uint64_t flags, ByteReader &from) {
+    CycleInput &input = last_.input;
+    if ((flags & kCounts) != 0) {
+        for (std::int32_t &count : input.reading.counts) {
+            count = sum(count, from.signed_varint());
+        }
+    }
+    decode_reading((flags & kReading) != 0, from);
+    if ((flags & kTimeStep) != 0) {
+        input.dt_s = decode_time_step(from);
+    }
+    if ((flags & kReadStatus) != 0) {
+        input.read_status = static_cast<Status>(from.signed_varint());
+    }
+    if ((flags & kWriteStatus) != 0) {
+        input.write_status = static_cast<Status>(from.signed_varint());
+    }
+    input.may_arm_itself = (flags & kMayArm) != 0;
+}
+
+void CycleDecoder::decode_command(ByteReader &from) {
+    std::size_t next = 0;
+    const std::size_t size = last_.command_words.size();
+    while (from.good()) {
+        const std::uint64_t skipped = from.varint();
+        if (skipped >= size - next) {
+            return;
+        }
+        next += static_cast<std::size_t>(skipped);
+        last_.command_words[next] ^= from.sparse_word();
+        ++next;
+    }
+}
+
+bool CycleDecoder::decode(ByteReader &from, RecordedCycle &cycle) {
+    const std::uint64_t flags = from.varint();
+    if (flags > kAllFlags) {
+        return false;
+    }
+    last_.segment_start = (flags & kSegment) != 0;
+    last_.command_is_new = (flags & kCommand) != 0;
+    if (last_.segment_start) {
+        start_segment(from);
+    } else {
+        ++last_.tick;
+    }
+    decode_inputs(flags, from);
+    if ((flags & kCommand) != 0) {
+        decode_command(from);
+    }
+    if ((flags & kTensions) != 0) {
+        for (std::int32_t &tension_mn : last_.tensions_mn) {
+            tension_mn = sum(tension_mn, from.signed_varint());
+        }
+    }
+    if ((flags & kState) != 0) {
+        last_.state = static_cast<DeviceState>(from.fixed(1));
+        const std::uint64_t phase = from.fixed(1);
+        last_.grasp = static_cast<GraspPhase>(phase & 0x7FU);
+        last_.motors_on = (phase & 0x80U) != 0;
+        last_.fault_string = static_cast<std::int8_t>(from.signed_varint());
+        last_.fault = static_cast<Status>(from.signed_varint());
+        last_.pose_status = static_cast<Status>(from.signed_varint());
+        last_.tension_status = static_cast<Status>(from.signed_varint());
+    }
+    last_.digest = static_cast<std::uint32_t>(from.fixed(kDigestBytes));
+    cycle = last_;
+    return from.good();
+}
+
+} // namespace spidar

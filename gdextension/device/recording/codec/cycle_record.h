@@ -1,0 +1,58 @@
+// One servo cycle as it is handed from the loop to whoever writes it down: everything that ServoStep::step and
+// report_write() were given, and what came out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "device/contract/servo_snapshot.h"
+#include "device/contract/transport.h"
+
+namespace spidar {
+
+struct CycleInput {
+    DeviceReading reading;
+    double dt_s = 0.001;
+    Status read_status = Status::ok;
+    Status write_status = Status::ok; // what report_write() was told
+    bool may_arm_itself = false;
+};
+
+// What a replay must reproduce to the bit: what went to the motors, and what the game was told.
+struct CycleOutput {
+    static constexpr std::size_t kValues = 42;
+    // currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force scale, time_s
+    std::array<double, kValues> values{};
+    DeviceState state = DeviceState::closed;
+    GraspPhase grasp = GraspPhase::open;
+    std::int8_t fault_string = -1;
+    bool motors_on = false;
+    Status fault = Status::ok;
+    Status pose_status = Status::ok;
+    Status tension_status = Status::ok;
+};
+
+inline constexpr std::size_t kOutputTensions = 8; // where tensions_n begin in CycleOutput::values
+inline constexpr std::size_t kOutputTime = CycleOutput::kValues - 1;
+
+void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
+                 CycleOutput &output) noexcept;
+
+// All bits of an output as one number.
+[[nodiscard]] std::uint32_t digest_of(const CycleOutput &output) noexcept;
+
+// Tensions as they are stored to be read without a replay (unit: mN).
+using MillinewtonArray = std::array<std::int32_t, kStringCount>;
+[[nodiscard]] MillinewtonArray millinewtons_of(const CycleOutput &output) noexcept;
+
+struct CycleRecord {
+    CycleInput input;
+    CycleOutput output;
+    std::uint64_t lost_before = 0; // cycles that found the ring full, since the recording began
+    std::uint64_t tick = 0;        // cycles since the device was opened; this one included
+    bool segment_start = false;    // a memory of the step goes before it
+    bool command_is_new = false;   // differs from the cycle before
+};
+
+} // namespace spidar

@@ -1,0 +1,123 @@
+// Structs as rows of named 64-bit words. A struct lists its fields once, in a function
+//   for_each_field(struct, visit)   which calls   visit(name, index, field)
+// for every field; all that writes, reads, names or counts them goes through that list.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "core/base/types.h"
+
+namespace spidar {
+
+template <typename T>
+[[nodiscard]] std::uint64_t to_word(T value) noexcept {
+    if constexpr (std::is_same_v<T, double>) {
+        return std::bit_cast<std::uint64_t>(value);
+    } else {
+        static_assert(std::is_integral_v<T> || std::is_enum_v<T>);
+        return static_cast<std::uint64_t>(value);
+    }
+}
+
+template <typename T>
+void from_word(std::uint64_t word, T &value) noexcept {
+    if constexpr (std::is_same_v<T, double>) {
+        value = std::bit_cast<double>(word);
+    } else if constexpr (std::is_same_v<T, bool>) {
+        value = word != 0;
+    } else {
+        value = static_cast<T>(word);
+    }
+}
+
+// How many members a plain struct has: a list that was not told of a new one is found out when it is compiled.
+struct AnyMember {
+    template <typename T>
+    operator T() const noexcept; // never defined: only types are asked
+};
+template <typename Struct, typename... Members>
+[[nodiscard]] constexpr std::size_t count_members() noexcept {
+    if constexpr (requires { Struct{Members{}..., AnyMember{}}; }) {
+        return count_members<Struct, Members..., AnyMember>();
+    } else {
+        return sizeof...(Members);
+    }
+}
+
+// Helpers for lists: a vector is three fields, an array as many as it has elements. `index` counts within a name.
+template <typename Vector, typename Visit>
+void visit_vector(std::string_view name, int index, Vector &vector, Visit &&visit) {
+    for (int axis = 0; axis < 3; ++axis) {
+        visit(name, 3 * index + axis, vector[axis]);
+    }
+}
+
+template <typename Array, typename Visit>
+void visit_array(std::string_view name, Array &values, Visit &&visit) {
+    int index = 0;
+    for (auto &value : values) {
+        visit(name, index, value);
+        ++index;
+    }
+}
+
+template <typename Vectors, typename Visit>
+void visit_vectors(std::string_view name, Vectors &vectors, Visit &&visit) {
+    int index = 0;
+    for (auto &vector : vectors) {
+        visit_vector(name, index, vector, visit);
+        ++index;
+    }
+}
+
+// Fields in the list of a struct.
+template <typename Struct>
+[[nodiscard]] std::size_t count_fields(const Struct &value) noexcept {
+    std::size_t count = 0;
+    for_each_field(value, [&count](std::string_view, int, const auto &) { ++count; });
+    return count;
+}
+
+// Names, order and types of the list as one number: equal only when words mean the same.
+template <typename Struct>
+[[nodiscard]] std::uint64_t schema_of(const Struct &value) noexcept {
+    std::uint64_t hash = 0xCBF29CE484222325U; // FNV-1a
+    const auto mix = [&hash](std::uint64_t part) {
+        constexpr std::uint64_t kPrime = 0x100000001B3U;
+        hash = (hash ^ part) * kPrime;
+    };
+    for_each_field(value, [&mix](std::string_view name, int index, const auto &field) {
+        for (const char letter : name) {
+            mix(static_cast<std::uint8_t>(letter));
+        }
+        mix(static_cast<std::uint64_t>(index));
+        mix(std::is_same_v<std::remove_cvref_t<decltype(field)>, double> ? 1U : 2U);
+    });
+    return hash;
+}
+
+// words must have count_fields() elements.
+template <typename Struct>
+void store_words(const Struct &value, std::span<std::uint64_t> words) noexcept {
+    std::size_t next = 0;
+    for_each_field(value, [&](std::string_view, int, const auto &field) {
+        words[next] = to_word(field);
+        ++next;
+    });
+}
+
+template <typename Struct>
+void load_words(std::span<const std::uint64_t> words, Struct &value) noexcept {
+    std::size_t next = 0;
+    for_each_field(value, [&](std::string_view, int, auto &field) {
+        from_word(words[next], field);
+        ++next;
+    });
+}
+
+} // namespace spidar

@@ -1,0 +1,22 @@
+// The one list of what a DeviceReading holds beside its counts. Clock and sequence number stay the first two
+// (cycle_codec.cpp); new fields go to the end.
+#pragma once
+
+#include "device/contract/transport.h"
+#include "device/recording/codec/field_words.h"
+
+namespace spidar {
+
+static_assert(count_members<DeviceReading>() == 6, "DeviceReading changed: list its fields here");
+
+template <typename Reading, typename Visit>
+void for_each_field(Reading &reading, Visit &&visit) requires
+    std::is_same_v<std::remove_const_t<Reading>, DeviceReading> {
+    visit("device_time_us", 0, reading.device_time_us);
+    visit("sequence", 0, reading.sequence);
+    visit("buttons", 0, reading.buttons);
+    visit("zeroed", 0, reading.zeroed);
+    visit("device_status", 0, reading.device_status);
+}
+
+} // namespace spidar

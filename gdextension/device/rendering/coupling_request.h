@@ -1,0 +1,44 @@
+// The coupling at servo rate: a spring and damper in seven DOF to a proxy that moves on between the game's updates.
+#pragma once
+
+#include "device/contract/game_clock.h"
+#include "device/contract/haptic_command.h"
+#include "device/rendering/motion_filter.h"
+#include "device/settings/gain_clamp.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+class CouplingRequest {
+public:
+    void configure(const ServoSettings &settings) noexcept;
+    // A valid coupling (validate_coupling). What jumps against the last one is spread over one game period.
+    // now_s: the clock of Coupling::state_time_s.
+    GainClamp accept(const Coupling &coupling, double now_s) noexcept;
+    // Once a cycle, before accept(). True in the cycle in which the coupling is dropped for its age.
+    bool age(double dt_s) noexcept;
+    [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
+    [[nodiscard]] bool live() const noexcept { return live_; }
+
+private:
+    struct Proxy {
+        Vec3 position_m{0.0};
+        Mat3 rotation{1.0};
+        double grasp_angle_rad = 0.0;
+    };
+    [[nodiscard]] Proxy proxy_now() const noexcept;
+    [[nodiscard]] double faded_in() const noexcept;
+
+    double full_s_ = 0.1;
+    double gone_s_ = 0.3;
+    GainCaps caps_{};
+    Coupling coupling_{};
+    DofGains from_stiffness_{};
+    DofGains from_damping_{};
+    Displacement jump_{}; // where the last proxy was, relative to this one
+    bool live_ = false;
+    GameClock clock_;
+    double strength_ = 0.0;
+};
+
+} // namespace spidar

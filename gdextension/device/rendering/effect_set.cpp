@@ -1,0 +1,236 @@
+#include "device/rendering/effect_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/geometry/rotation_log.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr double kCrossFade_s = 0.016; // one game period
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+// Of the servo rate: more would not be a sine any more.
+constexpr double kHighestVibration = 0.25;
+// Beyond any frame: keeps absurd centres from overflowing.
+constexpr double kFarAway_m = 10.0;
+// A constant force beyond these is the sum's limit's business; this only keeps it from overflowing.
+constexpr double kMostForce = 1e6;
+
+bool has(const Effect &effect, std::size_t dof) noexcept {
+    return ((effect.dof_mask >> dof) & 1U) != 0;
+}
+
+DofGains lanes(const Vec3 &a, const Vec3 &b, double c) noexcept {
+    return {a.x, a.y, a.z, b.x, b.y, b.z, c};
+}
+
+// The cap that belongs to a DOF.
+double of_dof(std::size_t dof, double linear, double turn, double grasp) noexcept {
+    return dof < 3 ? linear : dof < 6 ? turn : grasp;
+}
+
+GainClamp::Gain gain_name(std::size_t dof, GainClamp::Gain linear, GainClamp::Gain turn,
+                          GainClamp::Gain grasp) noexcept {
+    return dof < 3 ? linear : dof < 6 ? turn : grasp;
+}
+
+} // namespace
+
+void EffectSet::configure(const ServoSettings &settings) noexcept {
+    *this = EffectSet();
+    fade_out_s_ = settings.safety.wrench_fade_s;
+    rate_hz_ = settings.rate_hz;
+    caps_ = gain_caps(settings.render, settings.rate_hz);
+}
+
+GainClamp EffectSet::cap(Effect &effect, std::int32_t index) const noexcept {
+    using Gain = GainClamp::Gain;
+    GainClamp clamp;
+    clamp.request = GainClamp::Request::effect;
+    for (int k = 0; k < 3; ++k) {
+        effect.centre_m[k] = std::clamp(effect.centre_m[k], -kFarAway_m, kFarAway_m);
+    }
+    effect.centre_grasp_rad = std::clamp(effect.centre_grasp_rad, -kFarAway_m, kFarAway_m);
+    effect.frequency_hz = std::min(effect.frequency_hz, kHighestVibration * rate_hz_);
+    for (std::size_t i = 0; i < effect.gain.size(); ++i) {
+        double &gain = effect.gain[i];
+        if (!has(effect, i)) {
+            gain = 0.0;
+            continue;
+        }
+        const double stiffest = of_dof(i, caps_.stiffness_n_m, caps_.turn_stiffness_nm_rad,
+                                       caps_.grasp_stiffness_nm_rad);
+        switch (effect.kind) {
+        case EffectKind::viscous:
+            gain = capped(gain,
+                          of_dof(i, caps_.damping_n_s_m, caps_.turn_damping_nm_s_rad,
+                                 caps_.grasp_damping_nm_s_rad),
+                          gain_name(i, Gain::damping, Gain::turn_damping, Gain::grasp_damping),
+                          index, false, clamp);
+            break;
+        case EffectKind::spring:
+            gain =
+                capped(gain, stiffest,
+                       gain_name(i, Gain::stiffness, Gain::turn_stiffness, Gain::grasp_stiffness),
+                       index, caps_.from_latency, clamp);
+            break;
+        case EffectKind::detents:
+            // The stiffness at the bottom of a valley is 2 pi / spacing times its depth.
+            gain = capped(gain, stiffest * effect.spacing[i] / kTurn_rad, Gain::force, index,
+                          caps_.from_latency, clamp);
+            break;
+        case EffectKind::vibration:
+            gain = capped(gain, of_dof(i, kMaxVibration_n, kMaxVibration_nm, kMaxVibration_nm),
+                          Gain::force, index, false, clamp);
+            break;
+        case EffectKind::constant:
+            gain = capped(gain, kMostForce, Gain::force, index, false, clamp);
+            break;
+        }
+    }
+    return clamp;
+}
+
+GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
+    GainClamp clamp;
+    const std::array<Track, kMaxEffects> old = tracks_;
+    const std::array<DofGains, kMaxEffects> given = last_;
+    std::array<bool, kMaxEffects> used{};
+    const std::size_t old_count = count_;
+    count_ = static_cast<std::size_t>(std::clamp(command.effect_count, 0, kMaxEffects));
+    last_ = {};
+    for (std::size_t i = 0; i < count_; ++i) {
+        Track track;
+        track.effect = command.effects[i];
+        const GainClamp own = cap(track.effect, static_cast<std::int32_t>(i));
+        clamp = clamp.gain == GainClamp::Gain::none ? own : clamp;
+        for (std::size_t j = 0; j < old_count; ++j) {
+            const Effect &before = old[j].effect;
+            if (used[j] || before.id != track.effect.id || before.kind != track.effect.kind) {
+                continue;
+            }
+            used[j] = true;
+            last_[i] = given[j];
+            if (before.renewal == track.effect.renewal) {
+                track = old[j]; // not renewed: as it was, or over
+            } else {
+                track.from = gain_now(old[j]);
+                track.phase_rad = old[j].phase_rad;
+            }
+            break;
+        }
+        tracks_[i] = track;
+    }
+    DofGains gone{};
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+        gone[i] = leaving_part_ * leaving_[i];
+        for (std::size_t j = 0; j < old_count; ++j) {
+            gone[i] += used[j] ? 0.0 : given[j][i];
+        }
+    }
+    leaving_ = gone;
+    leaving_part_ = 1.0;
+    return clamp;
+}
+
+int EffectSet::age(double dt_s) noexcept {
+    leaving_part_ = std::max(0.0, leaving_part_ - dt_s / kCrossFade_s);
+    int ended = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        Track &track = tracks_[i];
+        track.age_s += dt_s;
+        track.fade_s += dt_s;
+        track.phase_rad =
+            std::fmod(track.phase_rad + kTurn_rad * track.effect.frequency_hz * dt_s, kTurn_rad);
+        if (!track.ended && track.age_s >= track.effect.duration_s + fade_out_s_) {
+            track.ended = true;
+            ++ended;
+        }
+    }
+    return ended;
+}
+
+bool EffectSet::empty() const noexcept {
+    bool over = leaving_part_ <= 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        over = over && tracks_[i].ended;
+    }
+    return over;
+}
+
+DofGains EffectSet::gain_now(const Track &track) const noexcept {
+    const double s = std::min(1.0, track.fade_s / kCrossFade_s);
+    const double past_s = track.age_s - track.effect.duration_s;
+    const double left =
+        track.ended ? 0.0 : std::clamp(1.0 - std::max(0.0, past_s) / fade_out_s_, 0.0, 1.0);
+    DofGains gain{};
+    for (std::size_t i = 0; i < gain.size(); ++i) {
+        gain[i] = left * (track.from[i] + s * (track.effect.gain[i] - track.from[i]));
+    }
+    return gain;
+}
+
+DofGains EffectSet::force(const Track &track, const GripMotion &motion) const noexcept {
+    const Effect &effect = track.effect;
+    DofGains result = gain_now(track);
+    switch (effect.kind) {
+    case EffectKind::constant:
+        return result;
+    case EffectKind::vibration: {
+        const double wave = std::sin(track.phase_rad);
+        for (double &value : result) {
+            value *= wave;
+        }
+        return result;
+    }
+    case EffectKind::viscous: {
+        const DofGains v = lanes(motion.velocity.linear_m_s, motion.velocity.angular_rad_s,
+                                 motion.velocity.grasp_rate_rad_s);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] *= -v[i];
+        }
+        return result;
+    }
+    case EffectKind::spring:
+    case EffectKind::detents:
+        break;
+    }
+    const GripState &grip = motion.grip;
+    const DofGains away =
+        lanes(grip.pose.position_m + motion.ahead.linear_m - effect.centre_m,
+              rotation_log(grip.frame.rotation * glm::transpose(effect.centre_rotation)) +
+                  motion.ahead.angular_rad,
+              grip.frame.grasp_angle_rad + motion.ahead.grasp_rad - effect.centre_grasp_rad);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (!has(effect, i)) {
+            result[i] = 0.0;
+        } else if (effect.kind == EffectKind::spring) {
+            result[i] *= -away[i];
+        } else {
+            result[i] *= -std::sin(kTurn_rad * away[i] / effect.spacing[i]);
+        }
+    }
+    return result;
+}
+
+Wrench EffectSet::render(const GripMotion &motion) noexcept {
+    DofGains sum{};
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        sum[i] = leaving_part_ * leaving_[i];
+    }
+    for (std::size_t t = 0; t < count_; ++t) {
+        last_[t] = force(tracks_[t], motion);
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum[i] += last_[t][i];
+        }
+    }
+    return {Vec3(sum[0], sum[1], sum[2]), Vec3(sum[3], sum[4], sum[5]), sum[6]};
+}
+
+} // namespace spidar

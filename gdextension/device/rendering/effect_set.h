@@ -1,0 +1,46 @@
+// Effects at servo rate: viscous field, constant force, spring to a point, vibration, detents, on any DOF.
+#pragma once
+
+#include "device/contract/haptic_command.h"
+#include "device/rendering/motion_filter.h"
+#include "device/settings/gain_clamp.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+class EffectSet {
+public:
+    void configure(const ServoSettings &settings) noexcept;
+    // A valid set (validate_effects) replaces the last one. The same id and kind carries on; what begins, ends or
+    // changes does so over one game period.
+    GainClamp accept(const HapticCommand &command) noexcept;
+    // Once a cycle, before accept(). Number of effects that ended in this cycle.
+    int age(double dt_s) noexcept;
+    Wrench render(const GripMotion &motion) noexcept;
+    [[nodiscard]] bool empty() const noexcept;
+
+private:
+    struct Track {
+        Effect effect;       // as last given, capped
+        DofGains from{};     // gain at the time of the last change
+        double fade_s = 0.0; // since then
+        double age_s = 0.0;
+        double phase_rad = 0.0;
+        bool ended = false;
+    };
+    [[nodiscard]] DofGains gain_now(const Track &track) const noexcept;
+    [[nodiscard]] DofGains force(const Track &track, const GripMotion &motion) const noexcept;
+    GainClamp cap(Effect &effect, std::int32_t index) const noexcept;
+
+    double fade_out_s_ = 0.05;
+    double rate_hz_ = 1000.0;
+    GainCaps caps_{};
+    std::array<Track, kMaxEffects> tracks_{};
+    std::size_t count_ = 0;
+    // What effects gave that were taken out: falls to zero over one game period.
+    DofGains leaving_{};
+    double leaving_part_ = 0.0;
+    std::array<DofGains, kMaxEffects> last_{}; // what each gave in the last cycle
+};
+
+} // namespace spidar

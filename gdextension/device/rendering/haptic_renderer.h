@@ -1,0 +1,68 @@
+// All requests -> one wrench, every cycle: contacts, coupling, wrench, effects and the calibrated load of the grip
+// itself add up; each ages and fades on its own.
+#pragma once
+
+#include "device/contact/contact_renderer.h"
+#include "device/rendering/coupling_request.h"
+#include "device/rendering/effect_set.h"
+#include "device/rendering/passivity.h"
+#include "device/rendering/wrench_request.h"
+
+namespace spidar {
+
+class HapticRenderer {
+public:
+    void configure(const ServoSettings &settings) noexcept;
+    // Takes this command's requests as already seen.
+    void acknowledge(const HapticCommand &command) noexcept;
+
+    // Once a cycle, first: ages what there is, then takes what is new. What is not valid is counted, and the last
+    // good request stands.
+    // now_s: ServoSnapshot::time_s of this cycle.
+    void take(const HapticCommand &command, double now_s, double dt_s,
+              ServoCounters &counters) noexcept;
+
+    // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. trusted: the pose is
+    // of now; otherwise nothing that depends on speed acts.
+    Wrench render(const GripState &grip, const Displacement &moved, bool trusted,
+                  double dt_s) noexcept;
+    // What becomes of it until the next cycle: `scale` of what render() returned is asked of the strings,
+    void given(double scale, double dt_s) noexcept;
+    // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
+    void achieved(const Wrench &wrench) noexcept { observer_.hold(wrench); }
+
+    // Of what render() returned last, the part of the contacts.
+    [[nodiscard]] const Wrench &contact_push() const noexcept { return contact_push_; }
+
+    void report(ServoSnapshot &snapshot) const noexcept;
+
+    // Nothing new in this command.
+    [[nodiscard]] bool has_seen(const HapticCommand &command) const noexcept;
+    // Nothing but a raw wrench is asked, and nothing moves: while that is steady, render() gives the same again and
+    // changes nothing.
+    [[nodiscard]] bool at_rest() const noexcept;
+    // Of the raw wrench, over the next time step.
+    [[nodiscard]] bool steady(double dt_s) const noexcept { return wrench_.steady(dt_s); }
+    // In place of take(), render() and given(), at rest.
+    void wait(double dt_s) noexcept;
+
+private:
+    void note(const GainClamp &clamp, ServoCounters &counters) noexcept;
+
+    MotionFilter motion_;
+    ContactRenderer contacts_;
+    CouplingRequest coupling_;
+    WrenchRequest wrench_;
+    EffectSet effects_;
+    PassivityController controller_;
+    EnergyObserver observer_;
+    Wrench contact_push_{};
+    Wrench load_{}; // holds up the grip's weight
+    GainClamp last_clamp_{};
+    std::uint64_t wrench_sequence_ = 0;
+    std::uint64_t contacts_sequence_ = 0;
+    std::uint64_t coupling_sequence_ = 0;
+    std::uint64_t effects_sequence_ = 0;
+};
+
+} // namespace spidar

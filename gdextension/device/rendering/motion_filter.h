@@ -1,0 +1,65 @@
+// What contacts, coupling and effects see of the grip's motion: without the swing of rotors against grip on the
+// strings, and a little ahead, by what the loop delays. A pose that is fed back without this drives that swing.
+#pragma once
+
+#include <array>
+
+#include "device/contract/servo_snapshot.h"
+#include "device/settings/render_settings.h"
+
+namespace spidar {
+
+// A small move of the grip: dP0, turn, d(grasp_angle).
+struct Displacement {
+    Vec3 linear_m{0.0};
+    Vec3 angular_rad{0.0};
+    double grasp_rad = 0.0;
+};
+
+// One cycle's input of the renderer: the pose as measured, where it will be relative to that, and how fast.
+struct GripMotion {
+    GripState grip;
+    Displacement ahead; // filtered and predicted pose, relative to grip.pose
+    Twist velocity;     // filtered
+    // How far ahead a steady motion is seen: what moves beside the grip, such as a wall, is to be looked at then.
+    double lead_s = 0.0;
+};
+
+class MotionFilter {
+public:
+    void configure(const RenderSettings &settings, double rate_hz) noexcept;
+    // At rest: nothing ahead, no velocity.
+    void reset() noexcept;
+    // moved: since the last cycle, as measured.
+    void update(const Displacement &moved, double dt_s) noexcept;
+
+    [[nodiscard]] Displacement ahead() const noexcept;
+    [[nodiscard]] Twist velocity() const noexcept;
+    // The prediction less the delay of the notch.
+    [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
+    // The grip stood still long enough: further updates without motion change nothing.
+    [[nodiscard]] bool settled() const noexcept { return settled_; }
+
+private:
+    // One lane a DOF, padded to whole vectors.
+    static constexpr std::size_t kLanes = 8;
+    using Lanes = std::array<double, kLanes>;
+
+    double cutoff_rad_s_ = 0.0;
+    double filter_share_ = 0.0; // of a time step of filtered_dt_s_
+    double filtered_dt_s_ = 0.0;
+    double lead_s_ = 0.0;
+    double steady_lead_s_ = 0.0;
+    // offset = filtered - measured position = (c0 + c1 / z) / (1 + a1 / z + a2 / z^2) moved
+    double c0_ = 0.0;
+    double c1_ = 0.0;
+    double a1_ = 0.0;
+    double a2_ = 0.0;
+    Lanes moved_{};
+    Lanes offset_{};
+    Lanes last_offset_{};
+    Lanes velocity_{};
+    bool settled_ = true;
+};
+
+} // namespace spidar

@@ -1,0 +1,90 @@
+#include "device/rendering/passivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+
+namespace {
+
+// A slow part below this (N, N m) is over: nobody feels it end.
+constexpr double kNoForce = 1e-5;
+// What is stored below this (a millimetre against that force) is forgotten with it.
+constexpr double kNoEnergy_j = 1e-8;
+
+DofGains lanes(const Wrench &w) noexcept {
+    return {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
+            w.moment_nm.y, w.moment_nm.z, w.grasp_torque_nm};
+}
+
+DofGains lanes(const Displacement &d) noexcept {
+    return {d.linear_m.x,    d.linear_m.y,    d.linear_m.z, d.angular_rad.x,
+            d.angular_rad.y, d.angular_rad.z, d.grasp_rad};
+}
+
+DofGains lanes(const Twist &t) noexcept {
+    return {t.linear_m_s.x,    t.linear_m_s.y,    t.linear_m_s.z,    t.angular_rad_s.x,
+            t.angular_rad_s.y, t.angular_rad_s.z, t.grasp_rate_rad_s};
+}
+
+} // namespace
+
+void EnergyObserver::update(const Displacement &moved) noexcept {
+    const DofGains move = lanes(moved);
+    for (std::size_t i = 0; i < move.size(); ++i) {
+        injected_j_[i] += held_[i] * move[i];
+    }
+}
+
+void EnergyObserver::hold(const Wrench &wrench) noexcept {
+    held_ = lanes(wrench);
+}
+
+void PassivityController::configure(const DofGains &most_damping) noexcept {
+    *this = PassivityController();
+    most_ = most_damping;
+}
+
+void PassivityController::reset() noexcept {
+    slow_ = {};
+    changing_ = {};
+    store_j_ = {};
+    acting_ = false;
+    settled_ = true;
+}
+
+Wrench PassivityController::correct(const Wrench &asked, const Displacement &moved,
+                                    const Twist &velocity, double dt_s) noexcept {
+    const DofGains force = lanes(asked);
+    if (settled_ && force == DofGains{}) {
+        return asked; // nothing held, nothing stored: motion alone changes nothing
+    }
+    const DofGains move = lanes(moved);
+    const DofGains speed = lanes(velocity);
+    const double blend = dt_s / (dt_s + kSlow_s);
+    const double keep = 1.0 - dt_s / (dt_s + kMemory_s);
+    DofGains out = force;
+    acting_ = false;
+    bool moving = false;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        store_j_[i] = std::clamp(keep * store_j_[i] - changing_[i] * move[i], -kStore_j, kStore_j);
+        slow_[i] += blend * (force[i] - slow_[i]);
+        if (store_j_[i] < 0.0 && most_[i] > 0.0) {
+            const double full = speed[i] * speed[i] * dt_s;
+            // What would be taken back in this cycle, as far as the cap allows.
+            const double damping = -store_j_[i] < most_[i] * full ? -store_j_[i] / full : most_[i];
+            out[i] -= damping * speed[i];
+            acting_ = acting_ || speed[i] != 0.0;
+        }
+        changing_[i] = out[i] - slow_[i];
+        moving = moving || force[i] != 0.0 || std::abs(slow_[i]) > kNoForce ||
+                 std::abs(store_j_[i]) > kNoEnergy_j;
+    }
+    settled_ = false;
+    if (!moving) {
+        reset();
+    }
+    return {Vec3(out[0], out[1], out[2]), Vec3(out[3], out[4], out[5]), out[6]};
+}
+
+} // namespace spidar

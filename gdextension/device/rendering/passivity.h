@@ -1,0 +1,56 @@
+// Energy at the grip, per DOF: an observer of what the requests do to the hand, and a controller that takes back
+// what a wrench or coupling held between two frames of the game gives too much (Hannaford and Ryu 2002).
+#pragma once
+
+#include "device/contract/haptic_command.h"
+#include "device/rendering/motion_filter.h"
+
+namespace spidar {
+
+// The work is exact for a wrench that is held over each cycle: force of the last cycle times the move since.
+class EnergyObserver {
+public:
+    void reset() noexcept { *this = EnergyObserver(); }
+    // moved: in the cycle during which the last held() acted.
+    void update(const Displacement &moved) noexcept;
+    // What acts until the next update.
+    void hold(const Wrench &wrench) noexcept;
+    // Work done on the hand since the start (unit: J).
+    [[nodiscard]] const DofGains &injected_j() const noexcept { return injected_j_; }
+
+private:
+    DofGains held_{};
+    DofGains injected_j_{};
+};
+
+// Damps a DOF while its changing part has given the hand more than it took. A slow force, such as a weight, is the
+// game's own will and is left alone: only what changes within kSlow_s is watched.
+class PassivityController {
+public:
+    static constexpr double kSlow_s = 0.2;
+    // No more than this is remembered as taken, so that a long hold does not pay for a later blow.
+    static constexpr double kStore_j = 0.005;
+    // Both what was taken and what was given are forgotten over this: each tap is judged by itself.
+    static constexpr double kMemory_s = 0.2;
+
+    // Damping that may be added; all zero switches the controller off.
+    void configure(const DofGains &most_damping) noexcept;
+    void reset() noexcept;
+    // The wrench to give in place of `asked`.
+    Wrench correct(const Wrench &asked, const Displacement &moved, const Twist &velocity,
+                   double dt_s) noexcept;
+    // Damping of the last cycle was not zero.
+    [[nodiscard]] bool acting() const noexcept { return acting_; }
+    // Nothing changes any more while nothing is asked, wherever the grip moves.
+    [[nodiscard]] bool settled() const noexcept { return settled_; }
+
+private:
+    DofGains most_{};
+    DofGains slow_{};
+    DofGains changing_{}; // held since the last cycle
+    DofGains store_j_{};
+    bool acting_ = false;
+    bool settled_ = true;
+};
+
+} // namespace spidar

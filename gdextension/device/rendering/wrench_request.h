@@ -1,0 +1,42 @@
+// The raw 7-D wrench: full for as long as it was asked for, then faded; and the limits that every wrench keeps.
+#pragma once
+
+#include "device/settings/gain_clamp.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+[[nodiscard]] inline Wrench operator+(const Wrench &a, const Wrench &b) noexcept {
+    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm,
+            a.grasp_torque_nm + b.grasp_torque_nm};
+}
+[[nodiscard]] inline Wrench operator*(double factor, const Wrench &wrench) noexcept {
+    return {factor * wrench.force_n, factor * wrench.moment_nm, factor * wrench.grasp_torque_nm};
+}
+
+// The factor (0..1] that brings force, moment and grasp torque inside their limits. One factor for all seven
+// DOF: the direction of the wrench is kept. Holds for every finite wrench, 1e308 too; 0 for one that is not.
+[[nodiscard]] double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept;
+
+class WrenchRequest {
+public:
+    void configure(const SafetySettings &safety) noexcept;
+    // A valid request (validate_wrench). Says when it had to be brought down to a limit.
+    GainClamp accept(const Wrench &wrench, double duration_s) noexcept;
+    // Once a cycle, before accept(). True in the cycle in which the request ends.
+    bool age(double dt_s) noexcept;
+    [[nodiscard]] Wrench value() const noexcept;
+    // Not asked for, or still in full after this time step.
+    [[nodiscard]] bool steady(double dt_s) const noexcept {
+        return !live_ || age_s_ + dt_s <= duration_s_;
+    }
+
+private:
+    SafetySettings safety_{};
+    Wrench wrench_{};
+    double duration_s_ = 0.0;
+    double age_s_ = 0.0;
+    bool live_ = false;
+};
+
+} // namespace spidar

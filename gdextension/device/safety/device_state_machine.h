@@ -1,0 +1,94 @@
+// CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED and the latched FAULT; with the ramps that scale
+// tensions and wrench. A device without a zero goes CONNECTED -> TAUT -> CALIBRATED first: the strings are drawn
+// taut, the zero is taken and checked, and they are held taut until arm().
+#pragma once
+
+#include "device/contract/servo_snapshot.h"
+
+namespace spidar {
+
+class DeviceStateMachine {
+public:
+    struct Inputs {
+        bool forces_enabled = false;
+        bool arm = false; // edges
+        bool disarm = false;
+        bool zero = false;
+        bool tracking = false;       // the newest sample gave a pose
+        bool may_arm_itself = false; // simulated device
+        bool game_alive = true;
+        bool hand_present = true;
+        bool device_ready = true; // it has power and no fault of its own
+    };
+    // What a cycle asks of its caller, and what there is to tell.
+    struct Outcome {
+        bool take_zero =
+            false; // the strings are taut: the counts of now are those of the home pose
+        bool zero_needed = false; // arm() or forces without a zero
+        bool no_hand = false;     // arm() without a hand
+        bool game_stalled = false;
+    };
+
+    // Closed, no fault, no edge pending.
+    void configure(double arming_time_s) noexcept;
+
+    // The device answers: closed -> connected, unless it was lost.
+    void open(bool zero_known) noexcept;
+    // The device is gone: closed, until clear() while it answers again.
+    void lose(Status why) noexcept;
+    // Motors off, latched. The first fault stands. string: 0-7 or -1.
+    void raise(Status why, int string) noexcept;
+    // Forces fade; then as after disarm().
+    void stand_down() noexcept;
+    // Leaves fault, or closed after lose(). `answers`: the device was read in this cycle.
+    void clear(bool answers) noexcept;
+    // What the device says of its counts: they have a zero, or they began anew.
+    void set_zero_known(bool known) noexcept { zero_known_ = known; }
+    // The verdict of the check in TAUT.
+    void confirm_zero() noexcept;
+    void refuse_zero() noexcept;
+
+    // One tick of edges and of the ramps.
+    Outcome advance(const Inputs &inputs, double dt_s) noexcept;
+
+    [[nodiscard]] DeviceState state() const noexcept { return state_; }
+    [[nodiscard]] Status fault() const noexcept { return fault_; }
+    [[nodiscard]] int fault_string() const noexcept { return fault_string_; }
+    // Of the tensions and of the wrench, 0..1 each.
+    [[nodiscard]] double tension_scale() const noexcept { return tension_scale_; }
+    [[nodiscard]] double wrench_scale() const noexcept { return wrench_scale_; }
+    [[nodiscard]] double scale() const noexcept { return tension_scale_ * wrench_scale_; }
+    [[nodiscard]] bool motors_on() const noexcept;
+    [[nodiscard]] bool zero_known() const noexcept { return zero_known_; }
+    // The next advance() without an edge, and with forces enabled or not as now, changes nothing.
+    [[nodiscard]] bool at_rest() const noexcept;
+    // TAUT, zero taken: the motion of the grip is being checked.
+    [[nodiscard]] bool checking_zero() const noexcept {
+        return state_ == DeviceState::taut && zero_taken_;
+    }
+
+private:
+    void disarm() noexcept;
+    void rest() noexcept;
+    Outcome advance_connected(const Inputs &inputs, bool wanted) noexcept;
+    Outcome advance_taut(const Inputs &inputs, double dt_s) noexcept;
+    Outcome advance_calibrated(const Inputs &inputs, bool wanted) noexcept;
+
+    DeviceState state_ = DeviceState::closed;
+    Status fault_ = Status::ok;
+    int fault_string_ = -1;
+    double tension_scale_ = 0.0;
+    double wrench_scale_ = 0.0;
+    double arming_time_s_ = 1.0;
+    bool lost_ = false;
+    bool zero_known_ = false;
+    bool zero_taken_ = false;
+    bool ramps_wrench_ = false; // arming from CALIBRATED: the tensions are up already
+    bool forces_were_enabled_ = false;
+    // After disarm() or a fault even a simulated device waits for arm() or for forces_enabled to be toggled.
+    bool stay_disarmed_ = false;
+    // An arm() that could not act at once (fading, no pose yet) stands for this long.
+    double arm_pending_s_ = 0.0;
+};
+
+} // namespace spidar

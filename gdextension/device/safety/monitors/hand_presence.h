@@ -1,0 +1,58 @@
+// Does a hand hold the grip? No sensor tells; but a hand is never quite still, and strings that hold a grip alone
+// are. A device with a real hand arms only when the grip moved lately.
+#pragma once
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "device/contract/servo_snapshot.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+class HandPresence {
+public:
+    // Twenty counts at the pole ends: more than an encoder flickers, less than any hand stays within.
+    static constexpr double kMove_m = 0.0005;
+
+    void configure(const SafetySettings &safety) noexcept {
+        limit_s_ = safety.hand_presence_s;
+        restart();
+    }
+    // Still for longer than any limit, until it moves.
+    void restart() noexcept {
+        known_ = false;
+        moved_ = false;
+        still_s_ = 0.0;
+    }
+    // The pose is that of the last update().
+    void wait(double dt_s) noexcept { still_s_ += dt_s; }
+    void update(const GripPose &pose, double dt_s) noexcept {
+        const auto square = [](const Vec3 &apart) { return glm::dot(apart, apart); };
+        const double moved_m2 =
+            std::max({square(pose.position_m - anchor_.position_m),
+                      square(pose.r1_m - anchor_.r1_m), square(pose.r2_m - anchor_.r2_m)});
+        still_s_ += dt_s;
+        if (known_ && !(moved_m2 > kMove_m * kMove_m)) {
+            return;
+        }
+        moved_ = known_;
+        known_ = true;
+        anchor_ = pose;
+        still_s_ = 0.0;
+    }
+    // Always, when the limit is 0.
+    [[nodiscard]] bool present() const noexcept {
+        return !(limit_s_ > 0.0) || (moved_ && still_s_ <= limit_s_);
+    }
+
+private:
+    double limit_s_ = 0.0;
+    double still_s_ = 0.0;
+    bool known_ = false;
+    bool moved_ = false;
+    GripPose anchor_{};
+};
+
+} // namespace spidar

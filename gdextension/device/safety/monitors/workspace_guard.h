@@ -1,0 +1,31 @@
+// The edge of the workspace: a soft wall before the reach of the grip ends, and less force where the strings can
+// hardly tell or turn it.
+#pragma once
+
+#include "device/contract/servo_snapshot.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+class WorkspaceGuard {
+public:
+    // The reach: the box around the motors, less half a pole.
+    void configure(const ServoSettings &settings) noexcept;
+
+    // Pushes P0 back inside; zero inside.
+    [[nodiscard]] Wrench wall(const GripState &grip) const noexcept;
+    // Scale of all requests: 1, and down to 0 where the pose loses a direction.
+    [[nodiscard]] static double scale(const GripState &grip) noexcept;
+    // How far P0 is beyond the start of the wall (unit: m); 0 inside.
+    [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
+    // Opposite corners of the box in which there is no wall (device frame).
+    [[nodiscard]] const Vec3 &low_m() const noexcept { return low_m_; }
+    [[nodiscard]] const Vec3 &high_m() const noexcept { return high_m_; }
+
+private:
+    Vec3 low_m_{0.0};
+    Vec3 high_m_{0.0};
+    bool on_ = false;
+};
+
+} // namespace spidar

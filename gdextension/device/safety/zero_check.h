@@ -1,0 +1,56 @@
+// Was the zero taken at home, with the strings in their right places? At one pose nobody can tell: eight lengths
+// that are called home are home. But moved from there, a wrong zero, swapped or reversed strings contradict each
+// other, and a right zero does not.
+#pragma once
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "device/contract/servo_snapshot.h"
+
+namespace spidar {
+
+class ZeroCheck {
+public:
+    enum class Verdict : std::uint8_t { pending, confirmed, refused };
+
+    // How far and how much the grip has to move before the zero is believed.
+    static constexpr double kReach_m = 0.040;
+    static constexpr double kTravel_m = 0.150;
+    // Disagreement above this refuses: 30 mm beside home give 2 mm within that reach, a calibrated device 0.5 mm.
+    static constexpr double kParity_m = 0.001;
+    // For this long: one bad sample refuses nothing.
+    static constexpr double kHold_s = 0.020;
+
+    void begin() noexcept { *this = ZeroCheck(); }
+    Verdict update(const GripPose &pose, double parity_m, double dt_s) noexcept {
+        if (!started_) {
+            started_ = true;
+            home_m_ = pose.position_m;
+            last_m_ = pose.position_m;
+        }
+        travel_m_ += glm::distance(pose.position_m, last_m_);
+        last_m_ = pose.position_m;
+        reach_m_ = std::max(reach_m_, glm::distance(pose.position_m, home_m_));
+        worst_m_ = std::max(worst_m_, parity_m);
+        wrong_s_ = !(parity_m <= kParity_m) ? wrong_s_ + dt_s : 0.0; // NaN is wrong
+        if (wrong_s_ >= kHold_s) {
+            return Verdict::refused;
+        }
+        return reach_m_ >= kReach_m && travel_m_ >= kTravel_m ? Verdict::confirmed
+                                                              : Verdict::pending;
+    }
+    [[nodiscard]] double worst_m() const noexcept { return worst_m_; }
+
+private:
+    bool started_ = false;
+    Vec3 home_m_{0.0};
+    Vec3 last_m_{0.0};
+    double reach_m_ = 0.0;
+    double travel_m_ = 0.0;
+    double worst_m_ = 0.0;
+    double wrong_s_ = 0.0;
+};
+
+} // namespace spidar

@@ -1,0 +1,58 @@
+// Why a gain was brought down: what was asked, what is given instead, and what set the limit.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "device/settings/render_settings.h"
+
+namespace spidar {
+
+struct GainClamp {
+    enum class Gain : std::uint8_t {
+        none = 0,
+        stiffness = 1,       // N/m
+        damping = 2,         // N s/m
+        turn_stiffness = 3,  // N m/rad
+        turn_damping = 4,    // N m s/rad
+        grasp_stiffness = 5, // N m/rad of grasp_angle
+        grasp_damping = 6,   // N m s/rad of grasp_angle
+        friction = 7,
+        speed = 8,   // m/s or rad/s, of a plane or proxy
+        force = 9,   // N or N m, of a vibration
+        wrench = 10, // the whole request, scaled: `asked` and `given` in parts of it
+    };
+    enum class Request : std::uint8_t { contact, coupling, effect, wrench };
+
+    Gain gain = Gain::none;
+    Request request = Request::contact;
+    bool from_latency = false; // latency and rate set the limit, not a setting
+    std::int32_t index = 0;    // contact, effect or DOF
+    double asked = 0.0;
+    double given = 0.0;
+
+    explicit operator bool() const noexcept { return gain != Gain::none; }
+};
+
+// Brings |value| down to the cap and notes it; the first note of a request stands.
+inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_t index,
+                     bool from_latency, GainClamp &clamp) noexcept {
+    if (std::abs(value) <= cap) {
+        return value;
+    }
+    if (clamp.gain == GainClamp::Gain::none) {
+        clamp.gain = gain;
+        clamp.from_latency = from_latency;
+        clamp.index = index;
+        clamp.asked = value;
+        clamp.given = std::copysign(cap, value);
+    }
+    return std::copysign(cap, value);
+}
+
+// One sentence: what was asked, what is given, why, and the remedy. Empty when nothing was clamped. Allocates.
+[[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
+                                   double rate_hz);
+
+} // namespace spidar

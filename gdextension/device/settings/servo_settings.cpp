@@ -1,0 +1,139 @@
+#include "device/settings/servo_settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace spidar {
+
+namespace {
+
+struct Range {
+    const char *field;
+    double value;
+    const char *unit;
+    double least;
+    double most;
+};
+
+std::string complaint(const Range &range) {
+    if (range.value >= range.least && range.value <= range.most) {
+        return {};
+    }
+    char text[256];
+    std::snprintf(text, sizeof text, "%s is %g %s; set it between %g and %g %s.", range.field,
+                  range.value, range.unit, range.least, range.most, range.unit);
+    return text;
+}
+
+std::string validate_safety(const SafetySettings &safety) {
+    // Upper ends: what still protects a hand; lower ends: what still works.
+    const Range ranges[] = {
+        {"safety.arming_time_s", safety.arming_time_s, "s", 0.001, 60.0},
+        {"safety.tension_slew_n_per_ms", safety.tension_slew_n_per_ms, "N/ms", 0.001, 100.0},
+        {"safety.max_force_n", safety.max_force_n, "N", 0.0, 100.0},
+        {"safety.max_moment_nm", safety.max_moment_nm, "N m", 0.0, 10.0},
+        {"safety.max_grasp_torque_nm", safety.max_grasp_torque_nm, "N m", 0.0, 10.0},
+        {"safety.max_count_speed_m_s", safety.max_count_speed_m_s, "m/s", 0.1, 100.0},
+        {"safety.max_bad_samples", static_cast<double>(safety.max_bad_samples), "samples", 1.0,
+         100.0},
+        {"safety.read_timeout_fade_s", safety.read_timeout_fade_s, "s", 0.001, 1.0},
+        {"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s", 0.001, 1.0},
+        {"safety.max_grip_speed_m_s", safety.max_grip_speed_m_s, "m/s", 0.1, 10.0},
+        {"safety.fade_grip_speed_m_s", safety.fade_grip_speed_m_s, "m/s", 0.1, 10.0},
+        {"safety.fade_turn_rate_rad_s", safety.fade_turn_rate_rad_s, "rad/s", 1.0, 200.0},
+        {"safety.max_turn_rate_rad_s", safety.max_turn_rate_rad_s, "rad/s", 1.0, 200.0},
+        {"safety.game_timeout_s", safety.game_timeout_s, "s", 0.05, 60.0},
+        {"safety.continuous_tension_n", safety.continuous_tension_n, "N", 0.1, 100.0},
+        {"safety.thermal_time_s", safety.thermal_time_s, "s", 0.1, 1000.0},
+        {"safety.string_error_fade_m", safety.string_error_fade_m, "m", 0.0005, 0.1},
+        {"safety.string_error_fault_m", safety.string_error_fault_m, "m", 0.001, 0.1},
+        {"safety.workspace_margin_m", safety.workspace_margin_m, "m", 0.0, 0.2},
+        {"safety.hand_presence_s", safety.hand_presence_s, "s", 0.0, 3600.0},
+        {"safety.wrench_fade_s", safety.wrench_fade_s, "s", 0.001, 1.0},
+        {"safety.contacts_full_s", safety.contacts_full_s, "s", 0.001, 1.0},
+        {"safety.contacts_gone_s", safety.contacts_gone_s, "s", 0.002, 2.0},
+    };
+    for (const Range &range : ranges) {
+        std::string problem = complaint(range);
+        if (!problem.empty()) {
+            return problem;
+        }
+    }
+    if (!(safety.read_timeout_fault_s >= safety.read_timeout_fade_s)) {
+        return complaint({"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s",
+                          safety.read_timeout_fade_s, 1.0});
+    }
+    constexpr double kLeastFade_s = 0.001;
+    return complaint({"safety.contacts_gone_s", safety.contacts_gone_s, "s",
+                      safety.contacts_full_s + kLeastFade_s, 2.0});
+}
+
+} // namespace
+
+std::string validate(const ServoSettings &settings) {
+    const Range ranges[] = {
+        {"rate_hz", settings.rate_hz, "Hz", 100.0, 4000.0},
+        {"velocity_cutoff_hz", settings.velocity_cutoff_hz, "Hz", 1.0, 1000.0},
+        {"reopen_interval_s", settings.reopen_interval_s, "s", 0.0, 60.0},
+    };
+    for (const Range &range : ranges) {
+        std::string own = complaint(range);
+        if (!own.empty()) {
+            return own;
+        }
+    }
+    std::string problem = validate(settings.frame);
+    if (problem.empty()) {
+        problem = validate(settings.grip, settings.frame);
+    }
+    if (problem.empty()) {
+        problem = validate(settings.strings);
+    }
+    if (problem.empty()) {
+        problem = validate(settings.corrections);
+    }
+    if (problem.empty() && settings.corrections.pulley_radius_m != 0.0) {
+        problem = complaint({"corrections.pulley_radius_m (frame.pulley_radius_m is the one used)",
+                             settings.corrections.pulley_radius_m, "m", 0.0, 0.0});
+    }
+    if (problem.empty()) {
+        problem = validate(settings.motors);
+    }
+    if (problem.empty()) {
+        problem = validate(settings.tension);
+    }
+    if (problem.empty() && settings.grip.kind == GripKind::rigid &&
+        (settings.tension.dof_mask & kNoGrasp) == 0) {
+        return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "
+               "bit k "
+               "for DOF k of the wrench.";
+    }
+    if (problem.empty()) {
+        problem = validate(settings.grasp);
+    }
+    if (problem.empty()) {
+        problem = validate_safety(settings.safety);
+    }
+    if (problem.empty()) {
+        problem = validate(settings.render);
+    }
+    if (problem.empty()) {
+        const StringArray strongest_n = max_tensions(settings.motors);
+        const double weakest_n = *std::min_element(strongest_n.begin(), strongest_n.end());
+        if (!(weakest_n > settings.tension.reference_tension_n) ||
+            !(weakest_n > settings.tension.min_tension_n)) {
+            char text[256];
+            std::snprintf(
+                text, sizeof text,
+                "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
+                "pretension of %g N; raise max_current_a or lower reference_tension_n.",
+                weakest_n,
+                std::max(settings.tension.reference_tension_n, settings.tension.min_tension_n));
+            problem = text;
+        }
+    }
+    return problem;
+}
+
+} // namespace spidar

@@ -1,0 +1,44 @@
+// Are these encoder counts possible? A string cannot move faster than a hand can pull it, so a larger step is a
+// glitch of the encoder or the link. One bad sample is skipped; several in a row mean that the zero is lost.
+#pragma once
+
+#include "core/base/types.h"
+#include "core/calibration/string_calibration.h"
+
+namespace spidar {
+
+class SampleGuard {
+public:
+    enum class Verdict : std::uint8_t {
+        good,      // new counts
+        unchanged, // the same counts as the last good sample
+        bad,       // hold the last good sample
+        jumped,    // bad for max_bad_samples in a row, now or earlier: until reset()
+    };
+
+    void configure(const StringCalibration &strings, double max_speed_m_s, int max_bad_samples,
+                   double nominal_dt_s) noexcept;
+    // The next sample becomes the reference, whatever it is.
+    void reset() noexcept;
+
+    // dt_s: time since the last call to check() or wait(). Counts wrap at 32 bits.
+    Verdict check(const CountArray &counts, double dt_s) noexcept;
+    // No sample came in this tick.
+    void wait(double dt_s) noexcept { elapsed_s_ += dt_s; }
+
+    // The string that moved too fast in the last bad sample (0-7), -1 before any.
+    [[nodiscard]] int bad_string() const noexcept { return bad_string_; }
+
+private:
+    StringArray metres_per_count_{};
+    double max_speed_m_s_ = 0.0;
+    double nominal_dt_s_ = 0.0;
+    int max_bad_samples_ = 1;
+    CountArray reference_{};
+    bool has_reference_ = false;
+    double elapsed_s_ = 0.0; // since the reference
+    int bad_in_row_ = 0;
+    int bad_string_ = -1;
+};
+
+} // namespace spidar

@@ -1,0 +1,74 @@
+// Scene coordinates <-> device frame: x_world = origin + scale * rotation * x_device.
+// Forces and moments turn with the node but are not scaled.
+#pragma once
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "device/contract/haptic_command.h"
+#include "godot/base/type_conversions.h"
+
+namespace spidar {
+
+struct WorldFrame {
+    Mat3 rotation{1.0};
+    Vec3 origin{0.0};
+    double scale = 1.0; // scene metres per device metre
+
+    // A node with scale still gives a rotation: its scale is warned about and left out.
+    static WorldFrame of(const godot::Transform3D &node, double workspace_scale) {
+        return {to_core(node.basis.orthonormalized()), to_core(node.origin), workspace_scale};
+    }
+
+    [[nodiscard]] Vec3 point_to_world(const Vec3 &device) const noexcept {
+        return origin + scale * (rotation * device);
+    }
+    [[nodiscard]] Vec3 point_to_device(const Vec3 &world) const noexcept {
+        return glm::transpose(rotation) * (world - origin) / scale;
+    }
+    // Forces, moments, normals, angular velocities.
+    [[nodiscard]] Vec3 turn_to_world(const Vec3 &device) const noexcept {
+        return rotation * device;
+    }
+    [[nodiscard]] Vec3 turn_to_device(const Vec3 &world) const noexcept {
+        return glm::transpose(rotation) * world;
+    }
+    [[nodiscard]] Vec3 velocity_to_world(const Vec3 &device) const noexcept {
+        return scale * (rotation * device);
+    }
+    [[nodiscard]] Vec3 velocity_to_device(const Vec3 &world) const noexcept {
+        return glm::transpose(rotation) * world / scale;
+    }
+    [[nodiscard]] godot::Transform3D pose_to_world(const Vec3 &position, const Mat3 &turn) const {
+        return {to_godot(rotation * turn), to_godot(point_to_world(position))};
+    }
+    [[nodiscard]] Wrench wrench_to_device(const Wrench &world) const noexcept {
+        return {turn_to_device(world.force_n), turn_to_device(world.moment_nm),
+                world.grasp_torque_nm};
+    }
+    // fx fy fz mx my mz grasp_torque, world axes.
+    [[nodiscard]] DofArray wrench_to_world(const Wrench &device) const noexcept {
+        const Vec3 force = turn_to_world(device.force_n);
+        const Vec3 moment = turn_to_world(device.moment_nm);
+        return {force.x, force.y, force.z, moment.x, moment.y, moment.z, device.grasp_torque_nm};
+    }
+    // A plane dot(normal, x) >= offset of the scene as one of the device. The grasp stop is the same in both.
+    [[nodiscard]] ContactPlane contact_to_device(ContactPlane contact) const noexcept {
+        if (contact.target == ContactTarget::grasp_stop) {
+            return contact;
+        }
+        if (contact.target == ContactTarget::turn_stop) {
+            contact.normal = turn_to_device(contact.normal);
+            contact.velocity_m_s = turn_to_device(contact.velocity_m_s);
+            return contact; // the angle is the same in both
+        }
+        contact.offset_m = (contact.offset_m - glm::dot(contact.normal, origin)) / scale;
+        contact.normal = turn_to_device(contact.normal);
+        contact.velocity_m_s = velocity_to_device(contact.velocity_m_s);
+        return contact;
+    }
+};
+
+} // namespace spidar

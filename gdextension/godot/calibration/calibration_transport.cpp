@@ -1,0 +1,47 @@
+#include "godot/calibration/calibration_transport.h"
+
+#include "device/hid/open_free_device.h"
+#include "device/simulation/simulated_transport.h"
+
+namespace spidar {
+
+namespace {
+
+const char *const kOwner = "SpidarGCalibrator";
+
+std::unique_ptr<Transport> open_real(const CalibrationTarget &target, CalibrationOpened &opened,
+                                     std::string &problem) {
+    Status status = Status::ok;
+    auto transport =
+        open_free_device(system_hid_bus(), target.hid, kOwner, opened.claim, status, problem);
+    if (status == Status::invalid_settings) {
+        problem = "SpidarGConfig." + problem;
+    }
+    opened.real = transport != nullptr;
+    opened.counts_per_turn = transport ? transport->capabilities().counts_per_turn : 0;
+    return transport;
+}
+
+} // namespace
+
+std::unique_ptr<Transport> open_for_calibration(const CalibrationTarget &target,
+                                                CalibrationOpened &opened, std::string &problem) {
+    if (target.try_real) {
+        if (auto transport = open_real(target, opened, problem)) {
+            return transport;
+        }
+        if (!target.try_simulated) {
+            return nullptr;
+        }
+        opened.fallback = problem;
+    }
+    if (!opened.claim.take(target.simulated_name, kOwner)) {
+        problem = "The device belongs to \"" + DeviceClaim::owner_of(target.simulated_name) +
+                  "\" now: free it there, or choose another device_name.";
+        return nullptr;
+    }
+    problem.clear();
+    return std::make_unique<SimulatedTransport>(target.plant);
+}
+
+} // namespace spidar

@@ -1,0 +1,325 @@
+// The device of a calibration: opened, watched, its tasks.
+#include "godot/calibration/spidar_g_calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "device/simulation/simulated_transport.h"
+#include "godot/base/type_conversions.h"
+
+using spidar::RigState;
+
+static_assert(static_cast<int>(RigState::failed) == SpidarGCalibrator::DEVICE_FAILED);
+static_assert(static_cast<int>(spidar::CalibrationTask::weighing) ==
+              SpidarGCalibrator::TASK_WEIGHING);
+static_assert(static_cast<int>(spidar::TaskVerdict::not_ready) ==
+              SpidarGCalibrator::VERDICT_NOT_READY);
+static_assert(static_cast<int>(spidar::HandScript::place) == SpidarGCalibrator::HAND_PLACE);
+
+namespace {
+
+// What a real device may do while it is calibrated (unit: mN, mN/ms, mm/s).
+constexpr std::uint16_t kMilliPerUnit = 1000;
+constexpr double kSimulatedUnwatched_s = 20.0;
+
+} // namespace
+
+SpidarGCalibrator::~SpidarGCalibrator() = default;
+
+bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
+                             const godot::Ref<SpidarGCalibration> &calibration, bool stepped) {
+    if (rig_ && rig_->state() != RigState::closed && rig_->state() != RigState::failed) {
+        return reject("open: the device is open already, or still closing: close() it and wait for "
+                      "DEVICE_CLOSED.");
+    }
+    problem_ = read_target(config, calibration);
+    if (!problem_.empty()) {
+        return false;
+    }
+    if (stepped && !target_.try_simulated) {
+        return reject("open: stepped with transport = Device: only a simulated device can live in "
+                      "simulated time.");
+    }
+    target_.try_real = target_.try_real && !stepped;
+    opened_ = std::make_shared<spidar::CalibrationOpened>();
+    began_ = false;
+    has_result_ = false;
+    news_ = {};
+    orders_ = {};
+    task_taken_ = 0;
+    spidar::RigSettings settings;
+    settings.rate_hz = 1000.0;
+    settings.scale_m_per_count = start_.strings.scale_m_per_count;
+    settings.motors = motors_;
+    settings.plant = target_.plant;
+    settings.simulated_unwatched_s = kSimulatedUnwatched_s;
+    rig_ = std::make_unique<spidar::CalibrationRig>(
+        settings, [target = target_, opened = opened_](std::string &problem) {
+            return spidar::open_for_calibration(target, *opened, problem);
+        });
+    if (stepped) {
+        rig_->start_stepped();
+        rig_->advance(1.0 / settings.rate_hz); // the first reading
+    } else if (!rig_->start_threaded()) {
+        return reject("open: the system has no thread left. " + rig_->problem());
+    }
+    const bool polled = poll();
+    return polled || !stepped; // a device that a thread cannot open is told by a later poll()
+}
+
+std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &config,
+                                           const godot::Ref<SpidarGCalibration> &calibration) {
+    godot::Ref<SpidarGConfig> used = config;
+    if (used.is_null()) {
+        used.instantiate();
+    }
+    std::string problem = used->own_problem();
+    if (!problem.empty()) {
+        return problem;
+    }
+    spidar::ServoSettings settings = used->servo_settings();
+    const spidar::PlantSettings plant = used->plant_settings();
+    given_ = calibration;
+    problem = given_.is_valid() ? given_->apply_to(settings) : std::string();
+    problem = problem.empty() ? spidar::validate(settings) : problem;
+    problem = problem.empty() ? spidar::validate(plant) : problem;
+    if (!problem.empty()) {
+        return problem;
+    }
+    const int transport = used->get_transport();
+    target_ = {};
+    target_.try_real = transport != SpidarGConfig::TRANSPORT_SIMULATED;
+    target_.try_simulated = transport != SpidarGConfig::TRANSPORT_DEVICE;
+    target_.plant = plant;
+    target_.simulated_name = used->get_device_name().utf8().get_data();
+    target_.hid.filter = used->hid_filter();
+    target_.hid.limits.max_tension_mn =
+        static_cast<std::uint16_t>(spidar::kTaskMaxTension_n * kMilliPerUnit);
+    target_.hid.limits.min_tension_mn = 0; // a task pulls single strings
+    start_.frame = settings.frame;
+    start_.grip = settings.grip;
+    start_.strings = settings.strings;
+    corrections_ = settings.corrections;
+    // The drums stay as they are wound; stretch is the same in all poses of a light hand.
+    start_.corrections = {};
+    start_.corrections.winding_curvature_1_m = corrections_.winding_curvature_1_m;
+    motors_ = settings.motors;
+    return {};
+}
+
+// Where the calibration says nothing: the ideal device of the kind that was opened. False: the calibration was spoilt
+// while the device opened, which closes again.
+bool SpidarGCalibrator::begin_sheet() {
+    const double scale = spidar::metres_per_count(
+        opened_->counts_per_turn, motors_.effective_radius_m[0], target_.plant.metres_per_count);
+    const spidar::CountArray home = opened_->real
+                                        ? spidar::CountArray{}
+                                        : spidar::SimulatedTransport(target_.plant).home_counts();
+    const std::string problem = SpidarGCalibration::strings_of(given_, start_.frame, start_.grip,
+                                                               home, scale, start_.strings);
+    given_.unref();
+    if (!problem.empty()) {
+        close();
+        return reject(problem);
+    }
+    sheet_.begin(start_, motors_);
+    began_ = true;
+    model_changed_ = true;
+    return true;
+}
+
+void SpidarGCalibrator::close() {
+    if (rig_) {
+        rig_->ask_close();
+    }
+    orders_.collecting = false;
+}
+
+bool SpidarGCalibrator::poll() {
+    finish_job();
+    if (!rig_) {
+        return false;
+    }
+    const RigState state = rig_->state();
+    if (state == RigState::failed) {
+        return reject(rig_->problem());
+    }
+    if (state == RigState::open && !began_ && !begin_sheet()) {
+        return false;
+    }
+    if (state == RigState::closed && opened_) {
+        opened_->claim.release();
+    }
+    if (!began_) {
+        return true; // still opening
+    }
+    give();
+    rig_->latest(news_);
+    fetch_samples();
+    take_task_result();
+    follow();
+    return true;
+}
+
+void SpidarGCalibrator::give() {
+    ++orders_.beat;
+    rig_->give(orders_);
+}
+
+bool SpidarGCalibrator::advance(double seconds) {
+    if (!is_open()) {
+        return reject("advance: no device is open.");
+    }
+    constexpr double kSlice_s = 0.1; // an order in each: somebody is watching
+    if (!(seconds > 0.0 && seconds <= 60.0)) {
+        return reject("advance: seconds = " + std::to_string(seconds) +
+                      " s: give more than 0 and up to 60.");
+    }
+    for (double left = seconds; left > 1e-9; left -= kSlice_s) {
+        give();
+        rig_->advance(std::fmin(left, kSlice_s));
+    }
+    return poll();
+}
+
+void SpidarGCalibrator::follow() {
+    if (model_changed_) {
+        const spidar::DeviceModel now = model();
+        (void)kinematics_.configure(now.frame, now.grip);
+        model_changed_ = false;
+    }
+    if (news_.readings > 0) {
+        const spidar::DeviceModel now = model();
+        live_lengths_m_ = spidar::wound_lengths(now.strings, now.corrections, news_.counts);
+        live_ = kinematics_.update(live_lengths_m_);
+    }
+}
+
+void SpidarGCalibrator::fetch_samples() {
+    spidar::CountArray counts{};
+    while (rig_->next_sample(counts)) {
+        sheet_.add_pose(counts);
+    }
+}
+
+void SpidarGCalibrator::take_task_result() {
+    const spidar::TaskResult &task = news_.task;
+    if (task.number == task_taken_ || task.number != orders_.task.number ||
+        task.verdict == spidar::TaskVerdict::running) {
+        return;
+    }
+    task_taken_ = task.number;
+    const auto string = static_cast<std::size_t>(std::clamp(task.string, 0, 7));
+    const spidar::CalibrationTask kind = orders_.task.task;
+    if (kind == spidar::CalibrationTask::wiring) {
+        const bool sound = task.verdict == spidar::TaskVerdict::done;
+        if (sound || task.verdict == spidar::TaskVerdict::wrong_sign) {
+            sheet_.set_reversed(string, !sound);
+            model_changed_ = true;
+        }
+    }
+    if (kind == spidar::CalibrationTask::weighing && task.verdict == spidar::TaskVerdict::done) {
+        const std::string problem =
+            sheet_.add_weight(string, {orders_.task.weight_n, task.rise_n, task.fall_n});
+        if (!problem.empty()) {
+            reject(problem);
+        }
+    }
+}
+
+SpidarGCalibrator::DeviceState SpidarGCalibrator::get_device_state() const {
+    return rig_ ? static_cast<DeviceState>(rig_->state()) : DEVICE_CLOSED;
+}
+
+godot::String SpidarGCalibrator::get_problem() const {
+    return spidar::to_godot(problem_);
+}
+
+bool SpidarGCalibrator::is_open() const {
+    return rig_ && rig_->state() == RigState::open && began_;
+}
+
+bool SpidarGCalibrator::reject(const std::string &message) {
+    problem_ = message;
+    return false;
+}
+
+bool SpidarGCalibrator::start_task(Task task, int string, double weight_n) {
+    if (!is_open()) {
+        return reject("start_task: no device is open.");
+    }
+    const bool of_a_string = task == TASK_WIRING || task == TASK_WEIGHING;
+    if (task < TASK_IDLE || task > TASK_WEIGHING ||
+        (of_a_string && (string < 0 || string >= spidar::kStringCount))) {
+        return reject("start_task: task = " + std::to_string(static_cast<int>(task)) +
+                      ", string = " + std::to_string(string) +
+                      ": give one of Task and a string from 0 to 7.");
+    }
+    if (task == TASK_WEIGHING &&
+        !(weight_n >= spidar::kLeastWeight_n && weight_n <= spidar::kMostWeight_n)) {
+        return reject("start_task: weight_n = " + std::to_string(weight_n) + " N: hang " +
+                      std::to_string(spidar::kLeastWeight_n) + " to " +
+                      std::to_string(spidar::kMostWeight_n) + " N on the string.");
+    }
+    problem_.clear();
+    orders_.task = {static_cast<spidar::CalibrationTask>(task), string, weight_n,
+                    orders_.task.number + 1};
+    give();
+    return true;
+}
+
+bool SpidarGCalibrator::move_simulated_hand(Hand hand, int place) {
+    if (!is_open() || !news_.simulated) {
+        return false; // a real hand moves by itself
+    }
+    if (hand < HAND_HOME || hand > HAND_PLACE || place < 0 || place >= spidar::kHandPlaces) {
+        return reject("move_simulated_hand: hand = " + std::to_string(static_cast<int>(hand)) +
+                      ", place = " + std::to_string(place) +
+                      ": give one of Hand and a place from 0 to 7.");
+    }
+    orders_.hand = static_cast<spidar::HandScript>(hand);
+    orders_.hand_place = place;
+    ++orders_.hand_number;
+    news_.hand_has_arrived = false;
+    give();
+    return true;
+}
+
+godot::Dictionary SpidarGCalibrator::get_live() const {
+    godot::Dictionary live;
+    live["readings"] = static_cast<std::int64_t>(news_.readings);
+    live["simulated"] = news_.simulated;
+    live["fallback_reason"] = spidar::to_godot(opened_ && began_ ? opened_->fallback : "");
+    live["counts"] = spidar::to_godot(news_.counts);
+    live["lengths_m"] = spidar::to_godot(live_lengths_m_);
+    live["tensions_n"] = spidar::to_godot(news_.tensions_n);
+    live["motors_on"] = news_.motors_on;
+    live["position_m"] = spidar::to_godot(live_.pose.position_m);
+    live["residual_m"] = live_.residual_rms_m;
+    live["conditioning"] = live_.conditioning;
+    live["pose_status"] = static_cast<int>(live_.status);
+    live["pose_text"] = godot::String(spidar::describe(live_.status));
+    live["device_status"] = static_cast<int>(news_.device_status);
+    live["device_text"] = godot::String(spidar::describe(news_.device_status));
+    live["hand_has_arrived"] = news_.hand_has_arrived;
+    if (news_.simulated) {
+        live["ruler_m"] = spidar::to_godot(news_.true_lengths_m);
+    }
+    return live;
+}
+
+godot::Dictionary SpidarGCalibrator::get_task() const {
+    godot::Dictionary told;
+    const spidar::TaskResult &task = news_.task;
+    const bool waiting = task.number != orders_.task.number && is_open();
+    const auto verdict = waiting ? spidar::TaskVerdict::running : task.verdict;
+    told["task"] = static_cast<int>(orders_.task.task);
+    told["verdict"] = static_cast<int>(verdict);
+    told["text"] = godot::String(spidar::describe(verdict));
+    told["string"] = orders_.task.string;
+    told["moved_string"] = task.moved_string;
+    told["moved_m"] = spidar::to_godot(task.moved_m);
+    told["rise_n"] = task.rise_n;
+    told["fall_n"] = task.fall_n;
+    return told;
+}

@@ -1,0 +1,295 @@
+// SpidarG: the node that owns a device. Opens it when it enters a running tree, drives the servo loop
+// (own thread, or stepped by the physics tick), hands requests down and the newest snapshot up.
+// The class reference is gdextension/doc_classes/SpidarG.xml.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <godot_cpp/classes/input_event.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+
+#include "device/contract/device_claims.h"
+#include "device/hid/hid_transport.h"
+#include "device/loop/servo_loop.h"
+#include "device/simulation/simulated_transport.h"
+#include "godot/base/world_frame.h"
+#include "godot/settings/project_options.h"
+#include "godot/settings/spidar_g_calibration.h"
+#include "godot/settings/spidar_g_config.h"
+
+namespace spidar {
+class ReplayTransport;
+}
+
+class SpidarG : public godot::Node3D {
+    GDCLASS(SpidarG, godot::Node3D)
+
+public:
+    enum DriveMode { DRIVE_THREADED, DRIVE_STEPPED };
+    enum State {
+        STATE_CLOSED,
+        STATE_CONNECTED,
+        STATE_ARMING,
+        STATE_ACTIVE,
+        STATE_FADING,
+        STATE_FAULT,
+        STATE_TAUT,
+        STATE_CALIBRATED
+    };
+    enum EventLevel { EVENT_INFO, EVENT_WARNING, EVENT_FAULT };
+    enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
+    enum ContactTarget {
+        CONTACT_CENTRE,
+        CONTACT_POLE1_PLUS,
+        CONTACT_POLE1_MINUS,
+        CONTACT_POLE2_PLUS,
+        CONTACT_POLE2_MINUS,
+        CONTACT_GRASP_STOP,
+        CONTACT_TURN_STOP
+    };
+    // The node's own axes.
+    enum DofMask {
+        DOF_X = 1,
+        DOF_Y = 2,
+        DOF_Z = 4,
+        DOF_LINEAR = 7,
+        DOF_TURN_X = 8,
+        DOF_TURN_Y = 16,
+        DOF_TURN_Z = 32,
+        DOF_ANGULAR = 56,
+        DOF_GRASP = 64,
+        DOF_ALL = 127
+    };
+    enum HandFirmness { HAND_LIGHT, HAND_NORMAL, HAND_FIRM };
+    enum SimulatedFault {
+        FAULT_OUTPUT_CUT,
+        FAULT_FROZEN_COUNTS,
+        FAULT_COUNT_JUMP,
+        FAULT_READ_TIMEOUT,
+        FAULT_UNPLUGGED,
+        FAULT_STUCK_ENCODER,
+        FAULT_BROKEN_STRING,
+        FAULT_HAND_RELEASED,
+        FAULT_JAMMED_DRUM,
+        FAULT_SLIPPED_STRING,
+        FAULT_COUNTS_RESET,
+        FAULT_REVERSED_ENCODER,
+        FAULT_SWAPPED_ENCODERS,
+        FAULT_REPORTS_LOST,
+        FAULT_REPORTS_REPEATED,
+        FAULT_REPORTS_SWAPPED,
+        FAULT_LATE_OUTPUT,
+        FAULT_BLOCKED_OUTPUT
+    };
+    enum { CONTACT_STRIDE = 12 };
+
+    SpidarG();
+    ~SpidarG() override;
+
+    // Set-up.
+    void set_config(const godot::Ref<SpidarGConfig> &config);
+    [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
+    void set_calibration(const godot::Ref<SpidarGCalibration> &calibration);
+    [[nodiscard]] godot::Ref<SpidarGCalibration> get_calibration() const { return calibration_; }
+    void set_enabled(bool enabled);
+    [[nodiscard]] bool is_enabled() const { return enabled_; }
+    void set_forces_enabled(bool enabled);
+    [[nodiscard]] bool are_forces_enabled() const { return forces_wanted_; }
+    void set_release_on_focus_loss(bool release);
+    [[nodiscard]] bool is_release_on_focus_loss() const { return release_on_focus_loss_; }
+    void set_drive_mode(DriveMode mode);
+    [[nodiscard]] DriveMode get_drive_mode() const { return drive_mode_; }
+    void set_workspace_scale(double scale);
+    [[nodiscard]] double get_workspace_scale() const { return workspace_scale_; }
+    [[nodiscard]] godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // Device (spidar_g.cpp).
+    void arm();
+    void disarm();
+    void clear_fault();
+    int advance_cycles(int cycles);
+
+    // Real device (spidar_g_device.cpp).
+    bool zero_device();
+    [[nodiscard]] godot::Dictionary get_device_info() const;
+
+    // Safety (spidar_g_safety.cpp).
+    void panic_stop();
+    bool zero_at_home();
+
+    // Requests (spidar_g_requests.cpp).
+    bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
+                        double grasp_torque, double duration_s);
+    bool set_contacts(const godot::PackedFloat64Array &contacts);
+    void clear_contacts();
+    // Coupling and effects (spidar_g_effects.cpp).
+    bool set_coupling_gains(const godot::PackedFloat64Array &stiffness,
+                            const godot::PackedFloat64Array &damping, double max_force,
+                            double max_moment, double max_grasp_torque);
+    bool set_coupling(const godot::Transform3D &target, double grasp_angle,
+                      const godot::Vector3 &linear_velocity, const godot::Vector3 &angular_velocity,
+                      double grasp_rate, int dof_mask);
+    void clear_coupling();
+    bool set_viscous_effect(int id, double linear, double angular, double grasp, int dof_mask,
+                            double duration_s);
+    bool set_force_effect(int id, const godot::Vector3 &force, const godot::Vector3 &moment,
+                          double grasp_torque, double duration_s);
+    bool set_spring_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+                           double linear, double angular, double grasp, int dof_mask,
+                           double duration_s);
+    bool set_vibration_effect(int id, const godot::Vector3 &force, const godot::Vector3 &moment,
+                              double grasp_torque, double frequency_hz, double duration_s);
+    bool set_detent_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+                           double spacing, double strength, int dof_mask, double duration_s);
+    void clear_effect(int id);
+    void clear_effects();
+    [[nodiscard]] godot::Vector3 get_stiffness_limits() const;
+    [[nodiscard]] godot::String get_clamp_text() const;
+    [[nodiscard]] godot::PackedFloat64Array get_injected_energy() const;
+
+    // State (spidar_g_state.cpp). World coordinates.
+    [[nodiscard]] State get_state() const;
+    [[nodiscard]] godot::String get_state_text() const;
+    [[nodiscard]] godot::String get_fault_text() const;
+    [[nodiscard]] godot::Transform3D get_grip_transform() const;
+    [[nodiscard]] godot::Transform3D get_pole_transform(int pole) const;
+    [[nodiscard]] godot::Vector3 get_pole_end(ContactTarget target) const;
+    [[nodiscard]] godot::Vector3 get_string_start(int string) const;
+    [[nodiscard]] godot::Vector3 get_string_end(int string) const;
+    [[nodiscard]] double get_grasp_angle() const;
+    [[nodiscard]] double get_grasp_rate() const;
+    [[nodiscard]] GraspPhase get_grasp_phase() const;
+    [[nodiscard]] double get_jaw_gap() const;
+    [[nodiscard]] double get_grasp_angle_for_gap(double gap_m) const;
+    [[nodiscard]] godot::Vector3 get_linear_velocity() const;
+    [[nodiscard]] godot::Vector3 get_angular_velocity() const;
+    [[nodiscard]] godot::PackedFloat64Array get_string_lengths() const;
+    [[nodiscard]] godot::PackedFloat64Array get_string_tensions() const;
+    [[nodiscard]] godot::PackedInt32Array get_encoder_counts() const;
+    [[nodiscard]] godot::PackedFloat64Array get_requested_wrench() const;
+    [[nodiscard]] godot::PackedFloat64Array get_achieved_wrench() const;
+    [[nodiscard]] godot::PackedFloat64Array get_wrench_bias() const;
+    [[nodiscard]] godot::Dictionary get_contact_impulses() const;
+    [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
+    [[nodiscard]] godot::Dictionary get_statistics() const;
+    [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
+
+    // Recording and replay (spidar_g_recording.cpp).
+    bool start_recording(const godot::String &path);
+    void stop_recording();
+    [[nodiscard]] bool is_recording() const;
+    [[nodiscard]] godot::Dictionary get_recording_statistics() const;
+    bool start_replay(const godot::String &path);
+    void stop_replay();
+    [[nodiscard]] bool is_replaying() const;
+    [[nodiscard]] godot::Dictionary get_replay_statistics() const;
+
+    // Simulated device (spidar_g_simulated.cpp).
+    bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
+    void set_simulated_hand_firmness(HandFirmness firmness);
+    [[nodiscard]] godot::Dictionary get_simulated_truth() const;
+    bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
+                                double duration_s);
+    void clear_simulated_faults();
+    bool simulated_buttons(int mask);
+
+    void _notification(int what);
+    // The project's panic key.
+    void _input(const godot::Ref<godot::InputEvent> &event) override;
+
+protected:
+    static void _bind_methods();
+
+private:
+    static void bind_setup();
+    static void bind_state();
+    static void bind_requests();
+    static void bind_effects();
+    static void bind_recording();
+    static void bind_simulated();
+    static void bind_device();
+    static void bind_enums();
+
+    void resource_changed();
+    // The project's settings as they are now; they count from the next opening on.
+    void read_project();
+    // Reads config and calibration into settings_. Empty: fine; else the problem, and settings_ keep their values.
+    std::string read_resources();
+    [[nodiscard]] const SpidarGConfig &config_or_default() const;
+    [[nodiscard]] bool may_run() const;
+    void open_device();
+    void open_replay();
+    void close_device();
+    // Null, with the reason: none.
+    std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
+                                                        std::string &problem);
+    std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
+                                                           std::string &problem);
+    [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
+    // Of the device that was opened: its counts at the home pose.
+    void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
+    void emit_buttons(std::uint8_t before);
+    void refuse_to_open(spidar::Status status, const std::string &message);
+    void physics_tick();
+    // Takes the newest snapshot and emits the signals of the edges it shows.
+    void pull_snapshot();
+    void emit_edges(const spidar::ServoSnapshot &before);
+    void emit_events();
+    void tell(const spidar::DeviceEvent &event);
+    void beat();
+    void watch_loop();
+    void set_away(bool away);
+    void publish_forces();
+    // A recording that cannot go on, a replay that has ended.
+    void watch_recordings();
+    void tell_recording_failed();
+    bool reject(const std::string &message);
+    bool take_effect(const char *method, spidar::Effect effect);
+    [[nodiscard]] spidar::WorldFrame world() const;
+    [[nodiscard]] std::string fault_message() const;
+    [[nodiscard]] std::string name_for_messages() const;
+
+    godot::Ref<SpidarGConfig> config_;
+    godot::Ref<SpidarGConfig>
+        default_config_; // stands in when there is none: the project's, or the paper's device
+    spidar::ProjectOptions options_; // as they were when the device was opened
+    godot::Ref<SpidarGCalibration> calibration_;
+    bool enabled_ = true;
+    DriveMode drive_mode_ = DRIVE_THREADED;
+    double workspace_scale_ = 1.0;
+
+    spidar::ServoSettings settings_;
+    spidar::PlantSettings plant_;
+    std::string problem_; // why the device is not open
+    bool restart_pending_ = false;
+    bool forces_wanted_ = false;
+    bool release_on_focus_loss_ = true;
+    bool away_ = false;       // the application has lost the focus, or was put aside
+    bool stall_told_ = false; // the loop stands still, and that was told
+    spidar::DeviceClaim claim_;
+    std::unique_ptr<spidar::ServoLoop> loop_;
+    spidar::HidTransport *hid_ = nullptr; // owned by loop_
+    std::string fallback_;                // why the simulated device stands in for a real one
+    spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
+    std::string replay_path_;                         // in place of a device, unless empty
+    spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
+    bool replay_end_told_ = false;
+    spidar::HapticCommand command_;
+    spidar::Coupling coupling_gains_;                         // for the next set_coupling()
+    std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time
+    spidar::ServoSnapshot snapshot_;
+};
+
+VARIANT_ENUM_CAST(SpidarG::DriveMode);
+VARIANT_ENUM_CAST(SpidarG::State);
+VARIANT_ENUM_CAST(SpidarG::EventLevel);
+VARIANT_ENUM_CAST(SpidarG::GraspPhase);
+VARIANT_ENUM_CAST(SpidarG::ContactTarget);
+VARIANT_ENUM_CAST(SpidarG::DofMask);
+VARIANT_ENUM_CAST(SpidarG::HandFirmness);
+VARIANT_ENUM_CAST(SpidarG::SimulatedFault);

@@ -1,0 +1,175 @@
+// Which device the node opens: a real one behind USB HID, or the simulated one in its place; and what a real one adds.
+#include "godot/device/spidar_g.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <godot_cpp/classes/input.hpp>
+#include <godot_cpp/classes/input_event_joypad_button.hpp>
+#include <godot_cpp/variant/utility_functions.hpp>
+
+#include "device/hid/open_free_device.h"
+#include "godot/base/type_conversions.h"
+
+using godot::String;
+using godot::UtilityFunctions;
+using spidar::Status;
+
+namespace {
+
+constexpr double kMilli = 1e-3;
+constexpr double kPerMilli = 1e3;
+constexpr int kButtons = 8;
+
+[[nodiscard]] std::uint16_t to_millis(double value) {
+    constexpr double kMost = 65535.0;
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value * kPerMilli, 0.0, kMost)));
+}
+
+} // namespace
+
+spidar::HidTransportSettings SpidarG::hid_settings() const {
+    spidar::HidTransportSettings settings;
+    settings.filter = config_or_default().hid_filter();
+    settings.limits.max_tension_mn = to_millis(settings_.tension.max_tension_n);
+    settings.limits.min_tension_mn = to_millis(settings_.tension.min_tension_n);
+    settings.limits.tension_rate_mn_ms = to_millis(settings_.safety.tension_slew_n_per_ms);
+    settings.limits.string_speed_mm_s = to_millis(settings_.safety.max_count_speed_m_s);
+    return settings;
+}
+
+std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std::string &problem) {
+    using Choice = SpidarGConfig::Transport;
+    auto choice = static_cast<Choice>(config_or_default().get_transport());
+    if (choice == Choice::TRANSPORT_AUTOMATIC && !options_.use_hardware) {
+        choice = Choice::TRANSPORT_SIMULATED;
+    }
+    fallback_.clear();
+    if (choice == Choice::TRANSPORT_DEVICE && drive_mode_ == DRIVE_STEPPED) {
+        status = Status::invalid_settings;
+        problem = "SpidarGConfig.transport = Device with drive_mode = Stepped: only a simulated "
+                  "device can live "
+                  "in simulated time. Set drive_mode to Threaded.";
+        return nullptr;
+    }
+    if (choice != Choice::TRANSPORT_SIMULATED && drive_mode_ != DRIVE_STEPPED) {
+        auto transport = spidar::open_free_device(spidar::system_hid_bus(), hid_settings(),
+                                                  name_for_messages(), claim_, status, problem);
+        if (transport) {
+            hid_ = transport.get();
+            // Counts are 0 at the home pose, and the device knows how many make a turn.
+            use_strings({}, spidar::metres_per_count(hid_->capabilities().counts_per_turn,
+                                                     settings_.motors.effective_radius_m[0],
+                                                     plant_.metres_per_count));
+            return transport;
+        }
+        if (status == Status::invalid_settings) {
+            problem = "SpidarGConfig." + problem;
+        }
+        if (choice == Choice::TRANSPORT_DEVICE) {
+            return nullptr;
+        }
+        fallback_ = problem;
+        const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +
+                                             "\": the simulated device is used. " + problem);
+        if (status == Status::no_device) {
+            UtilityFunctions::print_verbose(text); // the ordinary case of most who develop
+        } else {
+            UtilityFunctions::push_warning(text);
+        }
+    }
+    return simulated_transport(status, problem);
+}
+
+void SpidarG::use_strings(const spidar::CountArray &home_counts, double metres_per_count) {
+    // read_resources() found no problem in the calibration.
+    (void)SpidarGCalibration::strings_of(calibration_, settings_.frame, settings_.grip, home_counts,
+                                         metres_per_count, settings_.strings);
+}
+
+bool SpidarG::zero_device() {
+    if (hid_ == nullptr) {
+        return reject("zero_device: the open device is not a real one; the simulated one always "
+                      "knows its zero.");
+    }
+    const spidar::StringArray home_m =
+        spidar::string_lengths(settings_.frame, settings_.grip, spidar::rest_pose(settings_.grip));
+    const spidar::StringCalibration &strings = settings_.strings;
+    spidar::CountArray home{};
+    for (std::size_t i = 0; i < home.size(); ++i) {
+        const double turns = (home_m[i] - strings.offset_m[i]) / strings.scale_m_per_count[i];
+        home[i] = strings.zero_count[i] + static_cast<std::int32_t>(std::lround(turns));
+    }
+    const Status status = hid_->zero(home);
+    if (!spidar::usable(status)) {
+        return reject("zero_device: the device refused. It must be plugged in and its motors off: "
+                      "call disarm() first.");
+    }
+    return true;
+}
+
+godot::Dictionary SpidarG::get_device_info() const {
+    godot::Dictionary info;
+    const bool real = hid_ != nullptr;
+    info["simulated"] = simulated_ != nullptr;
+    info["fallback_reason"] = spidar::to_godot(fallback_);
+    const spidar::HidDeviceInfo device = real ? hid_->device() : spidar::HidDeviceInfo{};
+    info["product"] = spidar::to_godot(device.product);
+    info["serial"] = spidar::to_godot(device.serial);
+    if (!real) {
+        return info;
+    }
+    const spidar::HidCapabilities spec = hid_->capabilities();
+    info["firmware_version"] = static_cast<std::int64_t>(spec.firmware_version);
+    info["max_tension_n"] = kMilli * hid_->limits().max_tension_mn;
+    info["max_force_n"] = kMilli * spec.max_force_mn;
+    info["max_moment_nm"] = kMilli * spec.max_moment_mnm;
+    info["max_grasp_torque_nm"] = kMilli * spec.max_grasp_torque_mnm;
+    info["max_stiffness_n_m"] = static_cast<double>(spec.max_stiffness_n_m);
+    info["workspace_m"] = spidar::to_godot(
+        kMilli * spidar::Vec3(spec.workspace_mm[0], spec.workspace_mm[1], spec.workspace_mm[2]));
+    const spidar::HidCounters count = hid_->counters();
+    const spidar::HidTimes times = hid_->times();
+    const auto whole = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
+    info["reports"] = whole(count.reports);
+    info["reports_lost"] = whole(count.lost);
+    info["reports_refused"] = whole(count.wrong_length + count.corrupt + count.replayed +
+                                    count.out_of_order + count.implausible + count.stale);
+    info["commands"] = whole(count.commands);
+    info["commands_skipped"] = whole(count.skipped_commands);
+    info["unplugged"] = whole(count.losses);
+    info["found_again"] = whole(count.replugs);
+    info["round_trip_p50_us"] = times.round_trip_p50_us;
+    info["round_trip_p99_us"] = times.round_trip_p99_us;
+    info["write_p99_us"] = times.write_p99_us;
+    return info;
+}
+
+void SpidarG::emit_buttons(std::uint8_t before) {
+    const std::uint8_t now = snapshot_.buttons;
+    for (int button = 0; button < kButtons && now != before; ++button) {
+        const bool pressed = ((now >> button) & 1) != 0;
+        if (pressed == (((before >> button) & 1) != 0)) {
+            continue;
+        }
+        godot::Ref<godot::InputEventJoypadButton> event;
+        event.instantiate();
+        event->set_device(config_or_default().get_button_device());
+        event->set_button_index(static_cast<godot::JoyButton>(button));
+        event->set_pressed(pressed);
+        godot::Input::get_singleton()->parse_input_event(event);
+        emit_signal("button_changed", button, pressed);
+    }
+}
+
+bool SpidarG::simulated_buttons(int mask) {
+    if (simulated_ == nullptr) {
+        return false;
+    }
+    if (mask < 0 || mask > 255) {
+        return reject("simulated_buttons: mask = " + std::to_string(mask) +
+                      ": give 0 to 255, one bit a button.");
+    }
+    simulated_->set_buttons(static_cast<std::uint8_t>(mask));
+    return true;
+}

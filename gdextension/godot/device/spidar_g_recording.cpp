@@ -1,0 +1,153 @@
+// Recording what the servo loop does, and playing a recording in place of a device.
+#include "godot/device/spidar_g.h"
+
+#include <godot_cpp/classes/project_settings.hpp>
+#include <godot_cpp/variant/utility_functions.hpp>
+
+#include "device/recording/replay_transport.h"
+#include "godot/base/type_conversions.h"
+
+using godot::String;
+using spidar::Status;
+
+namespace {
+
+// user:// and res:// as the system knows them; UTF-8.
+[[nodiscard]] std::string system_path(const String &path) {
+    return godot::ProjectSettings::get_singleton()->globalize_path(path).utf8().get_data();
+}
+
+} // namespace
+
+bool SpidarG::start_recording(const String &path) {
+    const std::string problem =
+        loop_ ? loop_->start_recording(system_path(path))
+              : std::string("no device is open. Add the node to the running scene, enabled.");
+    return problem.empty() || reject("start_recording: " + problem);
+}
+
+void SpidarG::stop_recording() {
+    if (!is_recording()) {
+        return;
+    }
+    loop_->stop_recording();
+    if (loop_->recording_statistics().failed) {
+        tell_recording_failed();
+    }
+}
+
+bool SpidarG::is_recording() const {
+    return loop_ && loop_->recording();
+}
+
+godot::Dictionary SpidarG::get_recording_statistics() const {
+    const spidar::RecorderStatistics recorded =
+        loop_ ? loop_->recording_statistics() : spidar::RecorderStatistics{};
+    godot::Dictionary statistics;
+    statistics["cycles"] = static_cast<std::int64_t>(recorded.cycles);
+    statistics["lost_cycles"] = static_cast<std::int64_t>(recorded.lost);
+    statistics["bytes"] = static_cast<std::int64_t>(recorded.bytes);
+    statistics["failed"] = recorded.failed;
+    return statistics;
+}
+
+void SpidarG::tell_recording_failed() {
+    const String text = spidar::to_godot(
+        "SpidarG \"" + name_for_messages() +
+        "\": the recording could not be written any further. Is the disk full? What was written "
+        "before can be read.");
+    godot::UtilityFunctions::push_error(text);
+    emit_signal("recording_failed", text);
+}
+
+bool SpidarG::start_replay(const String &path) {
+    if (!may_run()) {
+        return reject("start_replay: add the node to the running scene, enabled, first.");
+    }
+    auto transport = std::make_unique<spidar::ReplayTransport>();
+    const std::string place = system_path(path);
+    const std::string problem = transport->load(place);
+    if (!problem.empty()) {
+        return reject("start_replay: " + problem);
+    }
+    replay_path_ = place;
+    open_device();
+    return is_replaying();
+}
+
+void SpidarG::stop_replay() {
+    if (replay_path_.empty()) {
+        return;
+    }
+    replay_path_.clear();
+    if (may_run()) {
+        open_device();
+    } else {
+        close_device();
+    }
+}
+
+bool SpidarG::is_replaying() const {
+    return replay_ != nullptr;
+}
+
+godot::Dictionary SpidarG::get_replay_statistics() const {
+    const spidar::ReplayReport report =
+        replay_ != nullptr ? replay_->report() : spidar::ReplayReport{};
+    godot::Dictionary statistics;
+    statistics["cycles"] = static_cast<std::int64_t>(report.cycles);
+    statistics["differing_cycles"] = static_cast<std::int64_t>(report.differing);
+    statistics["lost_cycles"] = static_cast<std::int64_t>(report.lost);
+    statistics["finished"] = report.finished;
+    return statistics;
+}
+
+void SpidarG::open_replay() {
+    auto transport = std::make_unique<spidar::ReplayTransport>();
+    const std::string problem = transport->load(replay_path_);
+    if (!problem.empty()) {
+        replay_path_.clear();
+        refuse_to_open(Status::open_failed, problem);
+        return;
+    }
+    settings_ = transport->settings();
+    spidar::ReplayTransport *const replay = transport.get();
+    loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
+    const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
+                                                       : loop_->start_threaded(settings_);
+    if (!spidar::usable(status)) {
+        loop_.reset();
+        replay_path_.clear();
+        refuse_to_open(status, spidar::describe(status));
+        return;
+    }
+    replay_ = replay;
+    replay_end_told_ = false;
+    set_process_internal(true);
+}
+
+void SpidarG::watch_recordings() {
+    if (is_recording() && loop_->recording_statistics().failed) {
+        stop_recording();
+    }
+    if (replay_ == nullptr || replay_end_told_ || !replay_->report().finished) {
+        return;
+    }
+    replay_end_told_ = true;
+    const spidar::ReplayReport report = replay_->report();
+    const std::string damage = replay_->damage();
+    std::string message = std::to_string(report.cycles) + " cycles replayed";
+    if (report.differing != 0) {
+        message += ", " + std::to_string(report.differing) + " with other results, from cycle " +
+                   std::to_string(report.first_differing) + " on";
+    }
+    if (report.lost != 0) {
+        message += ", " + std::to_string(report.lost) + " missing in the recording";
+    }
+    message += ".";
+    if (!damage.empty()) {
+        message += " " + damage;
+    }
+    const bool identical = report.differing == 0 && report.lost == 0 && damage.empty();
+    emit_signal("replay_finished", identical, spidar::to_godot(message));
+}

@@ -1,0 +1,82 @@
+// What a SpidarG is told by its resources and by the project, and what the editor says of it.
+#include "godot/device/spidar_g.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "godot/base/type_conversions.h"
+
+using godot::Ref;
+using godot::String;
+
+namespace {
+
+// A node scale this near to 1 is rounding, not intent.
+constexpr double kNodeScaleTolerance = 1e-3;
+
+} // namespace
+
+void SpidarG::read_project() {
+    options_ = spidar::project_options();
+    const Ref<SpidarGConfig> config = spidar::project_config();
+    if (config.is_valid()) {
+        default_config_ = config;
+    }
+}
+
+const SpidarGConfig &SpidarG::config_or_default() const {
+    return config_.is_valid() ? *config_.ptr() : *default_config_.ptr();
+}
+
+std::string SpidarG::read_resources() {
+    const SpidarGConfig &config = config_or_default();
+    std::string problem = config.own_problem();
+    spidar::ServoSettings settings = config.servo_settings();
+    spidar::PlantSettings plant = config.plant_settings();
+    settings.safety.max_force_n = std::min(settings.safety.max_force_n, options_.largest_force_n);
+    if (problem.empty() && calibration_.is_valid()) {
+        problem = calibration_->apply_to(settings);
+    }
+    if (problem.empty()) {
+        problem = spidar::validate(settings);
+    }
+    if (problem.empty()) {
+        problem = spidar::validate(plant);
+    }
+    if (problem.empty()) {
+        settings_ = settings;
+        plant_ = plant;
+    }
+    return problem;
+}
+
+godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
+    godot::PackedStringArray warnings;
+    if (!problem_.empty()) {
+        warnings.push_back(spidar::to_godot(problem_));
+    }
+    if (config_.is_null() && default_config_->get_path().is_empty()) {
+        warnings.push_back(
+            String("No config: the paper's device (48 cm frame, 4 cm half poles) is assumed. Add a "
+                   "SpidarGConfig to describe yours, or name one for the whole project in the "
+                   "project setting spidar_g/device/default_config."));
+    }
+    if (config_or_default().get_max_force() > options_.largest_force_n) {
+        warnings.push_back(spidar::to_godot(
+            "SpidarGConfig.max_force = " + std::to_string(config_or_default().get_max_force()) +
+            " N is brought down to " + std::to_string(options_.largest_force_n) +
+            " N by the project setting spidar_g/safety/largest_force_n: lower the one or raise the "
+            "other."));
+    }
+    const godot::Basis basis = get_transform().basis;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = static_cast<double>(basis.get_column(axis).length());
+        if (!(std::abs(length - 1.0) <= kNodeScaleTolerance)) {
+            warnings.push_back(
+                String("The node is scaled; a device is not. Set its scale to 1 and use "
+                       "workspace_scale to enlarge the device's movements."));
+            break;
+        }
+    }
+    return warnings;
+}

@@ -1,0 +1,54 @@
+// SpidarGCalibration: what makes one device of many: string offsets and scales, winding and stretch, motor gains.
+#pragma once
+
+#include <string>
+
+#include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/packed_float64_array.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/string.hpp>
+
+#include "device/settings/servo_settings.h"
+#include "godot/base/resource_field.h"
+
+// Each array holds 8 values, string 0-7; an empty one means: as the ideal device (no winding, no stretch).
+class SpidarGCalibration : public godot::Resource {
+    GDCLASS(SpidarGCalibration, godot::Resource)
+
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_offsets); // m, at the zero count
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
+    SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, winding_curvatures);   // 1/m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_stiffnesses);   // N, EA
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, hidden_lengths);       // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, calibration_tensions); // N
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);      // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants);     // N m / A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);        // real / commanded
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);         // A
+
+public:
+    [[nodiscard]] godot::String get_problem() const;
+
+    // The winding and stretch of `known`; an array stays empty where all are zero.
+    void set_corrections(const spidar::LengthCorrections &known);
+
+    // Writes the arrays that are given over `settings`. Empty: done; else the sentence that says why not, and
+    // `settings` is unchanged.
+    [[nodiscard]] std::string apply_to(spidar::ServoSettings &settings) const;
+
+    // The strings of a device of this frame and grip that stood at its home pose at `home`: those of the ideal one, and
+    // over them what `given` (may be null) says. The problem, or empty; `strings` is then unchanged.
+    [[nodiscard]] static std::string
+    strings_of(const godot::Ref<SpidarGCalibration> &given, const spidar::FrameGeometry &frame,
+               const spidar::GripGeometry &grip, const spidar::CountArray &home,
+               double metres_per_count, spidar::StringCalibration &strings);
+
+protected:
+    static void _bind_methods();
+
+private:
+    [[nodiscard]] std::string apply_to(spidar::StringCalibration &ideal) const;
+};

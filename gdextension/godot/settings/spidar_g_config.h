@@ -1,0 +1,117 @@
+// SpidarGConfig: what a device is and how it is driven, as a resource shared between scenes.
+#pragma once
+
+#include <string>
+
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/packed_float64_array.hpp>
+#include <godot_cpp/variant/string.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "device/hid/hid_device_filter.h"
+#include "device/settings/servo_settings.h"
+#include "device/simulation/simulated_plant.h"
+#include "godot/base/resource_field.h"
+
+// Values of SpidarGConfig.preset: a crossed grip in a box of one's own sizes, then the devices of core/presets/presets.h.
+inline constexpr int kPresetCustom = 0;
+
+class SpidarGConfig : public godot::Resource {
+    GDCLASS(SpidarGConfig, godot::Resource)
+
+public:
+    enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE };
+
+private:
+    // Frame and grip.
+    SPIDAR_G_FIELD(int, preset, kPresetCustom);
+    SPIDAR_G_FIELD(godot::Vector3, frame_size, godot::Vector3(0.48F, 0.48F, 0.48F));
+    SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
+    SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
+
+    // Which device: numbers of 0 and an empty serial fit any.
+    SPIDAR_G_FIELD(int, transport, TRANSPORT_AUTOMATIC);
+    SPIDAR_G_FIELD(godot::String, device_product, "SPIDAR-G");
+    SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
+    SPIDAR_G_FIELD(int, device_vendor_id, 0);
+    SPIDAR_G_FIELD(int, device_product_id, 0);
+    SPIDAR_G_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
+
+    // Servo loop.
+    SPIDAR_G_FIELD(int, rate_hz, 1000);
+    SPIDAR_G_FIELD(double, velocity_cutoff_hz, 60.0);
+
+    // Rendering.
+    SPIDAR_G_FIELD(double, string_resonance_hz, spidar::RenderSettings{}.string_resonance_hz);
+    SPIDAR_G_FIELD(double, delay_compensation, spidar::RenderSettings{}.delay_compensation_s);
+    SPIDAR_G_FIELD(double, link_latency, spidar::RenderSettings{}.latency_s);
+    SPIDAR_G_FIELD(double, max_stiffness, spidar::RenderSettings{}.max_stiffness_n_m);
+    SPIDAR_G_FIELD(double, max_turn_stiffness, spidar::RenderSettings{}.max_turn_stiffness_nm_rad);
+    SPIDAR_G_FIELD(double, max_grasp_stiffness,
+                   spidar::RenderSettings{}.max_grasp_stiffness_nm_rad);
+    SPIDAR_G_FIELD(double, compensated_mass, spidar::RenderSettings{}.compensated_mass_kg);
+    SPIDAR_G_FIELD(double, compensated_friction, spidar::RenderSettings{}.compensated_friction_n);
+    SPIDAR_G_FIELD(double, compensated_viscous, spidar::RenderSettings{}.compensated_viscous_n_s_m);
+
+    // Tensions.
+    SPIDAR_G_FIELD(double, tension_min, spidar::TensionSettings{}.min_tension_n);
+    SPIDAR_G_FIELD(double, tension_reference, spidar::TensionSettings{}.reference_tension_n);
+    SPIDAR_G_FIELD(double, tension_max, spidar::TensionSettings{}.max_tension_n);
+    SPIDAR_G_FIELD(double, moment_weight, spidar::TensionSettings{}.weight_moment_per_m);
+    SPIDAR_G_FIELD(double, ridge, spidar::TensionSettings{}.ridge);
+    SPIDAR_G_FIELD(double, reference_weight, spidar::TensionSettings{}.reference_weight);
+    SPIDAR_G_FIELD(double, change_weight, spidar::TensionSettings{}.change_weight);
+
+    // Safety.
+    SPIDAR_G_FIELD(double, tension_slew, spidar::SafetySettings{}.tension_slew_n_per_ms);
+    SPIDAR_G_FIELD(double, arming_time, spidar::SafetySettings{}.arming_time_s);
+    SPIDAR_G_FIELD(double, max_force, spidar::SafetySettings{}.max_force_n);
+    SPIDAR_G_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
+    SPIDAR_G_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
+
+    // Grasp (radians inside, degrees in the inspector).
+    SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
+    SPIDAR_G_FIELD(double, grasp_leave_angle, spidar::GraspSettings{}.leave_rad);
+    SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
+    SPIDAR_G_FIELD(double, over_closed_leave_angle, spidar::GraspSettings{}.over_closed_leave_rad);
+    SPIDAR_G_FIELD(double, grasp_dwell, spidar::GraspSettings{}.dwell_s);
+    SPIDAR_G_FIELD(double, jaw_open, 0.08);
+    SPIDAR_G_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
+
+    // Simulated device.
+    SPIDAR_G_FIELD(bool, simulated_elastic, true);
+    SPIDAR_G_FIELD(double, simulated_string_stiffness,
+                   spidar::PlantSettings{}.string_stiffness_ea_n);
+    SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
+    SPIDAR_G_FIELD(int, simulated_hand_firmness, static_cast<int>(spidar::HandFirmness::normal));
+    // What a calibration has to find: 8 values, or none.
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_tension_gains); // real / commanded
+
+public:
+    // Empty when usable; else one sentence with field, value, unit and remedy.
+    [[nodiscard]] godot::String get_problem() const;
+    // Whether the strings of this frame and grip can hold and move it (core/analysis/geometry_report.h).
+    [[nodiscard]] godot::Dictionary check_geometry() const;
+
+    // The settings of the servo loop, all but the calibration.
+    [[nodiscard]] spidar::ServoSettings servo_settings() const;
+    [[nodiscard]] spidar::PlantSettings plant_settings() const;
+    // Which of the plugged-in devices are meant.
+    [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
+    // What this resource checks on its own (the rest is checked with the whole ServoSettings).
+    [[nodiscard]] std::string own_problem() const;
+
+    // Opening of the jaws (unit: device m): linear, jaw_open at 0, nothing at jaw_closed_angle.
+    [[nodiscard]] double jaw_gap(double grasp_angle_rad) const;
+    [[nodiscard]] double grasp_angle_for_gap(double gap_m) const;
+
+protected:
+    static void _bind_methods();
+};
+
+VARIANT_ENUM_CAST(SpidarGConfig::Transport);

@@ -1,0 +1,211 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "device/calibration/calibration_rig.h"
+#include "device/simulation/simulated_transport.h"
+
+using namespace spidar;
+
+namespace {
+
+struct Fixture {
+    PlantSettings plant;
+    RigSettings settings;
+    SimulatedTransport *device = nullptr;
+    std::unique_ptr<CalibrationRig> rig;
+    RigOrders orders;
+    RigNews news;
+
+    void make(FaultInjection fault = {}, bool with_fault = false) {
+        settings.scale_m_per_count.fill(plant.metres_per_count);
+        settings.plant = plant;
+        rig = std::make_unique<CalibrationRig>(settings, [=, this](std::string &) {
+            auto made = std::make_unique<SimulatedTransport>(plant);
+            device = made.get();
+            if (with_fault) {
+                made->inject(fault);
+            }
+            return made;
+        });
+    }
+    void step(double seconds) {
+        for (double left = seconds; left > 1e-9; left -= 0.1) {
+            ++orders.beat;
+            rig->give(orders);
+            rig->advance(0.1);
+        }
+        rig->latest(news);
+    }
+    TaskResult run(CalibrationTask task, int string, double weight_n = 0.0) {
+        orders.task = {task, string, weight_n, orders.task.number + 1};
+        for (int k = 0; k < 100 && (k == 0 || news.task.verdict == TaskVerdict::running); ++k) {
+            step(0.1);
+        }
+        return news.task;
+    }
+};
+
+} // namespace
+
+TEST_CASE("rig: each motor pulls its own string, and wrong wiring is named") {
+    Fixture sound;
+    sound.make();
+    sound.rig->start_stepped();
+    REQUIRE(sound.rig->state() == RigState::open);
+    for (int string = 0; string < kStringCount; ++string) {
+        const TaskResult result = sound.run(CalibrationTask::wiring, string);
+        CAPTURE(string);
+        CHECK(result.verdict == TaskVerdict::done);
+        CHECK(result.moved_m[static_cast<std::size_t>(string)] < -kMoved_m);
+        sound.step(0.5);
+        CHECK_FALSE(sound.news.motors_on);
+    }
+    Fixture swapped;
+    swapped.make({SimulatedFault::swapped_encoders, 2, 0.0, 0.0}, true);
+    swapped.rig->start_stepped();
+    const TaskResult wrong = swapped.run(CalibrationTask::wiring, 2);
+    CHECK(wrong.verdict == TaskVerdict::wrong_string);
+    CHECK(wrong.moved_string == 3);
+
+    Fixture reversed;
+    reversed.make({SimulatedFault::reversed_encoder, 5, 0.0, 0.0}, true);
+    reversed.rig->start_stepped();
+    CHECK(reversed.run(CalibrationTask::wiring, 5).verdict == TaskVerdict::wrong_sign);
+    CHECK(reversed.run(CalibrationTask::wiring, 4).verdict == TaskVerdict::done);
+
+    Fixture cut;
+    cut.make({SimulatedFault::output_cut, 0, 0.0, 0.0}, true);
+    cut.rig->start_stepped();
+    CHECK(cut.run(CalibrationTask::wiring, 1).verdict == TaskVerdict::no_movement);
+}
+
+TEST_CASE("rig: a known weight gives the gain of the motor, friction cancelled") {
+    Fixture f;
+    f.plant.motors.tension_gain[3] = 0.87;
+    f.plant.motors.tension_gain[6] = 1.12;
+    f.make();
+    f.rig->start_stepped();
+    for (const int string : {3, 6}) {
+        const TaskResult result = f.run(CalibrationTask::weighing, string, 2.0);
+        CAPTURE(string);
+        REQUIRE(result.verdict == TaskVerdict::done);
+        CHECK(result.rise_n > result.fall_n);
+        const double truth = f.plant.motors.tension_gain[static_cast<std::size_t>(string)];
+        const double found = 2.0 / (0.5 * (result.rise_n + result.fall_n));
+        CHECK(found == doctest::Approx(truth).epsilon(0.01));
+    }
+    CHECK(f.run(CalibrationTask::weighing, 3, 9.0).verdict == TaskVerdict::stopped);
+    CHECK(f.run(CalibrationTask::weighing, 8, 2.0).verdict == TaskVerdict::stopped);
+    CHECK(f.run(CalibrationTask::weighing, 3, NAN).verdict == TaskVerdict::stopped);
+    Fixture weak;
+    weak.plant.motors.tension_gain[0] = 0.3;
+    weak.make();
+    weak.rig->start_stepped();
+    CHECK(weak.run(CalibrationTask::weighing, 0, 3.0).verdict == TaskVerdict::not_lifted);
+}
+
+TEST_CASE("rig: motors rest until asked, never pull hard, and stop when nobody watches") {
+    Fixture f;
+    f.settings.max_tension_n = 1.0; // below the wiring pull: the limit holds
+    f.make();
+    f.rig->start_stepped();
+    f.step(1.0);
+    CHECK_FALSE(f.news.motors_on);
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    f.step(0.5);
+    CHECK(f.news.motors_on);
+    for (const double tension : f.news.tensions_n) {
+        CHECK(tension == doctest::Approx(kTaut_n));
+    }
+    f.orders.task = {CalibrationTask::wiring, 0, 0.0, 2};
+    f.step(0.9);
+    CHECK(f.news.tensions_n[0] == 1.0);
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 3};
+    f.step(0.5);
+    f.rig->advance(0.9 * kUnwatched_s); // nobody gives orders
+    f.rig->latest(f.news);
+    CHECK(f.news.motors_on);
+    f.rig->advance(0.2 * kUnwatched_s);
+    f.rig->latest(f.news);
+    CHECK_FALSE(f.news.motors_on);
+    CHECK(f.news.task.verdict == TaskVerdict::stopped);
+    f.step(0.5); // watched again: the old order does not come back
+    CHECK_FALSE(f.news.motors_on);
+}
+
+TEST_CASE("rig: a device that falls silent lets go") {
+    Fixture f;
+    f.make({SimulatedFault::read_timeout, 0, 1.0, 0.0}, true);
+    f.rig->start_stepped();
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    f.step(0.9);
+    CHECK(f.news.motors_on);
+    f.step(0.4);
+    CHECK_FALSE(f.news.motors_on);
+    CHECK(f.news.task.verdict == TaskVerdict::not_ready);
+}
+
+TEST_CASE("rig: the scripted hand of the simulated device covers the workspace") {
+    Fixture f;
+    f.make();
+    f.rig->start_stepped();
+    f.orders.hand = HandScript::place;
+    f.orders.hand_place = 6;
+    f.orders.hand_number = 1;
+    f.step(3.0);
+    CHECK(f.news.hand_has_arrived);
+    f.orders.hand = HandScript::free_motion;
+    f.orders.hand_number = 2;
+    f.orders.collecting = true;
+    CountArray low{};
+    CountArray high{};
+    CountArray counts{};
+    low.fill(INT32_MAX);
+    high.fill(INT32_MIN);
+    int samples = 0;
+    constexpr int kSeconds = 10;
+    for (int k = 0; k < kSeconds; ++k) {
+        f.step(1.0);
+        for (; f.rig->next_sample(counts); ++samples) {
+            for (std::size_t i = 0; i < kStringCount; ++i) {
+                low[i] = std::min(low[i], counts[i]);
+                high[i] = std::max(high[i], counts[i]);
+            }
+        }
+    }
+    CHECK(samples == doctest::Approx(kSeconds / kSampleInterval_s).epsilon(0.1));
+    for (std::size_t i = 0; i < kStringCount; ++i) {
+        CHECK((high[i] - low[i]) * f.plant.metres_per_count > 0.2);
+    }
+}
+
+TEST_CASE("rig: opens in a thread of its own, says why not, and closes without waiting") {
+    Fixture f;
+    f.make();
+    REQUIRE(f.rig->start_threaded());
+    const auto until = [](auto condition) {
+        for (int k = 0; k < 20000; ++k) {
+            if (condition()) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    };
+    CHECK(until([&] { return f.rig->latest(f.news) && f.news.readings > 10; }));
+    CHECK(f.news.simulated);
+    f.rig->ask_close();
+    CHECK(until([&] { return f.rig->state() == RigState::closed; }));
+
+    CalibrationRig none(f.settings, [](std::string &problem) -> std::unique_ptr<Transport> {
+        problem = "nothing is plugged in";
+        return nullptr;
+    });
+    REQUIRE(none.start_threaded());
+    CHECK(until([&] { return none.state() == RigState::failed; }));
+    CHECK(none.problem() == "nothing is plugged in");
+}
