@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What no compiler checks: which folder may include what, and what no committed file may name.
+"""What no compiler checks: which room may use which, and what no committed file may name.
 
-Prints each complaint as FILE:LINE, then "N passed, N failed".
+Prints each complaint as FILE:LINE, then "N passed, N failed". With --rooms: the rooms and the arrows between them.
 """
 
 import io
@@ -11,24 +11,22 @@ import subprocess
 import sys
 import zipfile
 
+from boundaries import rooms
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-# Headers of the standard library have no folder and no suffix: <vector>, <cmath>.
-STANDARD = r"<[a-z_0-9]+>"
-MAY_INCLUDE = {
-    # The vector kernels of the core use the compiler's own names of x86 instructions.
-    "gdextension/core": (r'"core/', r"<glm/", r"<immintrin\.h>", STANDARD),
-    # The device layer talks to the operating system (threads, clocks) and to hidapi.
-    "gdextension/device": (
-        r'"core/', r'"device/', r"<glm/", r"<hidapi", STANDARD,
-        r"<(pthread|sched|time|unistd|fcntl|errno|dlfcn|windows)\.h>", r"<sys/[a-z]+\.h>",
-        r"<mach/[a-z_]+\.h>", r"<[a-z]+intrin\.h>", r'"spidar_(version|sources)\.h"',
-    ),
-    "gdextension/godot": (
-        r'"core/', r'"device/', r'"godot/', r'"spidar_version\.h"', r"<glm/", r"<godot_cpp/",
-        r"<gdextension_interface\.h>", STANDARD,
-    ),
-}
+# Headers from outside, and the rooms that may include them; a room's name stands for the rooms inside it too. Headers of
+# the standard library have no folder and no suffix: <vector>, <cmath>.
+EVERYWHERE = ("core", "device", "godot")
+OUTSIDE = (
+    (r"<[a-z_0-9]+>", EVERYWHERE),
+    (r"<glm/", EVERYWHERE),
+    (r"<immintrin\.h>", ("core/tension/fast", "device/threads")),
+    (r"<(pthread|sched|windows)\.h>|<sys/prctl\.h>", ("device/threads",)),
+    (r"<hidapi/|<(dlfcn|unistd)\.h>|<sys/types\.h>", ("device/hid",)),
+    (r'"spidar_(version|sources)\.h"', ("device/recording", "godot")),
+    (r"<godot_cpp/|<gdextension_interface\.h>", ("godot",)),
+)
 # Where a committed file may send its reader. A script may fetch from none of them.
 LINKS = (
     "github.com", "raw.githubusercontent.com", "godotengine.org", "docs.godotengine.org",
@@ -59,13 +57,30 @@ def sources_of(files, folder):
     return [path for path in found if path.endswith((".cpp", ".h"))]
 
 
-def includes(files, folder):
-    """Includes that the folder may not have."""
-    for path in sources_of(files, folder):
-        for number, line in lines_of(path):
+def room_sources(files):
+    """{path: text} of every file that lies in a room."""
+    return {path: "\n".join(line for _, line in lines_of(path)) for path in files if rooms.room_of(path)}
+
+
+def room_rules():
+    with open(os.path.join(ROOT, rooms.LIST), encoding="utf-8") as file:
+        return rooms.Rules(file.read())
+
+
+def inside(room, folders):
+    return any(room == folder or room.startswith(folder + "/") for folder in folders)
+
+
+def outside_headers(sources):
+    """Includes that are of no room, where the list above does not allow them."""
+    for path, text in sources.items():
+        for number, line in enumerate(text.splitlines(), 1):
             found = re.match(r'\s*#\s*include\s+(["<].*)', line)
-            if found and not any(re.match(rule, found.group(1)) for rule in MAY_INCLUDE[folder]):
-                yield path, number, f"{folder} may not include {found.group(1)}"
+            if not path.endswith((".cpp", ".h")) or not found or rooms.INCLUDE.match(line):
+                continue
+            room = rooms.room_of(path)
+            if not any(re.match(rule, found.group(1)) and inside(room, allowed) for rule, allowed in OUTSIDE):
+                yield path, number, f"{room} may not include {found.group(1)}"
 
 
 def engine_names(files, folder):
@@ -144,10 +159,13 @@ def archive():
 
 def main():
     files = tracked_files()
+    sources = room_sources(files)
+    if sys.argv[1:] == ["--rooms"]:
+        print("\n".join(rooms.table(sources, room_rules())))
+        return 0
     checks = {
-        "core includes GLM and the standard library": includes(files, "gdextension/core"),
-        "device includes core and the system": includes(files, "gdextension/device"),
-        "nodes include the allowed headers": includes(files, "gdextension/godot"),
+        f"rooms use each other as {rooms.LIST} says": rooms.complaints(sources, room_rules()),
+        "headers from outside": outside_headers(sources),
         "core does not know the engine": engine_names(files, "gdextension/core"),
         "device does not know the engine": engine_names(files, "gdextension/device"),
         "addresses": links(files),
@@ -158,9 +176,9 @@ def main():
         "archive": archive(),
     }
     failed = 0
-    for folder in MAY_INCLUDE:  # a check that looks at nothing proves nothing
-        if not sources_of(files, folder):
-            print(f"FAIL {folder}: no sources")
+    for root, name in rooms.ROOTS.items():  # a check that looks at nothing proves nothing
+        if not any(path.startswith(root + "/") for path in sources):
+            print(f"FAIL {name}: no sources")
             failed += 1
     for name, complaints in checks.items():
         complaints = list(complaints)
@@ -168,7 +186,7 @@ def main():
         print(f"{'FAIL' if complaints else 'ok  '} {name}")
         for path, number, text in complaints:
             print(f"     {path}:{number}: {text}")
-    print(f"{len(checks) + len(MAY_INCLUDE) - failed} passed, {failed} failed")
+    print(f"{len(checks) + len(rooms.ROOTS) - failed} passed, {failed} failed")
     return 1 if failed else 0
 
 
