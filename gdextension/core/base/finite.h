@@ -57,4 +57,9 @@ template <class First, class Second, class... Rest>
     return all_finite(twist.linear_m_s, twist.angular_rad_s, twist.grasp_rate_rad_s);
 }
 
+// Above zero, and neither NaN nor infinite.
+[[nodiscard]] inline bool positive_finite(double value) noexcept {
+    return value > 0.0 && std::isfinite(value);
+}
+
 } // namespace spidar
