@@ -260,9 +260,6 @@ private:
 std::vector<std::unique_ptr<TensionMethod>> tension_methods() {
     std::vector<std::unique_ptr<TensionMethod>> daqp = daqp_methods();
     std::vector<std::unique_ptr<TensionMethod>> methods;
-    if (supports(SimdLevel::avx512)) {
-        methods.push_back(std::make_unique<Ours>("ours, AVX-512", SimdLevel::avx512, false));
-    }
     if (supports(SimdLevel::avx2)) {
         methods.push_back(std::make_unique<Ours>("ours, AVX2", SimdLevel::avx2, false));
     }

@@ -48,8 +48,7 @@ def error_and_failures(row):
 
 def tension(results):
     rows = results["tension"]
-    builds = [(method, text) for method, text in (("ours, AVX-512", "AVX-512"), ("ours, AVX2", "AVX2"),
-                                                  ("ours, 16-byte vectors", "SSE2"))
+    builds = [(method, text) for method, text in (("ours, AVX2", "AVX2"), ("ours, 16-byte vectors", "SSE2"))
               if find(rows, method, "S1", "cold")]
     others = (("bounded least squares", "QR"), ("eiquadprog", "eiquadprog"), ("quadprog", "quadprog"),
               ("qpOASES", "qpOASES"))

@@ -65,8 +65,7 @@ public:
     Sequence(std::uint64_t seed, std::uint64_t number)
         : input_(seed, number), step_(std::make_unique<ServoStep>()),
           twin_(std::make_unique<ServoStep>()) {
-        constexpr SimdLevel kLevels[] = {SimdLevel::plain, SimdLevel::avx2, SimdLevel::avx512};
-        const SimdLevel level = kLevels[number % 3];
+        const SimdLevel level = number % 2 == 0 ? SimdLevel::plain : SimdLevel::avx2;
         set_simd_level(supports(level) ? level : SimdLevel::plain);
         configured_ = usable(step_->configure(input_.settings));
         wall_.configure(input_.settings);

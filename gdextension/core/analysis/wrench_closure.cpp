@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/finite.h"
 #include "core/tension/exact/box_least_squares.h"
 
 namespace spidar {
@@ -242,7 +243,7 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
 FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
                              const TensionSettings &settings) noexcept {
     FeasibleScale scale;
-    if (!std::all_of(wrench.begin(), wrench.end(), [](double q) { return std::isfinite(q); })) {
+    if (!all_finite(wrench)) {
         return scale;
     }
     if (settings.dof_mask != kAllDofs || settings.broken_mask != 0) {

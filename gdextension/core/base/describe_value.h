@@ -4,17 +4,22 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace spidar {
 
-// "0.04 m", "nan m".
-[[nodiscard]] inline std::string with_unit(double value, const char *unit) {
-    if (std::isnan(value)) {
-        return std::string("nan ") + unit; // no sign: printf's depends on the payload
+// "0.04 m", "nan m"; the number alone where the unit is "".
+[[nodiscard]] inline std::string with_unit(double value, std::string_view unit) {
+    char digits[32] = "nan"; // no sign: printf's depends on the payload
+    if (!std::isnan(value)) {
+        std::snprintf(digits, sizeof digits, "%.9g", value);
     }
-    char text[64];
-    std::snprintf(text, sizeof text, "%.9g %s", value, unit);
+    std::string text = digits;
+    if (!unit.empty()) {
+        text.append(" ").append(unit);
+    }
     return text;
 }
 
@@ -22,6 +27,46 @@ namespace spidar {
 [[nodiscard]] inline std::string element_name(const char *field, std::size_t string) {
     return std::string(field) + "[" + std::to_string(string) + "] (string " +
            std::to_string(string + 1) + ")";
+}
+
+// "rate_hz is 5 Hz; give 100 or more." `remedy` says what to do, as the rest of the sentence with its full stop.
+[[nodiscard]] inline std::string range_sentence(std::string_view field, double value,
+                                                std::string_view unit, std::string_view remedy) {
+    return std::string(field)
+        .append(" is ")
+        .append(with_unit(value, unit))
+        .append("; ")
+        .append(remedy);
+}
+
+// A field, and the range in which validate() accepts its value: both ends included.
+struct ValueRange {
+    const char *field;
+    double value;
+    const char *unit;
+    double least;
+    double most;
+};
+
+// "rate_hz is 5 Hz; set it between 100 and 4000 Hz." Empty when the value lies within the range; NaN lies in none.
+[[nodiscard]] inline std::string range_sentence(const ValueRange &range) {
+    if (range.value >= range.least && range.value <= range.most) {
+        return {};
+    }
+    return range_sentence(range.field, range.value, range.unit,
+                          "set it between " + with_unit(range.least, "") + " and " +
+                              with_unit(range.most, range.unit) + ".");
+}
+
+// The sentence of the first field that is out of its range; empty when there is none.
+[[nodiscard]] inline std::string first_out_of_range(std::span<const ValueRange> ranges) {
+    for (const ValueRange &range : ranges) {
+        std::string sentence = range_sentence(range);
+        if (!sentence.empty()) {
+            return sentence;
+        }
+    }
+    return {};
 }
 
 } // namespace spidar

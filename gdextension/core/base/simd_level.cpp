@@ -7,9 +7,7 @@ namespace spidar {
 namespace {
 
 SimdLevel best_level() noexcept {
-    return supports(SimdLevel::avx512) ? SimdLevel::avx512
-           : supports(SimdLevel::avx2) ? SimdLevel::avx2
-                                       : SimdLevel::plain;
+    return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
 }
 
 std::atomic<SimdLevel> &current_level() noexcept {
@@ -27,12 +25,8 @@ bool supports(SimdLevel level) noexcept {
         return true;
     }
 #if defined(__x86_64__) && defined(__GNUC__)
-    const bool avx2 = __builtin_cpu_supports("avx2") > 0 && __builtin_cpu_supports("fma") > 0;
-    if (level == SimdLevel::avx512) {
-        return avx2 && __builtin_cpu_supports("avx512f") > 0 &&
-               __builtin_cpu_supports("avx512dq") > 0 && __builtin_cpu_supports("avx512vl") > 0;
-    }
-    return level == SimdLevel::avx2 && avx2;
+    return level == SimdLevel::avx2 && __builtin_cpu_supports("avx2") > 0 &&
+           __builtin_cpu_supports("fma") > 0;
 #else
     return false;
 #endif
@@ -52,14 +46,12 @@ bool set_simd_level(SimdLevel level) noexcept {
 
 const char *describe(SimdLevel level) noexcept {
     switch (level) {
+    case SimdLevel::plain:
+        return "plain 16-byte vectors";
     case SimdLevel::avx2:
         return "AVX2 and FMA";
-    case SimdLevel::avx512:
-        return "AVX-512";
-    case SimdLevel::plain:
-        break;
     }
-    return "plain 16-byte vectors";
+    return "unknown vectors"; // a recording may name any number
 }
 
 } // namespace spidar

@@ -7,9 +7,8 @@
 namespace spidar {
 
 enum class SimdLevel : std::uint8_t {
-    plain = 0,  // 16-byte vectors: SSE2 on x86-64, NEON on arm64
-    avx2 = 1,   // 32-byte vectors and fused multiply-add
-    avx512 = 2, // 64-byte vectors
+    plain = 0, // 16-byte vectors: SSE2 on x86-64, NEON on arm64
+    avx2 = 1,  // 32-byte vectors and fused multiply-add
 };
 
 // Can this processor, and this build, run that level?

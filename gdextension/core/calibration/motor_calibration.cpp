@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/describe_value.h"
+#include "core/base/finite.h"
 
 namespace spidar {
 
@@ -22,18 +23,19 @@ double tension_per_ampere(const MotorCalibration &calibration, std::size_t i) no
     const double torque_constant = calibration.torque_constant_nm_a[i];
     const double gain = calibration.tension_gain[i];
     const double ratio = gain * torque_constant / radius;
-    return radius > 0.0 && ratio > 0.0 && std::isfinite(ratio) ? ratio : 0.0;
+    return radius > 0.0 && positive_finite(ratio) ? ratio : 0.0;
 }
 
 double current_limit(const MotorCalibration &calibration, std::size_t i) noexcept {
     const double limit = calibration.max_current_a[i];
-    return limit > 0.0 && std::isfinite(limit) ? limit : 0.0;
+    return positive_finite(limit) ? limit : 0.0;
 }
 
 std::string range_message(const char *field, std::size_t i, double value, const char *unit,
                           double highest, const char *what) {
-    return element_name(field, i) + " is " + with_unit(value, unit) + "; give " + what +
-           " between " + with_unit(kSmallest, unit) + " and " + with_unit(highest, unit) + ".";
+    return range_sentence(element_name(field, i), value, unit,
+                          std::string("give ") + what + " between " + with_unit(kSmallest, unit) +
+                              " and " + with_unit(highest, unit) + ".");
 }
 
 bool in_range(double value, double highest) {

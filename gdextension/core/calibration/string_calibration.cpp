@@ -54,17 +54,19 @@ std::string validate(const StringCalibration &calibration) {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double offset = calibration.offset_m[i];
         if (!(std::fabs(offset) <= kMaxOffset_m)) {
-            return element_name("offset_m", i) + " is " + with_unit(offset, "m") +
-                   "; give the finite string length at the zero count, or calibrate at home again.";
+            return range_sentence(
+                element_name("offset_m", i), offset, "m",
+                "give the finite string length at the zero count, or calibrate at home again.");
         }
         const double scale = calibration.scale_m_per_count[i];
         const double size = std::fabs(scale);
         if (!(size >= kMinScale_m) || !(size <= kMaxScale_m)) {
-            return element_name("scale_m_per_count", i) + " is " + with_unit(scale, "m/count") +
-                   "; give the string length a count, " + with_unit(kMinScale_m, "m/count") +
-                   " to " + with_unit(kMaxScale_m, "m/count") +
-                   " (paper: " + with_unit(kPaperMetresPerCount, "m/count") +
-                   "), negative if wound the other way.";
+            return range_sentence(element_name("scale_m_per_count", i), scale, "m/count",
+                                  "give the string length a count, " +
+                                      with_unit(kMinScale_m, "m/count") + " to " +
+                                      with_unit(kMaxScale_m, "m/count") +
+                                      " (paper: " + with_unit(kPaperMetresPerCount, "m/count") +
+                                      "), negative if wound the other way.");
         }
     }
     return {};

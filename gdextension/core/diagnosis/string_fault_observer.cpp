@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/finite.h"
 #include "core/calibration/fit/length_jacobian.h"
 #include "core/kinematics/constants.h"
 
@@ -57,15 +58,6 @@ constexpr auto kPairTable = [] {
     return table;
 }();
 
-bool positive(double x) noexcept {
-    return x > 0.0 && std::isfinite(x);
-}
-
-bool all_finite(const StringArray &lengths_m) noexcept {
-    return std::all_of(lengths_m.begin(), lengths_m.end(),
-                       [](double x) { return std::isfinite(x); });
-}
-
 } // namespace
 
 const char *describe(StringFault fault) noexcept {
@@ -89,13 +81,13 @@ const char *describe(StringFault fault) noexcept {
 Status StringFaultObserver::configure(const FrameGeometry &frame, const GripGeometry &grip,
                                       const StringCalibration &strings,
                                       const FaultObserverSettings &settings) noexcept {
-    if (!positive(settings.tick_s) || !positive(settings.parity_noise_m) ||
-        !positive(settings.suspicion_m) || !positive(settings.window_s) ||
-        !positive(settings.min_error_m) || !(settings.window_s >= 100.0 * settings.tick_s)) {
+    if (!positive_finite(settings.tick_s) || !positive_finite(settings.parity_noise_m) ||
+        !positive_finite(settings.suspicion_m) || !positive_finite(settings.window_s) ||
+        !positive_finite(settings.min_error_m) || !(settings.window_s >= 100.0 * settings.tick_s)) {
         return Status::invalid_settings;
     }
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        if (!std::isfinite(strings.offset_m[i]) || !std::isfinite(strings.scale_m_per_count[i]) ||
+        if (!all_finite(strings.offset_m[i], strings.scale_m_per_count[i]) ||
             strings.scale_m_per_count[i] == 0.0) {
             return Status::invalid_calibration;
         }

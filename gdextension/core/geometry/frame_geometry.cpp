@@ -110,10 +110,11 @@ std::string validate(const FrameGeometry &frame) {
         for (int axis = 0; axis < 3; ++axis) {
             const double value = frame.motors_m[i][axis];
             if (!(std::fabs(value) <= kMaxFrameExtent_m)) {
-                return element_name("motors_m", i) + "." + kAxes[static_cast<std::size_t>(axis)] +
-                       " is " + with_unit(value, "m") + "; give a finite position within " +
-                       with_unit(kMaxFrameExtent_m, "m") +
-                       " of the frame's centre (metres, not millimetres).";
+                return range_sentence(
+                    element_name("motors_m", i) + "." + kAxes[static_cast<std::size_t>(axis)],
+                    value, "m",
+                    "give a finite position within " + with_unit(kMaxFrameExtent_m, "m") +
+                        " of the frame's centre (metres, not millimetres).");
             }
         }
     }
@@ -129,9 +130,9 @@ std::string validate(const FrameGeometry &frame) {
                with_unit(kMinRelativeThickness * extent, "m") + " in each.";
     }
     if (!(frame.pulley_radius_m >= 0.0 && frame.pulley_radius_m <= kMaxPulleyRadius_m)) {
-        return "pulley_radius_m is " + with_unit(frame.pulley_radius_m, "m") +
-               "; give the radius of the exit pulleys in metres, up to " +
-               with_unit(kMaxPulleyRadius_m, "m") + ", or 0 for eyelets.";
+        return range_sentence("pulley_radius_m", frame.pulley_radius_m, "m",
+                              "give the radius of the exit pulleys in metres, up to " +
+                                  with_unit(kMaxPulleyRadius_m, "m") + ", or 0 for eyelets.");
     }
     if (!is_unit(frame.pulley_axis)) {
         return "pulley_axis has the length " +

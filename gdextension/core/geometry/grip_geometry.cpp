@@ -151,9 +151,10 @@ bool is_usable(const GripGeometry &grip, const FrameGeometry &frame) noexcept {
 std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
     const double d = grip.pole_half_length_m;
     if (!(d >= kMinPoleHalfLength_m)) {
-        return "pole_half_length_m is " + with_unit(d, "m") + "; give at least " +
-               with_unit(kMinPoleHalfLength_m, "m") + ", the paper's grip has " +
-               with_unit(kPaperPoleHalfLength_m, "m") + ".";
+        return range_sentence("pole_half_length_m", d, "m",
+                              "give at least " + with_unit(kMinPoleHalfLength_m, "m") +
+                                  ", the paper's grip has " +
+                                  with_unit(kPaperPoleHalfLength_m, "m") + ".");
     }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Attachment &attachment = grip.attachments[i];
@@ -171,9 +172,8 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
                    " (index); use 0 for pole 1 or 1 for pole 2.";
         }
         if (attachment.sign != 1.0 && attachment.sign != -1.0) {
-            return element_name("attachments", i) + ".sign is " +
-                   with_unit(attachment.sign, "(end)") +
-                   "; use +1 or -1 for the two ends of the pole.";
+            return range_sentence(element_name("attachments", i) + ".sign", attachment.sign,
+                                  "(end)", "use +1 or -1 for the two ends of the pole.");
         }
     }
     if (grip.kind == GripKind::rigid && !joints_span(grip.joints_m)) {

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/finite.h"
 #include "core/geometry/string_exit.h"
 #include "core/kinematics/constants.h"
 #include "core/kinematics/search/closed_form.h"
@@ -17,15 +18,6 @@ namespace {
 
 // Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
 constexpr double kFaceMargin_m = 1e-6;
-
-bool all_finite(const StringArray &lengths_m) noexcept {
-    for (const double length : lengths_m) {
-        if (!std::isfinite(length)) {
-            return false;
-        }
-    }
-    return true;
-}
 
 bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {

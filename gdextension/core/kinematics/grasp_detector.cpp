@@ -26,8 +26,8 @@ GraspPhase phase_asked(const GraspSettings &settings, GraspPhase now, double ang
 }
 
 std::string angle_message(const char *field, double value_rad, const char *remedy) {
-    return std::string(field) + " is " + with_unit(value_rad, "rad") + " (" +
-           with_unit(value_rad / kDegree_rad, "degrees") + "); " + remedy;
+    return range_sentence(field, value_rad,
+                          "rad (" + with_unit(value_rad / kDegree_rad, "degrees") + ")", remedy);
 }
 
 } // namespace
@@ -89,8 +89,8 @@ std::string validate(const GraspSettings &settings) {
                              "it must be below over_closed_leave_rad, or nothing is ever grasped.");
     }
     if (!(settings.dwell_s >= 0.0) || !(settings.dwell_s <= kMaxDwell_s)) {
-        return "dwell_s is " + with_unit(settings.dwell_s, "s") + "; give 0 to " +
-               with_unit(kMaxDwell_s, "s") + " (default 0.03 s).";
+        return range_sentence("dwell_s", settings.dwell_s, "s",
+                              "give 0 to " + with_unit(kMaxDwell_s, "s") + " (default 0.03 s).");
     }
     return {};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/finite.h"
 #include "core/tension/exact/box_least_squares.h"
 
 namespace spidar {
@@ -21,10 +22,6 @@ DofArray difference(const DofArray &a, const DofArray &b) noexcept {
         result[k] = a[k] - b[k];
     }
     return result;
-}
-
-bool finite(const DofArray &values) noexcept {
-    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
 } // namespace
@@ -77,7 +74,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
         target_n[i] = settings.reference_weight * reference_n[i] / weight;
     }
     const DofArray whole = error_with(weight, target_n);
-    if (!finite(achieved) || !usable(report.status)) {
+    if (!all_finite(achieved) || !usable(report.status)) {
         report.status = usable(report.status) ? Status::not_finite : report.status;
         return report;
     }

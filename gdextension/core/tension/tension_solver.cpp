@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
+#include "core/base/describe_value.h"
+#include "core/base/finite.h"
 #include "core/tension/exact/box_least_squares.h"
 #include "core/tension/fast/fast_tension.h"
 
@@ -32,15 +33,6 @@ constexpr double kSettled_n = 1e-12;
 
 // Above this a setting is a slip of units, and squares of it lose the digits of the rest.
 constexpr double kLargestSetting = 1e6;
-
-bool finite(const DofArray &values) noexcept {
-    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
-bool finite(const WrenchMatrix &matrix) noexcept {
-    return std::all_of(matrix.columns.begin(), matrix.columns.end(),
-                       [](const DofArray &column) { return finite(column); });
-}
 
 template <class T>
 bool same_bits(const T &a, const T &b) noexcept {
@@ -90,33 +82,27 @@ Fault find_fault(const TensionSettings &s) noexcept {
                                  {"reference_weight", s.reference_weight, ""},
                                  {"change_weight", s.change_weight, ""}};
     for (const NamedValue &v : values) {
-        if (!std::isfinite(v.value)) {
-            return {v.field, v.value, v.unit, "give a finite number"};
-        }
-        if (!(v.value >= 0.0)) {
-            return {v.field, v.value, v.unit, "give 0 or more"};
-        }
-        if (!(v.value <= kLargestSetting)) {
-            return {v.field, v.value, v.unit, "give 1e6 or less"};
+        if (!(v.value >= 0.0 && v.value <= kLargestSetting)) {
+            return {v.field, v.value, v.unit, "give 0 to 1e6."};
         }
     }
     if (!(s.max_tension_n > s.min_tension_n)) {
-        return {"max_tension_n", s.max_tension_n, "N", "raise it above min_tension_n"};
+        return {"max_tension_n", s.max_tension_n, "N", "raise it above min_tension_n."};
     }
     if (!(s.reference_tension_n >= s.min_tension_n && s.reference_tension_n <= s.max_tension_n)) {
         return {"reference_tension_n", s.reference_tension_n, "N",
-                "put it between min_tension_n and max_tension_n"};
+                "put it between min_tension_n and max_tension_n."};
     }
     if ((s.dof_mask & kAllDofs) == 0 || s.dof_mask > kAllDofs) {
         return {"dof_mask", static_cast<double>(s.dof_mask), "",
-                "give 1 to 127, bit k for DOF k of the wrench (127 is all)"};
+                "give 1 to 127, bit k for DOF k of the wrench (127 is all)."};
     }
     if (!(s.weight_force > 0.0)) {
-        return {"weight_force", s.weight_force, "", "give more than 0 (1 is usual)"};
+        return {"weight_force", s.weight_force, "", "give more than 0 (1 is usual)."};
     }
     if (!(s.ridge + s.reference_weight >= kVanishingWeight)) {
         return {"ridge", s.ridge, "",
-                "give 1e-12 or more (1e-9 is usual): it makes the answer unique"};
+                "give 1e-12 or more (1e-9 is usual): it makes the answer unique."};
     }
     return {};
 }
@@ -186,12 +172,12 @@ TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
     keep(matrix, wrench);
     TensionResult result;
     settled_ = false;
-    if (!finite(problem_.matrix)) {
+    if (!all_finite(problem_.matrix.columns)) {
         result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
         result.status = Status::not_finite;
         return result;
     }
-    const bool wrench_is_finite = finite(wrench);
+    const bool wrench_is_finite = all_finite(wrench);
     if (!wrench_is_finite) {
         problem_.wrench = {};
     }
@@ -254,8 +240,7 @@ TensionResult TensionSolver::remember(const TensionSolution &solution, const Wre
 }
 
 void TensionSolver::set_last_tensions(const StringArray &tensions_n) noexcept {
-    if (std::all_of(tensions_n.begin(), tensions_n.end(),
-                    [](double t) { return std::isfinite(t); })) {
+    if (all_finite(tensions_n)) {
         settled_ = settled_ && same_bits(tensions_n, last_tensions_n_);
         last_tensions_n_ = tensions_n;
         has_last_ = true;
@@ -287,13 +272,9 @@ DofArray tension_weights(const TensionSettings &settings) noexcept {
 
 std::string validate(const TensionSettings &settings) {
     const Fault fault = find_fault(settings);
-    if (fault.field == nullptr) {
-        return {};
-    }
-    char text[256];
-    std::snprintf(text, sizeof text, "%s is %g%s%s: %s.", fault.field, fault.value,
-                  *fault.unit == '\0' ? "" : " ", fault.unit, fault.remedy);
-    return text;
+    return fault.field == nullptr
+               ? std::string()
+               : range_sentence(fault.field, fault.value, fault.unit, fault.remedy);
 }
 
 } // namespace spidar

@@ -202,8 +202,10 @@ std::string why_no_replay(const RecordingInfo &info) {
                "Replay it with the build that made it.";
     }
     if (!supports(info.simd)) {
-        return std::string("The recording was made with vector level ") + describe(info.simd) +
-               ", which this processor lacks: replay it on one that has it.";
+        return "The recording was made at vector level " +
+               std::to_string(static_cast<int>(info.simd)) + " (" + describe(info.simd) +
+               "), which this processor or this version of spidar_g lacks: its cycles can be read, "
+               "but not replayed to the bit. Replay it where that level is supported.";
     }
     return {};
 }

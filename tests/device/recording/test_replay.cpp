@@ -269,6 +269,15 @@ TEST_CASE("replay: another build, another schema or no file at all is refused wi
     info = describe_recording(ideal_settings());
     ++info.state_bytes;
     CHECK(why_no_replay(info).find("another form") != std::string::npos);
+    info = describe_recording(ideal_settings());
+    info.simd = static_cast<SimdLevel>(2); // AVX-512, of versions before this one
+    CHECK(why_no_replay(info).find("made at vector level 2 (unknown vectors)") !=
+          std::string::npos);
+    const TemporaryFile of_old_level;
+    REQUIRE(writer.open(of_old_level.path(), info) == "");
+    writer.close();
+    CHECK(transport.load(of_old_level.path()) == why_no_replay(info));
+    CHECK(transport.open() == Status::open_failed); // and not at another level
     CHECK(transport.load(file.path() + ".absent").find("no such file") != std::string::npos);
     Session session;
     CHECK(session.loop->start_recording(file.path()).find("No device") != std::string::npos);

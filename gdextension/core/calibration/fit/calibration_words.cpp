@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/base/describe_value.h"
+#include "core/base/finite.h"
 #include "core/calibration/fit/self_calibration.h"
 
 namespace spidar {
@@ -14,42 +15,38 @@ namespace {
 constexpr std::size_t kNamedParts = 4;
 constexpr double kNamedShare = 0.2;
 
-std::string out_of_range(const char *field, double value, const char *unit, const char *remedy) {
-    return std::string(field) + " is " + with_unit(value, unit) + "; " + remedy;
-}
-
 } // namespace
 
 std::string validate(const SelfCalibrationSettings &settings) {
-    const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-    if (!positive(settings.offset_prior_m)) {
-        return out_of_range("offset_prior_m", settings.offset_prior_m, "m",
-                            "give how far the offsets may be off at the start, for instance 0.02.");
+    if (!positive_finite(settings.offset_prior_m)) {
+        return range_sentence(
+            "offset_prior_m", settings.offset_prior_m, "m",
+            "give how far the offsets may be off at the start, for instance 0.02.");
     }
-    if (!positive(settings.gain_prior)) {
-        return out_of_range("gain_prior", settings.gain_prior, "m/m",
-                            "give how far the gains may be off, for instance 0.05.");
+    if (!positive_finite(settings.gain_prior)) {
+        return range_sentence("gain_prior", settings.gain_prior, "m/m",
+                              "give how far the gains may be off, for instance 0.05.");
     }
-    if (!positive(settings.winding_prior_1_m)) {
-        return out_of_range("winding_prior_1_m", settings.winding_prior_1_m, "1/m",
-                            "give how large the winding curvature may be, for instance 0.1.");
+    if (!positive_finite(settings.winding_prior_1_m)) {
+        return range_sentence("winding_prior_1_m", settings.winding_prior_1_m, "1/m",
+                              "give how large the winding curvature may be, for instance 0.1.");
     }
-    if (!positive(settings.size_prior)) {
-        return out_of_range("size_prior", settings.size_prior, "m/m",
-                            "give how far the sizes may be off, for instance 0.02.");
+    if (!positive_finite(settings.size_prior)) {
+        return range_sentence("size_prior", settings.size_prior, "m/m",
+                              "give how far the sizes may be off, for instance 0.02.");
     }
     if (!(settings.central_share > 0.0) || !(settings.central_share <= settings.middle_share) ||
         !(settings.middle_share <= 1.0)) {
-        return out_of_range("central_share", settings.central_share, "of the poses",
-                            "give 0 < central_share <= middle_share <= 1.");
+        return range_sentence("central_share", settings.central_share, "of the poses",
+                              "give 0 < central_share <= middle_share <= 1.");
     }
     if (!(settings.min_singular >= 0.0) || !(settings.min_singular < 1.0)) {
-        return out_of_range("min_singular", settings.min_singular, "m/m",
-                            "give 0 to 1; 0.25 keeps poses that determine the grip well.");
+        return range_sentence("min_singular", settings.min_singular, "m/m",
+                              "give 0 to 1; 0.25 keeps poses that determine the grip well.");
     }
     if (!(settings.outlier_sigmas >= 1.0)) {
-        return out_of_range("outlier_sigmas", settings.outlier_sigmas, "sigma",
-                            "give 1 or more; 5 is usual.");
+        return range_sentence("outlier_sigmas", settings.outlier_sigmas, "sigma",
+                              "give 1 or more; 5 is usual.");
     }
     if ((settings.fit_winding || settings.fit_sizes) && !settings.fit_gains) {
         return "fit_gains is false; winding and sizes can be told from the gains only when these "

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/finite.h"
+
 namespace spidar {
 
 namespace {
@@ -12,17 +14,6 @@ namespace {
 constexpr int kMaxSweeps = 60;
 // Columns count as orthogonal at this cosine: a few roundings.
 constexpr double kOrthogonal = 1e-15;
-
-bool all_finite(const DenseMatrix &a, const std::vector<double> &b) {
-    for (std::size_t i = 0; i < a.rows(); ++i) {
-        for (std::size_t j = 0; j < a.columns(); ++j) {
-            if (!std::isfinite(a(i, j))) {
-                return false;
-            }
-        }
-    }
-    return std::all_of(b.begin(), b.end(), [](double x) { return std::isfinite(x); });
-}
 
 // Householder: A becomes R in its upper triangle, b becomes Q^T b.
 void triangularise(DenseMatrix &a, std::vector<double> &b) {
@@ -119,7 +110,7 @@ LeastSquaresSolution solve_least_squares(DenseMatrix a, std::vector<double> b,
         !(relative_cutoff >= 0.0)) {
         return solution;
     }
-    if (!all_finite(a, b)) {
+    if (!all_finite(a.values(), b)) {
         solution.status = Status::not_finite;
         return solution;
     }

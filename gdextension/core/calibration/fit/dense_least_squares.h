@@ -30,6 +30,7 @@ public:
     double operator()(std::size_t row, std::size_t column) const noexcept {
         return values_[row * columns_ + column];
     }
+    [[nodiscard]] const std::vector<double> &values() const noexcept { return values_; } // by rows
 
 private:
     std::size_t rows_ = 0;

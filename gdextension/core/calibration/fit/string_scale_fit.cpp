@@ -102,8 +102,8 @@ StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs) {
 std::string validate(const std::vector<CountLengthPair> &pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (!std::isfinite(pairs[i].length_m)) {
-            return "pairs[" + std::to_string(i) + "].length_m is " +
-                   with_unit(pairs[i].length_m, "m") + "; give the length read off the ruler.";
+            return range_sentence("pairs[" + std::to_string(i) + "].length_m", pairs[i].length_m,
+                                  "m", "give the length read off the ruler.");
         }
     }
     if (pairs.empty() || !counts_differ(pairs)) {

@@ -65,10 +65,10 @@ std::string CalibrationWorksheet::add_length(std::size_t string, std::int32_t co
         longest = std::fmax(longest, 4.0 * std::sqrt(glm::dot(motor, motor)));
     }
     if (!(length_m > 0.0 && length_m <= longest)) {
-        return "length_m is " + with_unit(length_m, "m") +
-               "; give the string's length from its exit to "
-               "the grip, above 0 and up to " +
-               with_unit(longest, "m") + ".";
+        return range_sentence("length_m", length_m, "m",
+                              "give the string's length from its exit to the grip, above 0 and up "
+                              "to " +
+                                  with_unit(longest, "m") + ".");
     }
     pairs.push_back({count, length_m});
     const StringScaleFit fit = length_fit(string);

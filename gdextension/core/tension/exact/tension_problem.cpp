@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/finite.h"
 #include "core/tension/exact/box_least_squares.h"
 #include "core/tension/fast/fast_tension.h"
 #include "core/tension/tension_solver.h"
@@ -266,24 +267,10 @@ private:
     int iterations_ = 0;
 };
 
-template <std::size_t N>
-bool all_finite(const std::array<double, N> &values) noexcept {
-    // A sum is finite only if every term is; one that overflows is no usable input either.
-    double sum = 0.0;
-    for (double value : values) {
-        sum += std::abs(value);
-    }
-    return std::isfinite(sum);
-}
-
 Status check_problem(const TensionProblem &problem) noexcept {
-    bool finite = all_finite(problem.wrench) && all_finite(problem.weights) &&
-                  all_finite(problem.proximal_target_n) && all_finite(problem.lower_n) &&
-                  all_finite(problem.upper_n) && std::isfinite(problem.proximal_weight);
-    for (const DofArray &column : problem.matrix.columns) {
-        finite = finite && all_finite(column);
-    }
-    if (!finite) {
+    if (!all_finite(problem.matrix.columns, problem.wrench, problem.weights,
+                    problem.proximal_weight, problem.proximal_target_n, problem.lower_n,
+                    problem.upper_n)) {
         return Status::not_finite;
     }
     bool ordered = problem.proximal_weight > 0.0;

@@ -24,7 +24,5 @@ struct FastInput {
                                     TensionSolution &solution) noexcept;
 [[nodiscard]] bool solve_fast_avx2(const FastInput &input, const ActiveSet *warm,
                                    TensionSolution &solution) noexcept;
-[[nodiscard]] bool solve_fast_avx512(const FastInput &input, const ActiveSet *warm,
-                                     TensionSolution &solution) noexcept;
 
 } // namespace spidar

@@ -24,9 +24,6 @@ bool solve_fast_plain(const FastInput &input, const ActiveSet *warm,
 
 bool solve_fast(const FastInput &input, const ActiveSet *warm, TensionSolution &solution) noexcept {
 #if defined(__x86_64__) && defined(__GNUC__)
-    if (simd_level() == SimdLevel::avx512) {
-        return solve_fast_avx512(input, warm, solution);
-    }
     if (simd_level() == SimdLevel::avx2) {
         return solve_fast_avx2(input, warm, solution);
     }
