@@ -8,12 +8,13 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
+#include "device/contract/request_fade.h"
 
 namespace spidar {
 
 namespace {
 
-constexpr double kCrossFade_s = 0.016; // one game period
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // Of the servo rate: more would not be a sine any more.
 constexpr double kHighestVibration = 0.25;
@@ -24,10 +25,6 @@ constexpr double kMostForce = 1e6;
 
 bool has(const Effect &effect, std::size_t dof) noexcept {
     return ((effect.dof_mask >> dof) & 1U) != 0;
-}
-
-DofGains lanes(const Vec3 &a, const Vec3 &b, double c) noexcept {
-    return {a.x, a.y, a.z, b.x, b.y, b.z, c};
 }
 
 // The cap that belongs to a DOF.
@@ -165,13 +162,12 @@ bool EffectSet::empty() const noexcept {
 }
 
 DofGains EffectSet::gain_now(const Track &track) const noexcept {
-    const double s = std::min(1.0, track.fade_s / kCrossFade_s);
-    const double past_s = track.age_s - track.effect.duration_s;
+    const double s = cross_fade(track.fade_s);
     const double left =
-        track.ended ? 0.0 : std::clamp(1.0 - std::max(0.0, past_s) / fade_out_s_, 0.0, 1.0);
+        track.ended ? 0.0 : faded_out(track.age_s - track.effect.duration_s, fade_out_s_);
     DofGains gain{};
     for (std::size_t i = 0; i < gain.size(); ++i) {
-        gain[i] = left * (track.from[i] + s * (track.effect.gain[i] - track.from[i]));
+        gain[i] = left * blend(track.from[i], track.effect.gain[i], s);
     }
     return gain;
 }
@@ -190,8 +186,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
         return result;
     }
     case EffectKind::viscous: {
-        const DofGains v = lanes(motion.velocity.linear_m_s, motion.velocity.angular_rad_s,
-                                 motion.velocity.grasp_rate_rad_s);
+        const DofLanes v = lanes(motion.velocity);
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[i] *= -v[i];
         }
@@ -202,7 +197,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
         break;
     }
     const GripState &grip = motion.grip;
-    const DofGains away =
+    const DofLanes away =
         lanes(grip.pose.position_m + motion.ahead.linear_m - effect.centre_m,
               rotation_log(grip.frame.rotation * glm::transpose(effect.centre_rotation)) +
                   motion.ahead.angular_rad,
@@ -220,7 +215,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
 }
 
 Wrench EffectSet::render(const GripMotion &motion) noexcept {
-    DofGains sum{};
+    DofLanes sum{};
     for (std::size_t i = 0; i < sum.size(); ++i) {
         sum[i] = leaving_part_ * leaving_[i];
     }
@@ -230,7 +225,7 @@ Wrench EffectSet::render(const GripMotion &motion) noexcept {
             sum[i] += last_[t][i];
         }
     }
-    return {Vec3(sum[0], sum[1], sum[2]), Vec3(sum[3], sum[4], sum[5]), sum[6]};
+    return of_lanes<Wrench>(sum);
 }
 
 } // namespace spidar
