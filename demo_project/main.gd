@@ -13,7 +13,7 @@ const OTHER_SCENES: Dictionary[String, String] = {
 	"free_play": "res://tasks/free_play/free_play.tscn",
 }
 ## By path: before the first import no class name is known, and this script must be able to say what is missing.
-const Arguments := preload("res://common/play_arguments.gd")
+const Arguments := preload("res://play/play_arguments.gd")
 
 
 var _arguments: Arguments
@@ -38,7 +38,7 @@ func _ready() -> void:
 		)
 		return
 	_arguments = arguments
-	_settings = (load("res://common/demo_settings.gd") as Script).call(&"load_or_default")
+	_settings = (load("res://ui/demo_settings.gd") as Script).call(&"load_or_default")
 	if arguments.simulates():
 		_open("experiment")
 	elif arguments.scripted():
@@ -68,7 +68,7 @@ func _open(scene_name: String) -> void:
 		_scene.connect(&"ended", get_tree().quit)
 	add_child(_scene)
 	if _arguments.report != "" and _report == null:
-		_report = (load("res://common/screen_report.gd") as Script).call(&"new")
+		_report = (load("res://screen_report.gd") as Script).call(&"new")
 		_report.set(&"path", _arguments.report)
 		add_child(_report)
 	if _report != null:
@@ -77,7 +77,7 @@ func _open(scene_name: String) -> void:
 
 func _make(scene_name: String) -> Node:
 	if scene_name == "experiment":
-		return (load("res://experiment/experiment.gd") as Script).call(&"new")
+		return (load("res://study/experiment.gd") as Script).call(&"new")
 	var scene: PackedScene = load(TASKS.get(scene_name, OTHER_SCENES.get(scene_name, "")))
 	return scene.instantiate()
 

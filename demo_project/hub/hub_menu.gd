@@ -25,7 +25,7 @@ var _level: Button
 func setup(settings: DemoSettings) -> void:
 	_settings = settings
 	var panel := PanelContainer.new()
-	panel.add_theme_stylebox_override("panel", preload("res://common/panel_style.tres"))
+	panel.add_theme_stylebox_override("panel", preload("res://ui/panel_style.tres"))
 	panel.position = Vector2(20.0, 20.0)
 	add_child(panel)
 	_rows = VBoxContainer.new()

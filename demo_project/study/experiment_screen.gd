@@ -66,7 +66,7 @@ func ask_ratings(condition: String, then: Callable) -> void:
 func _begin(heading: String) -> VBoxContainer:
 	hide_all()
 	_panel = PanelContainer.new()
-	_panel.add_theme_stylebox_override("panel", preload("res://common/panel_style.tres"))
+	_panel.add_theme_stylebox_override("panel", preload("res://ui/panel_style.tres"))
 	_panel.set_anchors_and_offsets_preset(Control.PRESET_CENTER)
 	_panel.grow_horizontal = Control.GROW_DIRECTION_BOTH
 	_panel.grow_vertical = Control.GROW_DIRECTION_BOTH
