@@ -1,7 +1,12 @@
-class_name ScreenReport
 extends Node
 ## For a scripted user outside the program, who has a mouse and keys but no eyes: where things are in the window (pixels)
 ## and in the scene (m), in a JSON file that is replaced ten times a second. It only tells; it changes nothing.
+
+const AutoAnimator := preload("res://ui/auto_animator.gd")
+const DemoTask := preload("res://tasks/base/demo_task.gd")
+const Experiment := preload("res://study/experiment.gd")
+const HubKnob := preload("res://hub/hub_knob.gd")
+const Hud := preload("res://ui/hud.gd")
 
 const PERIOD_S := 0.1
 

@@ -1,7 +1,10 @@
-class_name HubMenu
 extends CanvasLayer
 ## The menu on the screen: the same choices as the knobs, and settings and participant. Works by mouse and by keyboard
 ## (1 to 7, or Tab and Enter).
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const PictureQuality := preload("res://scene/picture_quality.gd")
 
 signal chosen(entry: StringName)
 signal applied

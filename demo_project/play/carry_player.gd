@@ -1,7 +1,8 @@
-class_name CarryPlayer
-extends TaskPlayer
+extends "res://play/task_player.gd"
 ## Carries things about instead of playing the task: each is picked up, led along a seeded way with turns, shaken and put
 ## back where it stood. What leaves the fingers before they open is a drop without cause.
+
+const FeltRecord := preload("res://scene/felt_record.gd")
 
 const WAYPOINTS := 3
 ## Of a waypoint from the middle of the table, at most, and above the height of travel.

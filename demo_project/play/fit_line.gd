@@ -1,4 +1,3 @@
-class_name FitLine
 extends RefCounted
 ## Least squares line through points added one by one.
 

@@ -1,7 +1,10 @@
-class_name LinkPlayer
-extends TaskPlayer
+extends "res://play/task_player.gd"
 ## Plays a task of linking: carries each part in front of its seat, feels it snap in, pulls at it to feel the detent
 ## and, where asked for, pulls it off once and puts it back.
+
+const FitLine := preload("res://play/fit_line.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const Linker := preload("res://scene/linker.gd")
 
 ## In front of the seat, along the way in.
 const BEFORE_M := 0.030

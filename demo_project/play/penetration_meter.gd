@@ -1,4 +1,3 @@
-class_name PenetrationMeter
 extends RefCounted
 ## How far the pads, as they were last drawn, stand inside any body: measured with the pads' own shape.
 

@@ -1,4 +1,3 @@
-class_name PictureTaker
 extends Node
 ## Saves what the window shows as PNG files. Between pictures it draws nothing, so a scripted play under
 ## a software renderer stays fast; the simulation does not depend on drawing.

@@ -1,4 +1,3 @@
-class_name PlayArguments
 extends RefCounted
 ## What the command line asks for, after `--`. No arguments: an interactive session.
 

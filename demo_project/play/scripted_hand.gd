@@ -1,4 +1,3 @@
-class_name ScriptedHand
 extends Node
 ## Moves the simulated hand as a person would: smooth reaches (minimum jerk, Flash and Hogan 1985)
 ## and, when slow, a correction by eye so that the grip arrives where it is wanted although the hand

@@ -1,7 +1,13 @@
-class_name TaskPlayer
 extends Node
 ## Plays a task with the scripted hand, from what a player sees (poses of grip and bodies) and feels
 ## (the strings' wrench on the hand). It moves nothing but the simulated hand. A task of its own adds _deliver.
+
+const CameraRig := preload("res://scene/camera_rig.gd")
+const PenetrationMeter := preload("res://play/penetration_meter.gd")
+const PictureTaker := preload("res://play/picture_taker.gd")
+const ScriptedHand := preload("res://play/scripted_hand.gd")
+const TaskBody := preload("res://scene/task_body.gd")
+const WidthSense := preload("res://play/width_sense.gd")
 
 const MAX_ATTEMPTS := 3
 ## Fingers open this much wider than the body before they go down.

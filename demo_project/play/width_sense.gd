@@ -1,8 +1,9 @@
-class_name WidthSense
 extends RefCounted
 ## Feels a width as a person does: where, while closing, the fingers begin to push back. From samples of
 ## (grasp angle, torque that opens) it finds the knee where free closing, which drifts with the angle, becomes a
 ## push: there the squeeze is nothing. It knows nothing of the body or of the stop.
+
+const FitLine := preload("res://play/fit_line.gd")
 
 ## Closing has broken the strings away after this much.
 const FREE_FROM_RAD := deg_to_rad(3.0)

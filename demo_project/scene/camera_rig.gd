@@ -1,4 +1,3 @@
-class_name CameraRig
 extends Node3D
 ## The demo's one view, seen from where a person sits; the middle button looks round the device.
 

@@ -1,4 +1,3 @@
-class_name ContactSound
 extends Node
 ## A short knock when something is grasped, let go, struck, linked or torn off. Made here, not recorded.
 

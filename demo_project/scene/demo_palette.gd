@@ -1,4 +1,3 @@
-class_name DemoPalette
 extends RefCounted
 ## The demo's few colours: a dim studio, a slate table, matte objects, one amber accent.
 

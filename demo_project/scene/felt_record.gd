@@ -1,4 +1,3 @@
-class_name FeltRecord
 extends RefCounted
 ## What the hand felt of one thing, all of it from the strings' pull on the grip, and whether that is
 ## what the thing really is.

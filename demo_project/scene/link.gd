@@ -1,6 +1,8 @@
-class_name Link
 extends RefCounted
 ## Two sockets that hold each other, and the joint that does it while no hand does.
+
+const Link := preload("res://scene/link.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
 
 var one: LinkSocket
 var other: LinkSocket

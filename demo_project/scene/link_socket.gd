@@ -1,7 +1,8 @@
-class_name LinkSocket
 extends Node3D
 ## A place on a body, or on a fixed thing, where another one snaps in. Two sockets that fit are linked when they lie on
 ## each other: origin on origin and, unless the link turns freely, axes on axes.
+
+const LinkSocket := preload("res://scene/link_socket.gd")
 
 ## Sockets fit when their keys are equal and one is a plug and the other not.
 var key: StringName = &""

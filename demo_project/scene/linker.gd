@@ -1,8 +1,12 @@
-class_name Linker
 extends Node
 ## Sockets that attract, snap, hold and let go by force. The held body's sockets are drawn to the ones they fit; what
 ## the magnets pull is felt by the hand. Once snapped in, the body stays in its seat while the hand still feels the
 ## spring: pulled far enough, it comes off; let go, it is locked to what it sits on.
+
+const ContactSound := preload("res://scene/contact_sound.gd")
+const Link := preload("res://scene/link.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const TaskBody := preload("res://scene/task_body.gd")
 
 signal linked(socket: LinkSocket, mate: LinkSocket)
 ## pull_n: the force at which it came off.

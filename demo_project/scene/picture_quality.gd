@@ -1,4 +1,3 @@
-class_name PictureQuality
 extends RefCounted
 ## How much the picture may cost. Full is for a GPU; plain, a sixth of the work, keeps a computer without one playable.
 

@@ -1,6 +1,8 @@
-class_name StandBuilder
 extends RefCounted
 ## Small fixed stands: a ring that keeps a ball from rolling, a rack that carries a stick.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
 
 const RING_HEIGHT_M := 0.024
 const RING_INNER_M := 0.016

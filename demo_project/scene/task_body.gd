@@ -1,6 +1,8 @@
-class_name TaskBody
 extends RigidBody3D
 ## A thing of a task that is picked up and belongs somewhere, and its story in this trial.
+
+const FeltRecord := preload("res://scene/felt_record.gd")
+const TaskBody := preload("res://scene/task_body.gd")
 
 ## This body struck another one.
 signal struck(other: TaskBody)

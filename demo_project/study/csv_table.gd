@@ -1,4 +1,3 @@
-class_name CsvTable
 extends RefCounted
 ## Writes a CSV file: a header, then rows given as dictionaries by column name. A value that is not
 ## known is left empty; a column that does not exist is an error, not a new column.

@@ -1,7 +1,16 @@
-class_name Experiment
 extends Node
 ## Runs a participant through the plan: instructions, practice, trials, questionnaires, breaks; Backspace aborts a trial,
 ## which is then done again. A simulated participant does the same by script.
+
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const DemoTask := preload("res://tasks/base/demo_task.gd")
+const ExperimentPlan := preload("res://study/experiment_plan.gd")
+const ExperimentScreen := preload("res://study/experiment_screen.gd")
+const ExperimentStore := preload("res://study/experiment_store.gd")
+const PlayArguments := preload("res://play/play_arguments.gd")
+const TraceRecorder := preload("res://study/trace_recorder.gd")
+const TrialLogger := preload("res://study/trial_logger.gd")
+const TrialResults := preload("res://study/trial_results.gd")
 
 signal left
 signal ended(exit_code: int)

@@ -1,4 +1,3 @@
-class_name ExperimentPlan
 extends RefCounted
 ## What one participant does, in order: from the participant's number alone, so that a broken-off session can go on.
 

@@ -1,6 +1,7 @@
-class_name ExperimentScreen
 extends CanvasLayer
 ## Texts and questionnaires between the trials.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
 
 ## The paper's scale, Table 3.
 const SCALE: PackedStringArray = ["1 bad", "2 little bad", "3 average", "4 good", "5 best"]

@@ -1,7 +1,9 @@
-class_name ExperimentStore
 extends RefCounted
 ## The files of one session. Rows are appended when they are known and handed to the system at once, so that a killed
 ## program loses the trial in progress and nothing else; a torn last line is left out when the session goes on.
+
+const CsvTable := preload("res://study/csv_table.gd")
+const TrialLogger := preload("res://study/trial_logger.gd")
 
 const RATING_COLUMNS: PackedStringArray = [
 	"schema_version", "session_id", "participant_id", "task", "condition", "grasp", "translation",

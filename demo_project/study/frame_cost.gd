@@ -1,4 +1,3 @@
-class_name FrameCost
 extends RefCounted
 ## What the main thread spends in a frame, by the engine's own clocks: physics and scripts; nothing of drawing.
 

@@ -1,7 +1,8 @@
-class_name TraceRecorder
 extends RefCounted
 ## Pose, grasp and given wrench of one trial, in the session's trace.csv when the trial is over. Rows come at the game's
 ## own rate, 60 a second: what is faster is not known to a game.
+
+const DemoTask := preload("res://tasks/base/demo_task.gd")
 
 var rows: Array[Dictionary] = []
 

@@ -1,7 +1,8 @@
-class_name TrialLogger
 extends RefCounted
 ## Measures of one trial, the same for every task; one row of summary.csv. README.md of the task says
 ## what each column means.
+
+const CsvTable := preload("res://study/csv_table.gd")
 
 const SCHEMA_VERSION := 1
 const COLUMNS: PackedStringArray = [

@@ -1,6 +1,10 @@
-class_name TrialResults
 extends RefCounted
 ## Turns a finished trial into summary.csv and objects.csv, and into the exit code of a scripted play.
+
+const CarryPlayer := preload("res://play/carry_player.gd")
+const CsvTable := preload("res://study/csv_table.gd")
+const DemoTask := preload("res://tasks/base/demo_task.gd")
+const PlayArguments := preload("res://play/play_arguments.gd")
 
 const OBJECT_COLUMNS: PackedStringArray = [
 	"name", "kind", "mass_kg", "width_m", "placed", "position_error_mm", "rotation_error_deg",

@@ -1,7 +1,11 @@
-class_name AutoAnimator
 extends Node
 ## What the paper gave its mouse users: a click on a thing moves the grip there and picks it up, a click on a target
 ## carries it to its own. The hand does it as the script does; only who chooses is different.
+
+const MouseHand := preload("res://ui/mouse_hand.gd")
+const ScriptedHand := preload("res://play/scripted_hand.gd")
+const TaskBody := preload("res://scene/task_body.gd")
+const TaskPlayer := preload("res://play/task_player.gd")
 
 ## A click counts for what is drawn within this of it.
 const NEAR_PX := 60.0

@@ -1,7 +1,10 @@
-class_name DemoControls
 extends Node
 ## Keys that every task shares. Forces start off, come on by one key and ramp up while the device arms,
 ## and go off at once on the panic key or when the window loses the focus.
+
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const Hud := preload("res://ui/hud.gd")
+const MouseHand := preload("res://ui/mouse_hand.gd")
 
 signal restart_wanted
 signal leave_wanted

@@ -1,6 +1,9 @@
-class_name DemoSettings
 extends RefCounted
 ## What a person has chosen in the menu; kept in user://settings.cfg.
+
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const PictureQuality := preload("res://scene/picture_quality.gd")
+const PlayArguments := preload("res://play/play_arguments.gd")
 
 const PATH := "user://settings.cfg"
 const RATES_HZ: PackedInt32Array = [500, 1000, 2000]

@@ -1,6 +1,7 @@
-class_name GraspDial
 extends Control
 ## Grasp angle as a dial: 0 at the left, open; the band is where the device counts as grasping.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
 
 const SHOWN_DEG := 60.0
 const WIDTH := 11.0

@@ -1,6 +1,7 @@
-class_name HelpOverlay
 extends PanelContainer
 ## The keys, on screen.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
 
 const KEYS: Dictionary[String, String] = {
 	"Mouse": "moves the grip in the view plane",

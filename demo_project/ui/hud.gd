@@ -1,7 +1,12 @@
-class_name Hud
 extends CanvasLayer
 ## What a haptics person wants in sight: task and time, device state and servo rate, tensions, wrench asked
 ## and given, grasp angle. Three modes: off, short, full.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const GraspDial := preload("res://ui/grasp_dial.gd")
+const TaskBody := preload("res://scene/task_body.gd")
+const TensionBars := preload("res://ui/tension_bars.gd")
+const WrenchBars := preload("res://ui/wrench_bars.gd")
 
 enum Mode { OFF, SHORT, FULL }
 

@@ -1,4 +1,3 @@
-class_name MouseHand
 extends Node
 ## Mouse and keyboard drive the simulated hand: the grip follows the cursor in the view plane, the wheel
 ## moves it in depth, dragging with the right button turns it, the left button closes the grasp.

@@ -1,6 +1,7 @@
-class_name TensionBars
 extends Control
 ## Eight bars, one a string: pull in newtons, coloured as the strings in the scene are.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
 
 const BAR_WIDTH := 18.0
 const GAP := 9.0

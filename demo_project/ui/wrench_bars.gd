@@ -1,7 +1,8 @@
-class_name WrenchBars
 extends Control
 ## Asked against given wrench, seven axes: the thin bar is what the game asked for, the thick one what the
 ## strings could give.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
 
 const NAMES: PackedStringArray = ["Fx", "Fy", "Fz", "Mx", "My", "Mz", "grasp"]
 const HEAD := 26.0

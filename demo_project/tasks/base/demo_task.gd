@@ -1,7 +1,23 @@
-class_name DemoTask
 extends Node3D
 ## What every task shares: the device, the table, clock and log, a person's or a script's hand, restart and
 ## results. A task lays out its things (_lay_out) and fills `bodies`; each body knows where it belongs.
+
+const AutoAnimator := preload("res://ui/auto_animator.gd")
+const CarryPlayer := preload("res://play/carry_player.gd")
+const ContactSound := preload("res://scene/contact_sound.gd")
+const DemoControls := preload("res://ui/demo_controls.gd")
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const FrameCost := preload("res://study/frame_cost.gd")
+const Hud := preload("res://ui/hud.gd")
+const MouseHand := preload("res://ui/mouse_hand.gd")
+const PictureQuality := preload("res://scene/picture_quality.gd")
+const PictureTaker := preload("res://play/picture_taker.gd")
+const PlayArguments := preload("res://play/play_arguments.gd")
+const ScriptedHand := preload("res://play/scripted_hand.gd")
+const TaskBody := preload("res://scene/task_body.gd")
+const TaskPlayer := preload("res://play/task_player.gd")
+const TrialLogger := preload("res://study/trial_logger.gd")
+const TrialResults := preload("res://study/trial_results.gd")
 
 ## Esc: back to the menu.
 signal left

@@ -1,6 +1,8 @@
-class_name LinkingTask
-extends DemoTask
+extends "res://tasks/base/demo_task.gd"
 ## A task of things that link: what robot and matches have in common.
+
+const CameraRig := preload("res://scene/camera_rig.gd")
+const Linker := preload("res://scene/linker.gd")
 
 var linker := Linker.new()
 

@@ -1,8 +1,14 @@
-class_name FreePlay
-extends DemoTask
+extends "res://tasks/base/demo_task.gd"
 ## Nothing to achieve: one sample of everything that can be felt. Hard and soft blocks, a heavy and a light box of
 ## the same size, a rough and a smooth floor, a ball on a spring, a socket that snaps, and six blocks of air, one for each
 ## kind of force that the device gives by itself.
+
+const CameraRig := preload("res://scene/camera_rig.gd")
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const FieldZone := preload("res://tasks/free_play/field_zone.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const Linker := preload("res://scene/linker.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const SPRING_N_M := 80.0
 const SPRING_MOST_N := 4.0

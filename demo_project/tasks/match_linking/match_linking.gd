@@ -1,7 +1,13 @@
-class_name MatchLinking
-extends LinkingTask
+extends "res://tasks/base/linking_task.gd"
 ## The task: link matches end to end into the shape shown.
 ## Kim, Koike and Sato's experiment 4 ("SPIDAR-G", section 7.2).
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const Link := preload("res://scene/link.gd")
+const MatchPlayer := preload("res://tasks/match_linking/match_player.gd")
+const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const BOARD_Z_M := -0.028
 ## The rack: two rails across, the matches on them side by side.

@@ -1,7 +1,12 @@
-class_name RobotLinking
-extends LinkingTask
+extends "res://tasks/base/linking_task.gd"
 ## The task: build a robot by linking head, arms, legs and torso, in any order.
 ## Kim, Koike and Sato's experiment 3 ("SPIDAR-G", section 7.2).
+
+const Link := preload("res://scene/link.gd")
+const PartGhost := preload("res://tasks/robot_linking/part_ghost.gd")
+const RobotDesign := preload("res://tasks/robot_linking/robot_design.gd")
+const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
+const RobotPlayer := preload("res://tasks/robot_linking/robot_player.gd")
 
 const STAND_Z_M := -0.045
 ## On the table, before the robot and near its middle: further out the least tension of the strings alone presses nearly
