@@ -53,15 +53,12 @@ func show_level(level: int) -> void:
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
-	var key := event as InputEventKey
-	if not key.pressed or key.echo:
-		return
-	var number := key.physical_keycode - KEY_1
-	if number >= 0 and number < ENTRIES.size():
-		chosen.emit(ENTRIES.keys()[number])
-	elif key.physical_keycode == KEY_7:
+	for number in ENTRIES.size():
+		if event.is_action_pressed(&"demo_entry_%d" % (number + 1)):
+			chosen.emit(ENTRIES.keys()[number])
+	if event.is_action_pressed(&"demo_entry_7"):
 		chosen.emit(&"experiment")
-	elif key.physical_keycode == KEY_6:
+	elif event.is_action_pressed(&"demo_entry_6"):
 		_form.visible = not _form.visible
 
 

@@ -38,7 +38,7 @@ func look_at_all() -> void:
 
 func _unhandled_input(event: InputEvent) -> void:
 	var motion := event as InputEventMouseMotion
-	if motion == null or not motion.button_mask & MOUSE_BUTTON_MASK_MIDDLE:
+	if motion == null or not Input.is_action_pressed(&"demo_look_round"):
 		return
 	rotation.y = clampf(
 		rotation.y - motion.relative.x * LOOK_RAD_PER_PIXEL,

@@ -1,5 +1,5 @@
 extends Node
-## Runs a participant through the plan: instructions, practice, trials, questionnaires, breaks; Backspace aborts a trial,
+## Runs a participant through the plan: instructions, practice, trials, questionnaires, breaks; a key aborts a trial,
 ## which is then done again. A simulated participant does the same by script.
 
 const DemoSettings := preload("res://ui/demo_settings.gd")
@@ -7,6 +7,7 @@ const DemoTask := preload("res://tasks/base/demo_task.gd")
 const ExperimentPlan := preload("res://study/experiment_plan.gd")
 const ExperimentScreen := preload("res://study/experiment_screen.gd")
 const ExperimentStore := preload("res://study/experiment_store.gd")
+const KeyNames := preload("res://ui/key_names.gd")
 const PlayArguments := preload("res://play/play_arguments.gd")
 const TraceRecorder := preload("res://study/trace_recorder.gd")
 const TrialLogger := preload("res://study/trial_logger.gd")
@@ -19,7 +20,7 @@ const TRIALS := 3
 const TEXTS: Dictionary[String, String] = {
 	"forces_on": "You hold the grip. The forces come on by themselves: surfaces, weight and width can be felt.",
 	"forces_off": "You hold the grip. The forces stay off.",
-	"mouse": "You use mouse and keyboard. H shows the keys.",
+	"mouse": "You use mouse and keyboard. {demo_help} shows the keys.",
 	"mouse_auto": "You use the mouse. Click on a thing to have it picked up, and on its target to have it put there.",
 }
 
@@ -70,8 +71,7 @@ func _physics_process(_delta: float) -> void:
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
-	var key := event as InputEventKey
-	if _task == null or not key.pressed or key.echo or key.physical_keycode != KEY_BACKSPACE:
+	if _task == null or not event.is_action_pressed(&"demo_abort_trial"):
 		return
 	_keep("aborted by the participant")
 	_close_task()
@@ -96,7 +96,10 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_screen.show_text(
 				step.task.replace("_", " ").capitalize(),
-				DemoTask.GOALS[step.task] + "\n\n" + TEXTS[step.condition] + "\n\nFirst a practice, then %d trials. Backspace breaks one off; it is then done again." % TRIALS,
+				KeyNames.fill(
+					DemoTask.GOALS[step.task] + "\n\n" + TEXTS[step.condition]
+					+ "\n\nFirst a practice, then %d trials. {demo_abort_trial} breaks one off; it is then done again." % TRIALS
+				),
 				"Start", _next
 			)
 		ExperimentPlan.Kind.BREAK:

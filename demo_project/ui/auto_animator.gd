@@ -35,9 +35,7 @@ func stop() -> void:
 
 func _unhandled_input(event: InputEvent) -> void:
 	var button := event as InputEventMouseButton
-	if not enabled or busy or button == null or not button.pressed:
-		return
-	if button.button_index != MOUSE_BUTTON_LEFT:
+	if not enabled or busy or button == null or not button.is_action_pressed(&"demo_grasp"):
 		return
 	if _held != null and _player.tool_hand.get_held_body() == _held:
 		if _on_screen(_player.target_of(_held, button.position, _mouse.camera)).distance_to(button.position) < NEAR_PX:

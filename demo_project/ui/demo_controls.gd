@@ -19,6 +19,16 @@ var _settings: DemoSettings
 var _clutched_at := Vector3.INF
 var _steps_left := 0
 var _task_name := ""
+var _actions: Dictionary[StringName, Callable] = {
+	&"demo_forces": _toggle_forces,
+	&"demo_restart": func() -> void: restart_wanted.emit(),
+	&"demo_help": func() -> void: _hud.toggle_help(),
+	&"demo_display": func() -> void: _hud.next_mode(),
+	&"demo_pause": _toggle_pause,
+	&"demo_step": _step_once,
+	&"demo_record": _toggle_recording,
+	&"demo_leave": _leave,
+}
 
 
 func setup(spidar: SpidarG, hud: Hud, mouse: MouseHand, settings: DemoSettings, task_name: String) -> void:
@@ -29,7 +39,7 @@ func setup(spidar: SpidarG, hud: Hud, mouse: MouseHand, settings: DemoSettings, 
 	_hud = hud
 	_mouse = mouse
 	_settings = settings
-	process_mode = Node.PROCESS_MODE_ALWAYS # P and O work while everything else stands.
+	process_mode = Node.PROCESS_MODE_ALWAYS # Pause and single step work while everything else stands.
 
 
 func _hud_says(message: String) -> void:
@@ -57,56 +67,50 @@ func _clutch(pressed: bool) -> void:
 
 ## The panic key comes before everything else: a button that has the focus would take Space for itself.
 func _input(event: InputEvent) -> void:
-	var key := event as InputEventKey
-	if not interactive or key == null or not key.pressed or key.physical_keycode != KEY_SPACE:
-		return
-	if _spidar.forces_enabled:
-		_cut_forces("Stopped. F turns the forces on again.")
+	if interactive and _spidar.forces_enabled and event.is_action_pressed(&"demo_panic", true):
+		_cut_forces("Stopped. {demo_forces} turns the forces on again.")
 		get_viewport().set_input_as_handled()
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
-	var key := event as InputEventKey
-	if not interactive or key.echo:
+	if not interactive:
 		return
-	if key.physical_keycode == KEY_C:
-		if _settings.clutch == DemoSettings.CLUTCHES[0]:
-			_clutch(key.pressed)
-		elif key.pressed:
-			_clutch(not _mouse.clutched)
-	if not key.pressed:
-		return
-	match key.physical_keycode:
-		KEY_F:
-			_toggle_forces()
-		KEY_R:
-			restart_wanted.emit()
-		KEY_H:
-			_hud.toggle_help()
-		KEY_TAB:
-			_hud.next_mode()
-		KEY_P:
-			get_tree().paused = not get_tree().paused
-			_hud.show_notice("Paused. P goes on, O does one step." if get_tree().paused else "")
-		KEY_O:
-			if get_tree().paused:
-				_steps_left = 2 # This frame may be over already.
-				get_tree().paused = false
-		KEY_L:
-			_toggle_recording()
-		KEY_ESCAPE:
-			_spidar.disarm()
-			leave_wanted.emit()
+	if _settings.clutch == DemoSettings.CLUTCHES[0]:
+		if event.is_action_released(&"demo_clutch"):
+			_clutch(false)
+		elif event.is_action_pressed(&"demo_clutch"):
+			_clutch(true)
+	elif event.is_action_pressed(&"demo_clutch"):
+		_clutch(not _mouse.clutched)
+	for action in _actions:
+		if event.is_action_pressed(action):
+			_actions[action].call()
+
+
+func _toggle_pause() -> void:
+	get_tree().paused = not get_tree().paused
+	_hud.show_notice("Paused. {demo_pause} goes on, {demo_step} does one step." if get_tree().paused else "")
+
+
+func _step_once() -> void:
+	if get_tree().paused:
+		_steps_left = 2 # This frame may be over already.
+		get_tree().paused = false
+
+
+func _leave() -> void:
+	_spidar.disarm()
+	leave_wanted.emit()
 
 
 func _notification(what: int) -> void:
 	if what == NOTIFICATION_APPLICATION_FOCUS_OUT and interactive and _spidar.forces_enabled:
-		_cut_forces("Forces went off with the window's focus. F turns them on.")
+		_cut_forces("Forces went off with the window's focus. {demo_forces} turns them on.")
 
 
 func _toggle_forces() -> void:
 	if _spidar.forces_enabled:
-		_cut_forces("Forces are off. F turns them on.")
+		_cut_forces("Forces are off. {demo_forces} turns them on.")
 		return
 	if not _settings.may_have_forces():
 		_hud.show_notice("The settings keep the forces off." if not _settings.forces_allowed else (

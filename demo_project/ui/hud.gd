@@ -4,18 +4,21 @@ extends CanvasLayer
 
 const DemoPalette := preload("res://scene/demo_palette.gd")
 const GraspDial := preload("res://ui/grasp_dial.gd")
+const KeyNames := preload("res://ui/key_names.gd")
 const TaskBody := preload("res://scene/task_body.gd")
 const TensionBars := preload("res://ui/tension_bars.gd")
 const WrenchBars := preload("res://ui/wrench_bars.gd")
 
 enum Mode { OFF, SHORT, FULL }
 
-const HINT_FORCES_OFF := "Forces are off.  F  turns them on (they ramp up while the device arms).   H  help"
+const HINT_FORCES_OFF := (
+	"Forces are off.  {demo_forces}  turns them on (they ramp up while the device arms).   {demo_help}  help"
+)
 ## In the order of SpidarG.State.
 const STATE_NAMES: PackedStringArray = [
 	"closed", "connected", "arming", "active", "fading", "fault", "taut", "calibrated"
 ]
-const HINT_ON := "Left button  closes the grasp    Space  stops the forces    H  help"
+const HINT_ON := "{demo_grasp}  closes the grasp    {demo_panic}  stops the forces    {demo_help}  help"
 
 ## Numbers that change faster are not read, and every new text is laid out anew.
 const REFRESH_S := 0.05
@@ -27,6 +30,8 @@ var _spidar: SpidarG
 var _tool_hand: SpidarGHand
 var _notice := ""
 var _result := ""
+## As _hint_text() gave it last.
+var _hint_shown := ""
 
 @onready var _title: Label = %Title
 @onready var _time: Label = %Time
@@ -112,12 +117,15 @@ func _process(delta: float) -> void:
 	if _shown_for_s < REFRESH_S:
 		return
 	_shown_for_s = 0.0
-	if _spidar == null or mode == Mode.OFF:
-		_hint_panel.visible = _spidar != null and _hint_text() != HINT_ON
-		_hint.text = _hint_text()
+	if _spidar == null:
+		_hint_panel.visible = false
+		return
+	if mode == Mode.OFF:
+		_hint_panel.visible = _hint_text() != HINT_ON
+		_show_hint()
 		return
 	_hint_panel.visible = true
-	_hint.text = _hint_text()
+	_show_hint()
 	_state.text = STATE_NAMES[_spidar.get_state()]
 	_dot.color = _state_colour()
 	var statistics := _spidar.get_statistics()
@@ -144,15 +152,23 @@ func _apply_mode() -> void:
 		panel.visible = mode == Mode.FULL
 
 
+## Actions in braces become their keys, and only when the text has changed.
+func _show_hint() -> void:
+	var text := _hint_text()
+	if text != _hint_shown:
+		_hint_shown = text
+		_hint.text = KeyNames.fill(text)
+
+
 func _hint_text() -> String:
 	if _result != "":
 		return _result
 	if _spidar.get_state() == SpidarG.STATE_FAULT:
-		return "Fault: %s   F  clears it and arms again" % _spidar.get_fault_text()
+		return "Fault: %s   {demo_forces}  clears it and arms again" % _spidar.get_fault_text()
 	if get_tree().paused and _notice != "":
 		return _notice
 	if _spidar.is_recording():
-		return "Recording.  L  stops it    Space  stops the forces"
+		return "Recording.  {demo_record}  stops it    {demo_panic}  stops the forces"
 	if not _spidar.forces_enabled:
 		return _notice if _notice != "" else HINT_FORCES_OFF
 	return HINT_ON

@@ -70,12 +70,14 @@ func _unhandled_input(event: InputEvent) -> void:
 
 func _physics_process(delta: float) -> void:
 	var move := Vector3(
-		_axis(KEY_A, KEY_D), _axis(KEY_Q, KEY_E), _axis(KEY_W, KEY_S)
+		Input.get_axis(&"demo_move_left", &"demo_move_right"),
+		Input.get_axis(&"demo_move_down", &"demo_move_up"),
+		Input.get_axis(&"demo_move_away", &"demo_move_near")
 	)
 	position_m += move * KEY_SPEED_M_S * delta
-	yaw_rad += _axis(KEY_RIGHT, KEY_LEFT) * KEY_TURN_RAD_S * delta
-	pitch_rad += _axis(KEY_UP, KEY_DOWN) * KEY_TURN_RAD_S * delta
-	roll_rad += _axis(KEY_PAGEDOWN, KEY_PAGEUP) * KEY_TURN_RAD_S * delta
+	yaw_rad += Input.get_axis(&"demo_turn_right", &"demo_turn_left") * KEY_TURN_RAD_S * delta
+	pitch_rad += Input.get_axis(&"demo_tilt_back", &"demo_tilt_forward") * KEY_TURN_RAD_S * delta
+	roll_rad += Input.get_axis(&"demo_roll_right", &"demo_roll_left") * KEY_TURN_RAD_S * delta
 	_clamp()
 	_move_grasp(delta)
 	var basis := Basis.from_euler(Vector3(pitch_rad, yaw_rad, roll_rad))
@@ -98,20 +100,16 @@ func _on_motion(motion: InputEventMouseMotion) -> void:
 
 
 func _on_button(button: InputEventMouseButton) -> void:
-	match button.button_index:
-		MOUSE_BUTTON_LEFT:
-			_closing = button.pressed
-		MOUSE_BUTTON_RIGHT:
-			_turning = button.pressed
-			# Captured, the cursor stays where it was: the grip does not jump when the turn ends.
-			Input.mouse_mode = (
-				Input.MOUSE_MODE_CAPTURED if _turning else Input.MOUSE_MODE_VISIBLE
-			)
-		# A notch comes as a press and a release.
-		MOUSE_BUTTON_WHEEL_UP when button.pressed:
-			_move_in_depth(WHEEL_STEP_M)
-		MOUSE_BUTTON_WHEEL_DOWN when button.pressed:
-			_move_in_depth(-WHEEL_STEP_M)
+	if button.is_action(&"demo_grasp"):
+		_closing = button.pressed
+	elif button.is_action(&"demo_drag_turn"):
+		_turning = button.pressed
+		# Captured, the cursor stays where it was: the grip does not jump when the turn ends.
+		Input.mouse_mode = Input.MOUSE_MODE_CAPTURED if _turning else Input.MOUSE_MODE_VISIBLE
+	elif button.is_action_pressed(&"demo_wheel_away"): # A notch comes as a press and a release.
+		_move_in_depth(WHEEL_STEP_M)
+	elif button.is_action_pressed(&"demo_wheel_near"):
+		_move_in_depth(-WHEEL_STEP_M)
 
 
 func _move_in_depth(distance_m: float) -> void:
@@ -135,10 +133,3 @@ func _clamp() -> void:
 	yaw_rad = clampf(yaw_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
 	pitch_rad = clampf(pitch_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
 	roll_rad = clampf(roll_rad, -TURN_LIMIT_RAD, TURN_LIMIT_RAD)
-
-
-func _axis(negative: Key, positive: Key) -> float:
-	return (
-		float(Input.is_physical_key_pressed(positive))
-		- float(Input.is_physical_key_pressed(negative))
-	)

@@ -264,9 +264,9 @@ func _start_replay() -> void:
 	_spidar.replay_finished.connect(func(_identical: bool, message: String) -> void:
 		_hud.show_notice("Replay of %s has ended: %s" % [settings.recording, message]))
 	if settings.recording == "":
-		_hud.show_notice("No recording is chosen in the settings. L records a run.")
+		_hud.show_notice("No recording is chosen in the settings. {demo_record} records a run.")
 	elif _spidar.start_replay(DemoSettings.RECORDINGS.path_join(settings.recording)):
-		_hud.show_notice("Replay of %s.   Esc  leaves" % settings.recording)
+		_hud.show_notice("Replay of %s.   {demo_leave}  leaves" % settings.recording)
 
 
 func _equip_player() -> void:
