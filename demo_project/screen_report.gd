@@ -38,7 +38,7 @@ func _process(delta: float) -> void:
 	}
 	var task := scene as DemoTask
 	if scene is Experiment:
-		task = (scene as Experiment).open_task()
+		task = (scene as Experiment).open_task() as DemoTask
 	if task != null and task.is_node_ready():
 		_tell_of(task, report)
 	_write(report)
@@ -46,14 +46,12 @@ func _process(delta: float) -> void:
 
 func _tell_of(task: DemoTask, report: Dictionary) -> void:
 	var camera := get_viewport().get_camera_3d()
-	var spidar: SpidarG = task.get_node(^"SpidarG")
-	var tool_hand: SpidarGHand = task.get_node(^"SpidarG/SpidarGHand")
-	var held := tool_hand.get_held_body()
+	var held := task.tool_hand.get_held_body()
 	report.merge({
-		"task": task.task_name(),
-		"grip": _point(camera, spidar.get_grip_transform().origin),
-		"grasp_angle_deg": rad_to_deg(spidar.get_grasp_angle()),
-		"forces": spidar.forces_enabled,
+		"task": task.task_name,
+		"grip": _point(camera, task.spidar.get_grip_transform().origin),
+		"grasp_angle_deg": rad_to_deg(task.spidar.get_grasp_angle()),
+		"forces": task.spidar.forces_enabled,
 		"held": "" if held == null else String(held.name),
 		"busy": (task.get_node(^"AutoAnimator") as AutoAnimator).busy,
 		"finished": task.is_finished(),

@@ -56,8 +56,8 @@ func scripted() -> bool:
 	return task != ""
 
 
-## Reads the words after `--`; what is wrong with them goes into `problem`.
-func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
+## Reads the words after `--`; what is wrong with them goes into `problem`. carrying: tasks that know --carries.
+func read(words: PackedStringArray, tasks: PackedStringArray, carrying: PackedStringArray) -> void:
 	var index := 0
 	while index < words.size() and problem == "":
 		var word := words[index]
@@ -82,7 +82,7 @@ func read(words: PackedStringArray, tasks: PackedStringArray) -> void:
 				problem = "%s is not an argument of the demo" % word
 		index += 1
 	if problem == "":
-		problem = _find_conflict()
+		problem = _find_conflict(carrying)
 
 
 func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
@@ -120,11 +120,11 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 			out_dir = value
 
 
-func _find_conflict() -> String:
+func _find_conflict(carrying: PackedStringArray) -> String:
 	if scripted() and out_dir == "":
 		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
-	if carries > 0 and task != "pick_and_place":
-		return "--carries needs --play pick_and_place: elsewhere things link on the way"
+	if carries > 0 and not carrying.has(task):
+		return "--carries needs --play %s: elsewhere things link on the way" % " or ".join(carrying)
 	if simulates() and (scripted() or out_dir == ""):
 		return "--participant needs --out DIR, and no --play"
 	if simulates():

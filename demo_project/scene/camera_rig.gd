@@ -18,13 +18,6 @@ func _ready() -> void:
 	_home_fov_deg = _camera.fov
 
 
-## Angle of view from bottom to top, and how far below the device's middle the view's middle is raised or lowered.
-func see(fov_deg: float, lower_m: float) -> void:
-	position.y -= lower_m
-	_home_fov_deg = fov_deg
-	_camera.fov = fov_deg
-
-
 ## A close look at one point from the same place.
 func look_closely(point: Vector3) -> void:
 	_camera.fov = CLOSE_FOV_DEG

@@ -1,4 +1,4 @@
-extends Node
+extends AudioStreamPlayer
 ## A short knock when something is grasped, let go, struck, linked or torn off. Made here, not recorded.
 
 const RATE_HZ := 22050
@@ -13,21 +13,17 @@ const LOUDNESS_DB: Dictionary[StringName, float] = {
 	&"grasped": -12.0, &"released": -18.0, &"struck": -14.0, &"linked": -6.0, &"unlinked": -8.0
 }
 
-var _player := AudioStreamPlayer.new()
-
 
 func _ready() -> void:
-	_player.stream = knock()
-	_player.max_polyphony = 4
-	add_child(_player)
+	stream = knock()
 
 
 func say(what: StringName) -> void:
 	if DisplayServer.get_name() == "headless":
 		return  # Nobody listens; and Godot counts a sound that still plays when it ends as leaked.
-	_player.pitch_scale = PITCH[what]
-	_player.volume_db = LOUDNESS_DB[what]
-	_player.play()
+	pitch_scale = PITCH[what]
+	volume_db = LOUDNESS_DB[what]
+	play()
 
 
 ## A tone and its fifth that die away, 16 bit.

@@ -3,7 +3,6 @@ extends Node
 ## which is then done again. A simulated participant does the same by script.
 
 const DemoSettings := preload("res://ui/demo_settings.gd")
-const DemoTask := preload("res://tasks/base/demo_task.gd")
 const ExperimentPlan := preload("res://study/experiment_plan.gd")
 const ExperimentScreen := preload("res://study/experiment_screen.gd")
 const ExperimentStore := preload("res://study/experiment_store.gd")
@@ -11,6 +10,7 @@ const KeyNames := preload("res://ui/key_names.gd")
 const PlayArguments := preload("res://play/play_arguments.gd")
 const TraceRecorder := preload("res://study/trace_recorder.gd")
 const TrialLogger := preload("res://study/trial_logger.gd")
+const Trial := preload("res://study/trial.gd")
 const TrialResults := preload("res://study/trial_results.gd")
 
 signal left
@@ -26,13 +26,14 @@ const TEXTS: Dictionary[String, String] = {
 
 var arguments := PlayArguments.new()
 var settings := DemoSettings.new()
-## Opens a task's scene by its name; given by main.
+## The tasks by name, and what makes the scene of one; given by main.
+var task_names: PackedStringArray = []
 var scene_of: Callable
 
 var _store := ExperimentStore.new()
 var _plan: Array[ExperimentPlan.Step] = []
 var _at := -1
-var _task: DemoTask
+var _task: Trial
 var _trace: TraceRecorder
 var _participant := 1
 var _random := RandomNumberGenerator.new()
@@ -46,7 +47,9 @@ func _ready() -> void:
 		_screen.show_text("Participant", "Enter a number of 1 or more as participant in the settings.", "Back", left.emit)
 		return
 	_random.seed = _participant
-	_plan = ExperimentPlan.make(_participant, arguments.trials if arguments.simulates() else TRIALS)
+	_plan = ExperimentPlan.make(
+		_participant, arguments.trials if arguments.simulates() else TRIALS, task_names
+	)
 	var folder := arguments.out_dir
 	if folder == "":
 		folder = ProjectSettings.globalize_path("user://experiments/participant_%d" % _participant)
@@ -59,15 +62,13 @@ func _ready() -> void:
 
 
 ## The task of the trial in progress, or null.
-func open_task() -> DemoTask:
+func open_task() -> Trial:
 	return _task
 
 
 func _physics_process(_delta: float) -> void:
 	if _task != null and _trace != null and _task.is_running():
-		var spidar: SpidarG = _task.get_node(^"SpidarG")
-		var tool_hand: SpidarGHand = _task.get_node(^"SpidarG/SpidarGHand")
-		_trace.sample(_task, spidar, tool_hand.get_held_body(), _head(_plan[_at]))
+		_trace.sample(_task, _head(_plan[_at]))
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
@@ -94,14 +95,7 @@ func _next() -> void:
 		return
 	match step.kind:
 		ExperimentPlan.Kind.INSTRUCTION:
-			_screen.show_text(
-				step.task.replace("_", " ").capitalize(),
-				KeyNames.fill(
-					DemoTask.GOALS[step.task] + "\n\n" + TEXTS[step.condition]
-					+ "\n\nFirst a practice, then %d trials. {demo_abort_trial} breaks one off; it is then done again." % TRIALS
-				),
-				"Start", _next
-			)
+			_instruct(step)
 		ExperimentPlan.Kind.BREAK:
 			_screen.show_text("Break", "Rest your hand as long as you like.", "Go on", _next)
 		ExperimentPlan.Kind.RATINGS:
@@ -113,6 +107,15 @@ func _next() -> void:
 				_screen.show_text("Thank you", "Results: %s" % _store.folder, "Back to the menu", left.emit)
 		_:
 			_open_task()
+
+
+func _instruct(step: ExperimentPlan.Step) -> void:
+	var shown: Trial = scene_of.call(step.task)
+	var text := "%s\n\n%s\n\nFirst a practice, then %d trials. {demo_abort_trial} breaks one off; it is then done again." % [
+		shown.goal, TEXTS[step.condition], TRIALS
+	]
+	_screen.show_text(shown.title, KeyNames.fill(text), "Start", _next)
+	shown.free()
 
 
 ## What comes before a finished trial or rating is done with it.
@@ -172,7 +175,7 @@ func _on_trial_ended(reason: String) -> void:
 func _keep(reason: String) -> void:
 	var step := _plan[_at]
 	if step.kind == ExperimentPlan.Kind.TRIAL:
-		var row: Dictionary = TrialResults.new(_task, _task.get_node(^"SpidarG") as SpidarG).row_of(reason)
+		var row: Dictionary = TrialResults.new(_task).row_of(reason)
 		row.merge(_head(step), true)
 		row["participant_id"] = _participant
 		row["grip_source"] = "simulated" if arguments.simulates() else _task.settings.source

@@ -3,7 +3,6 @@ extends RefCounted
 
 enum Kind { INSTRUCTION, PRACTICE, TRIAL, RATINGS, BREAK, END }
 
-const TASKS: PackedStringArray = ["pick_and_place", "robot_linking", "match_linking"]
 const CONDITIONS: PackedStringArray = ["forces_on", "forces_off", "mouse", "mouse_auto"]
 ## Williams' design for four conditions: each comes once in each place, and once after each other one.
 const ORDERS: Array[Array] = [[0, 1, 3, 2], [1, 2, 0, 3], [2, 3, 1, 0], [3, 0, 2, 1]]
@@ -24,7 +23,7 @@ class Step:
 
 ## participant: 1 and up. trials: counted ones per task and condition.
 static func make(
-	participant: int, trials: int, tasks: PackedStringArray = TASKS
+	participant: int, trials: int, tasks: PackedStringArray
 ) -> Array[Step]:
 	var steps: Array[Step] = []
 	var order: Array = ORDERS[(participant - 1) % ORDERS.size()]

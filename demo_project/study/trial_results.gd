@@ -1,10 +1,9 @@
 extends RefCounted
 ## Turns a finished trial into summary.csv and objects.csv, and into the exit code of a scripted play.
 
-const CarryPlayer := preload("res://play/carry_player.gd")
 const CsvTable := preload("res://study/csv_table.gd")
-const DemoTask := preload("res://tasks/base/demo_task.gd")
 const PlayArguments := preload("res://play/play_arguments.gd")
+const Trial := preload("res://study/trial.gd")
 
 const OBJECT_COLUMNS: PackedStringArray = [
 	"name", "kind", "mass_kg", "width_m", "placed", "position_error_mm", "rotation_error_deg",
@@ -13,8 +12,7 @@ const OBJECT_COLUMNS: PackedStringArray = [
 	"release_expected_n", "detent_ok", "grasp_angle_deg", "jitter_mm", "attempts",
 ]
 
-var _task: DemoTask
-var _spidar: SpidarG
+var _task: Trial
 var _placed := 0
 var _weights_ok := 0
 var _widths_ok := 0
@@ -22,9 +20,8 @@ var _detents_ok := 0
 var _all_felt := true
 
 
-func _init(task: DemoTask, spidar: SpidarG) -> void:
+func _init(task: Trial) -> void:
 	_task = task
-	_spidar = spidar
 
 
 ## Writes the files and prints what came out. Returns the exit code.
@@ -34,8 +31,6 @@ func save_scripted(abort_reason: String) -> int:
 	var total := _task.bodies.size()
 	var in_place := _placed == total or arguments.carries > 0 # What is carried about goes back to its start.
 	var passed := abort_reason == "" and total > 0 and in_place and _all_felt
-	if _task.player is CarryPlayer:
-		_task.logger.drops = (_task.player as CarryPlayer).dropped
 	var condition := "simulated_forces"
 	if arguments.cut_output:
 		condition = "simulated_output_cut"
@@ -45,14 +40,14 @@ func save_scripted(abort_reason: String) -> int:
 	_task.logger.row["weight_checks_ok"] = _weights_ok
 	_task.logger.row["width_checks_ok"] = _widths_ok
 	_task.logger.row["detent_checks_ok"] = _detents_ok
-	_task.logger.row["max_penetration_mm"] = 1000.0 * _task.player.penetration.worst_m
+	_task.logger.row["max_penetration_mm"] = 1000.0 * _task.max_penetration_m()
 	var code := PlayArguments.EXIT_DONE if passed else PlayArguments.EXIT_NOT_DONE
 	if not _save(arguments.out_dir, table):
 		code = PlayArguments.EXIT_NOT_DONE
 	print(
 		"%s level %d seed %d: placed %d/%d, felt: weight %d, width %d, detent %d of %d, %.1f s simulated%s"
 		% [
-			_task.task_name(), arguments.level, arguments.seed_number, _placed, total, _weights_ok,
+			_task.task_name, arguments.level, arguments.seed_number, _placed, total, _weights_ok,
 			_widths_ok, _detents_ok, total, _task.logger.task_time_s,
 			"" if abort_reason == "" else "; stopped: " + abort_reason,
 		]
@@ -74,7 +69,7 @@ func save_interactive() -> String:
 	var started := Time.get_datetime_string_from_system(true).replace(":", "-")
 	var folder := "user://trials".path_join(started)
 	var table := _object_table()
-	var condition := "forces_on" if _spidar.forces_enabled else "forces_off"
+	var condition := "forces_on" if _task.spidar.forces_enabled else "forces_off"
 	_fill_row(started, condition, _task.settings.source, "")
 	_task.logger.row["participant_id"] = _task.settings.participant
 	_task.logger.row["auto_animation"] = _task.settings.auto_animation
@@ -133,7 +128,7 @@ func _fill_row(session: String, condition: String, source: String, abort_reason:
 			ideal_path_m += began.distance_to(body.goal().origin)
 	var row := _task.logger.row
 	row["session_id"] = session
-	row["task"] = _task.task_name()
+	row["task"] = _task.task_name
 	row["level"] = _task.arguments.level
 	row["condition"] = condition
 	row["grip_source"] = source
@@ -147,7 +142,7 @@ func _fill_row(session: String, condition: String, source: String, abort_reason:
 	if _placed > 0:
 		row["position_error_mm"] = 1000.0 * position_sum_m / _placed
 		row["rotation_error_deg"] = rad_to_deg(rotation_sum_rad / _placed)
-	_task.logger.finish(_spidar, ideal_path_m)
+	_task.logger.finish(_task.spidar, ideal_path_m)
 
 
 func _save(folder: String, table: CsvTable) -> bool:
@@ -163,7 +158,7 @@ func _save(folder: String, table: CsvTable) -> bool:
 		session.store_string(JSON.stringify({
 			"written_utc": Time.get_datetime_string_from_system(true),
 			"operating_system": OS.get_name(),
-			"statistics": _spidar.get_statistics(),
+			"statistics": _task.spidar.get_statistics(),
 			"frame_ms": _task.frame_cost.report(),
 		}, "  ") + "\n")
 	return saved

@@ -207,7 +207,7 @@ func _check_plan() -> void:
 	for participant in range(1, 5):
 		var order: PackedStringArray = []
 		var seeds: Dictionary[String, Array] = {}
-		for step in ExperimentPlan.make(participant, 3):
+		for step in ExperimentPlan.make(participant, 3, ["one", "two", "three"]):
 			if step.kind != ExperimentPlan.Kind.TRIAL:
 				continue
 			if not order.has(step.condition):

@@ -1,21 +1,21 @@
 extends "res://tasks/base/demo_task.gd"
-## A task of things that link: what robot and matches have in common.
+## A task of things that link: what robot, matches and free play have in common.
 
-const CameraRig := preload("res://scene/camera_rig.gd")
+const Link := preload("res://scene/link.gd")
 const Linker := preload("res://scene/linker.gd")
 
-var linker := Linker.new()
+@onready var linker: Linker = $Linker
 
 
 func _ready() -> void:
-	add_child(linker)
-	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
+	linker.setup(spidar, tool_hand)
 	super()
-	linker.sound_with(sound)
-	var view := _view()
-	($CameraRig as CameraRig).see(view.x, view.y)
+	linker.sound_with(_feedback.sound)
 
 
-## Of the camera, nearer than in pick and place: how wide (degrees) and how far down (m).
-func _view() -> Vector2:
-	return Vector2.ZERO
+## Only what falls is a drop: a linked thing stays where it is.
+func _note_release(body: TaskBody) -> void:
+	if linker.links.any(func(link: Link) -> bool: return link.socket_on(body) != null):
+		return
+	if body.global_position.y - _items.global_position.y > body.start.origin.y + DROP_HEIGHT_M:
+		logger.drops += 1

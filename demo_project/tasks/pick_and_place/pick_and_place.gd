@@ -10,14 +10,6 @@ const TaskLayout := preload("res://tasks/pick_and_place/task_layout.gd")
 const TaskObject := preload("res://tasks/pick_and_place/task_object.gd")
 
 
-func task_name() -> String:
-	return "pick_and_place"
-
-
-func title() -> String:
-	return "Pick and place"
-
-
 func _lay_out() -> void:
 	var specs := ObjectCatalogue.of_level(arguments.level)
 	var layout := TaskLayout.make(
