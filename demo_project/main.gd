@@ -3,30 +3,21 @@ extends Node
 ##
 ## Exit codes of a scripted play: 0 all placed and felt right, 1 not, 2 the arguments or the add-on are wrong.
 
-const TASKS: Dictionary[String, String] = {
-	"pick_and_place": "res://tasks/pick_and_place/pick_and_place.tscn",
-	"robot_linking": "res://tasks/robot_linking/robot_linking.tscn",
-	"match_linking": "res://tasks/match_linking/match_linking.tscn",
-}
-const OTHER_SCENES: Dictionary[String, String] = {
-	"hub": "res://hub/hub.tscn",
-	"free_play": "res://tasks/free_play/free_play.tscn",
-}
-## By path: before the first import no class name is known, and this script must be able to say what is missing.
-const Arguments := preload("res://common/play_arguments.gd")
+## Nothing here may name SpidarG: without the add-on's library such a script does not load, and this one has to say so.
+const PlayArguments := preload("res://play/play_arguments.gd")
+const TaskList := preload("res://hub/task_list.gd")
 
-
-var _arguments: Arguments
+var _arguments: PlayArguments
 var _settings: RefCounted
 var _scene: Node
 var _report: Node
 
 
 func _ready() -> void:
-	var arguments := Arguments.new()
-	arguments.read(OS.get_cmdline_user_args(), PackedStringArray(TASKS.keys()))
+	var arguments := PlayArguments.new()
+	arguments.read(OS.get_cmdline_user_args(), TaskList.task_names(), TaskList.CARRYING)
 	if arguments.problem != "":
-		_refuse(arguments.problem + "\n" + Arguments.USAGE, true)
+		_refuse(arguments.problem + "\n" + PlayArguments.USAGE, true)
 		return
 	# Scripts that name SpidarG do not even compile without the library, so ask before loading any.
 	if not ClassDB.class_exists(&"SpidarG"):
@@ -38,7 +29,7 @@ func _ready() -> void:
 		)
 		return
 	_arguments = arguments
-	_settings = (load("res://common/demo_settings.gd") as Script).call(&"load_or_default")
+	_settings = (load("res://ui/demo_settings.gd") as Script).call(&"load_or_default")
 	if arguments.simulates():
 		_open("experiment")
 	elif arguments.scripted():
@@ -52,7 +43,7 @@ func _ready() -> void:
 func _open(scene_name: String) -> void:
 	if _scene != null:
 		_scene.queue_free()
-	_scene = _make(scene_name)
+	_scene = TaskList.make(scene_name)
 	if not _scene.has_signal(&"left"):
 		_refuse("%s did not load: import the project first (./dev does)." % scene_name, _arguments.scripted())
 		return
@@ -64,22 +55,16 @@ func _open(scene_name: String) -> void:
 	else:
 		_scene.connect(&"left", _open.bind("hub"))
 	if scene_name == "experiment":
-		_scene.set(&"scene_of", _make)
+		_scene.set(&"task_names", TaskList.task_names())
+		_scene.set(&"scene_of", TaskList.make)
 		_scene.connect(&"ended", get_tree().quit)
 	add_child(_scene)
 	if _arguments.report != "" and _report == null:
-		_report = (load("res://common/screen_report.gd") as Script).call(&"new")
+		_report = (load("res://screen_report.gd") as Script).call(&"new")
 		_report.set(&"path", _arguments.report)
 		add_child(_report)
 	if _report != null:
 		_report.set(&"scene", _scene)
-
-
-func _make(scene_name: String) -> Node:
-	if scene_name == "experiment":
-		return (load("res://experiment/experiment.gd") as Script).call(&"new")
-	var scene: PackedScene = load(TASKS.get(scene_name, OTHER_SCENES.get(scene_name, "")))
-	return scene.instantiate()
 
 
 func _on_chosen(entry: StringName, level: int) -> void:
@@ -90,7 +75,7 @@ func _on_chosen(entry: StringName, level: int) -> void:
 func _refuse(message: String, leave: bool) -> void:
 	printerr(message)
 	if leave or DisplayServer.get_name() == "headless":
-		get_tree().quit(Arguments.EXIT_BAD_ARGUMENTS)
+		get_tree().quit(PlayArguments.EXIT_BAD_ARGUMENTS)
 		return
 	var label := Label.new()
 	label.text = message

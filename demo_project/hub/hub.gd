@@ -1,7 +1,10 @@
-class_name Hub
-extends DemoTask
+extends "res://tasks/base/demo_task.gd"
 ## The start: three tasks, free play and settings, chosen by mouse, by keyboard, or with the grip itself, which
 ## touches a knob and closes on it.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const HubKnob := preload("res://hub/hub_knob.gd")
+const HubMenu := preload("res://hub/hub_menu.gd")
 
 signal chosen(entry: StringName, level: int)
 
@@ -32,18 +35,6 @@ var _was_squeezed := true
 @onready var _menu: HubMenu = $Menu
 
 
-func title() -> String:
-	return "spidar_g"
-
-
-func is_trial() -> bool:
-	return false
-
-
-func may_replay() -> bool:
-	return false
-
-
 func _ready() -> void:
 	super()
 	_hud.show_mode(Hud.Mode.OFF)
@@ -64,15 +55,15 @@ func _lay_out() -> void:
 
 func _physics_process(delta: float) -> void:
 	super(delta)
-	var grip := _spidar.get_grip_transform().origin
+	var grip := spidar.get_grip_transform().origin
 	var nearest: HubKnob = null
 	for knob in _knobs:
-		var near := knob.distance_to(grip) < TOUCH_M * _spidar.workspace_scale
+		var near := knob.distance_to(grip) < TOUCH_M * spidar.workspace_scale
 		knob.show_touched(near)
 		if near and (nearest == null or knob.distance_to(grip) < nearest.distance_to(grip)):
 			nearest = knob
-	var squeezed := _tool_hand.get_squeeze_torque_nm() > GRASP_NM
-	var on_knob := nearest != null and nearest.distance_to(grip) < GRASP_M * _spidar.workspace_scale
+	var squeezed := tool_hand.get_squeeze_torque_nm() > GRASP_NM
+	var on_knob := nearest != null and nearest.distance_to(grip) < GRASP_M * spidar.workspace_scale
 	# One choice a squeeze: the fingers have to open before the next.
 	_squeezed_s = _squeezed_s + delta if squeezed and on_knob and not _was_squeezed else 0.0
 	if not squeezed:
@@ -93,7 +84,7 @@ func _on_chosen(entry: StringName) -> void:
 
 func _on_applied() -> void:
 	settings.save()
-	settings.apply(_spidar)
+	settings.apply(spidar)
 	PictureQuality.apply(self, settings.picture)
 	_show_level()
 

@@ -1,6 +1,9 @@
-class_name HubKnob
 extends StaticBody3D
 ## One choice of the menu in the scene: a block that the grip touches and closes on, and its name.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const HubKnob := preload("res://hub/hub_knob.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const SIZE_M := Vector3(0.026, 0.044, 0.026)
 const PLATE_M := Vector3(0.078, 0.003, 0.060)

@@ -1,7 +1,10 @@
-class_name HubMenu
 extends CanvasLayer
 ## The menu on the screen: the same choices as the knobs, and settings and participant. Works by mouse and by keyboard
 ## (1 to 7, or Tab and Enter).
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const PictureQuality := preload("res://scene/picture_quality.gd")
 
 signal chosen(entry: StringName)
 signal applied
@@ -25,7 +28,7 @@ var _level: Button
 func setup(settings: DemoSettings) -> void:
 	_settings = settings
 	var panel := PanelContainer.new()
-	panel.add_theme_stylebox_override("panel", preload("res://common/panel_style.tres"))
+	panel.add_theme_stylebox_override("panel", preload("res://ui/panel_style.tres"))
 	panel.position = Vector2(20.0, 20.0)
 	add_child(panel)
 	_rows = VBoxContainer.new()
@@ -50,15 +53,12 @@ func show_level(level: int) -> void:
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
-	var key := event as InputEventKey
-	if not key.pressed or key.echo:
-		return
-	var number := key.physical_keycode - KEY_1
-	if number >= 0 and number < ENTRIES.size():
-		chosen.emit(ENTRIES.keys()[number])
-	elif key.physical_keycode == KEY_7:
+	for number in ENTRIES.size():
+		if event.is_action_pressed(&"demo_entry_%d" % (number + 1)):
+			chosen.emit(ENTRIES.keys()[number])
+	if event.is_action_pressed(&"demo_entry_7"):
 		chosen.emit(&"experiment")
-	elif key.physical_keycode == KEY_6:
+	elif event.is_action_pressed(&"demo_entry_6"):
 		_form.visible = not _form.visible
 
 

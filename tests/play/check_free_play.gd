@@ -2,6 +2,11 @@ extends SceneTree
 ## The blocks of air of free play, felt by the simulated hand in simulated time: each gives the force that its name says,
 ## and none outside; then a recording and its replay. Prints FAIL lines and "N passed, N failed".
 
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const FieldZone := preload("res://tasks/free_play/field_zone.gd")
+const FreePlay := preload("res://tasks/free_play/free_play.gd")
+const MouseHand := preload("res://ui/mouse_hand.gd")
+
 const TICK_S := 1.0 / 60.0
 const ARMING_LIMIT_TICKS := 300
 const REACH_TICKS := 90

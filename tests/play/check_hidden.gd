@@ -2,6 +2,9 @@ extends SceneTree
 ## Nothing is computed for a display that is not seen, and it catches up when it is. Prints FAIL lines and
 ## "N passed, N failed".
 
+const FreePlay := preload("res://tasks/free_play/free_play.gd")
+const Hud := preload("res://ui/hud.gd")
+
 const SETTLE_FRAMES := 20
 
 var _passed := 0

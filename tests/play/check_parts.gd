@@ -1,6 +1,25 @@
 extends SceneTree
 ## Known answers for the demo's own mathematics. Prints FAIL lines and "N passed, N failed".
 
+const CsvTable := preload("res://study/csv_table.gd")
+const DemoSettings := preload("res://ui/demo_settings.gd")
+const ExperimentPlan := preload("res://study/experiment_plan.gd")
+const ExperimentStore := preload("res://study/experiment_store.gd")
+const FitLine := preload("res://play/fit_line.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
+const ObjectCatalogue := preload("res://tasks/pick_and_place/object_catalogue.gd")
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const PictureQuality := preload("res://scene/picture_quality.gd")
+const PlayArguments := preload("res://play/play_arguments.gd")
+const RobotDesign := preload("res://tasks/robot_linking/robot_design.gd")
+const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
+const ScriptedHand := preload("res://play/scripted_hand.gd")
+const TaskLayout := preload("res://tasks/pick_and_place/task_layout.gd")
+const TaskObject := preload("res://tasks/pick_and_place/task_object.gd")
+const WidthSense := preload("res://play/width_sense.gd")
+
 ## A thin leg in a corner of the workspace, stopped at 41.2 degrees: grasp angle (degrees) and opening torque (N mm).
 const LEG_STOP_DEG := 41.2
 const LEG_ANGLES_DEG: PackedFloat64Array = [
@@ -188,7 +207,7 @@ func _check_plan() -> void:
 	for participant in range(1, 5):
 		var order: PackedStringArray = []
 		var seeds: Dictionary[String, Array] = {}
-		for step in ExperimentPlan.make(participant, 3):
+		for step in ExperimentPlan.make(participant, 3, ["one", "two", "three"]):
 			if step.kind != ExperimentPlan.Kind.TRIAL:
 				continue
 			if not order.has(step.condition):

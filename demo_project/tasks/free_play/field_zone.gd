@@ -1,6 +1,8 @@
-class_name FieldZone
 extends Node3D
 ## A block of air in which the device gives one kind of force by itself, renewed while the grip's middle is inside.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const FieldZone := preload("res://tasks/free_play/field_zone.gd")
 
 ## From left to right: where strings give the finest forces, in the middle, is what is felt in motion.
 enum Kind { VIBRATION, SPRING, VISCOUS, DETENTS, FORCE, WRENCH }

@@ -1,8 +1,12 @@
-class_name FreePlay
-extends DemoTask
+extends "res://tasks/base/linking_task.gd"
 ## Nothing to achieve: one sample of everything that can be felt. Hard and soft blocks, a heavy and a light box of
 ## the same size, a rough and a smooth floor, a ball on a spring, a socket that snaps, and six blocks of air, one for each
 ## kind of force that the device gives by itself.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const FieldZone := preload("res://tasks/free_play/field_zone.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const SPRING_N_M := 80.0
 const SPRING_MOST_N := 4.0
@@ -12,8 +16,6 @@ const FLOOR_M := Vector3(0.080, 0.006, 0.070)
 const ABOVE_M := 0.016
 const LOW_M := 0.006
 const BEFORE_M := 0.014
-## Nearer than in pick and place: there is more to read.
-const VIEW_DEG := 28.0
 ## Rows from the back to the front.
 const BACK_Z_M := -0.100
 const ZONES_Z_M := -0.022
@@ -23,34 +25,16 @@ const ZONE_COLOURS: Array[Color] = [
 	DemoPalette.MUSTARD, DemoPalette.CORAL, DemoPalette.PLUM, DemoPalette.SAGE, DemoPalette.BLUE, DemoPalette.TEAL
 ]
 
-var linker := Linker.new()
-
 var zones: Array[FieldZone] = []
 
 var _ball: TaskBody
 var _ball_home := Vector3.ZERO
 
 
-func task_name() -> String:
-	return "free_play"
-
-
-func title() -> String:
-	return "Free play"
-
-
-func is_trial() -> bool:
-	return false
-
-
 func _ready() -> void:
-	add_child(linker)
-	linker.setup($SpidarG as SpidarG, $SpidarG/SpidarGHand as SpidarGHand)
 	super()
-	($CameraRig as CameraRig).see(VIEW_DEG, 0.0)
-	_hud.show_free(title())
-	linker.sound_with(sound)
-	_tool_hand.carrying.connect(_on_carrying)
+	_hud.show_free(title)
+	tool_hand.carrying.connect(_on_carrying)
 
 
 func _lay_out() -> void:
@@ -125,7 +109,7 @@ func _add_zones() -> void:
 func _physics_process(delta: float) -> void:
 	super(delta)
 	for zone in zones:
-		zone.act(_spidar, _tool_hand.get_held_body() != null)
+		zone.act(spidar, tool_hand.get_held_body() != null)
 
 
 func _add_floor(text: String, x: float, friction: float, colour: Color) -> void:
@@ -155,10 +139,10 @@ func _add_peg(x: float) -> void:
 
 
 func _on_carrying(_delta: float) -> void:
-	if _tool_hand.get_held_body() != _ball:
+	if tool_hand.get_held_body() != _ball:
 		return
-	var way := (_ball_home - _tool_hand.get_wanted_pose().origin) / _spidar.workspace_scale
-	_tool_hand.add_load((SPRING_N_M * way).limit_length(SPRING_MOST_N))
+	var way := (_ball_home - tool_hand.get_wanted_pose().origin) / spidar.workspace_scale
+	tool_hand.add_load((SPRING_N_M * way).limit_length(SPRING_MOST_N))
 
 
 func _say(text: String, at: Vector3) -> void:

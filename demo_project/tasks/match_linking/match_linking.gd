@@ -1,7 +1,12 @@
-class_name MatchLinking
-extends LinkingTask
+extends "res://tasks/base/linking_task.gd"
 ## The task: link matches end to end into the shape shown.
 ## Kim, Koike and Sato's experiment 4 ("SPIDAR-G", section 7.2).
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const MatchPlayer := preload("res://tasks/match_linking/match_player.gd")
+const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const BOARD_Z_M := -0.028
 ## The rack: two rails across, the matches on them side by side.
@@ -15,23 +20,7 @@ const YAW_RAD: PackedFloat64Array = [0.0, deg_to_rad(8.0), deg_to_rad(15.0)]
 const POSITION_TOLERANCE_M: PackedFloat64Array = [0.005, 0.004, 0.004]
 const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(8.0), deg_to_rad(6.0), deg_to_rad(6.0)]
 
-## Nearer than in pick and place: the things are smaller.
-const VIEW_DEG := 22.0
-const VIEW_DOWN_M := 0.005
-
 var shape: MatchShape
-
-
-func task_name() -> String:
-	return "match_linking"
-
-
-func title() -> String:
-	return "Match linking"
-
-
-func _view() -> Vector2:
-	return Vector2(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:
@@ -85,8 +74,7 @@ func _choose_edges(random: RandomNumberGenerator) -> void:
 
 
 ## Any match may lie on any edge, but only one on each.
-func _judge() -> int:
-	var held := _tool_hand.get_held_body()
+func _judge(held: RigidBody3D) -> int:
 	var free: Array[int] = []
 	free.assign(range(shape.edges.size()))
 	var count := 0
@@ -113,14 +101,6 @@ func _nearest_edge(stick: MatchStick, free: Array[int]) -> int:
 		if best < 0 or shape.end_error_m(stick, edge) < shape.end_error_m(stick, best):
 			best = edge
 	return best
-
-
-## A match let go in the air falls; a linked one stays.
-func _note_release(body: TaskBody) -> void:
-	if linker.links.any(func(link: Link) -> bool: return link.socket_on(body) != null):
-		return
-	if body.global_position.y - _items.global_position.y > body.start.origin.y + DROP_HEIGHT_M:
-		logger.drops += 1
 
 
 func _add_rack(count: int) -> void:

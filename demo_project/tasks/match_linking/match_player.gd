@@ -1,6 +1,7 @@
-class_name MatchPlayer
-extends LinkPlayer
+extends "res://play/link_player.gd"
 ## Links the matches by script: each on its edge, both ends.
+
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
 
 func _init() -> void:
 	let_go_m = 0.006

@@ -1,7 +1,11 @@
-class_name MatchShape
 extends Node3D
 ## A target shape of matches: its corners, its edges, the pegs that carry the corners on the board, and ghosts of the
 ## matches. Every edge is one match long, and turned no further than a hand can follow.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
 
 const PEG_M := 0.060
 const PEG_RADIUS_M := 0.003

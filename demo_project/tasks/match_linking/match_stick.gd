@@ -1,6 +1,10 @@
-class_name MatchStick
-extends TaskBody
+extends "res://scene/task_body.gd"
 ## A match: a thin stick along z with a ball at each end that links with other ends and with the pegs.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
+const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
 
 const THICK_M := 0.003
 ## Between the middles of the balls.

@@ -1,7 +1,9 @@
-class_name ObjectCatalogue
 extends RefCounted
 ## The things of this task by level. They differ in shape, width (12 to 50 mm), mass (50 to 250 g), and in level 3
 ## in friction and softness too.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
 
 ## By level: how far starts and targets are turned, and what counts as placed.
 const YAW_RAD: PackedFloat64Array = [0.0, deg_to_rad(12.0), deg_to_rad(25.0)]

@@ -1,6 +1,9 @@
-class_name ObjectSpec
 extends RefCounted
 ## One kind of thing to pick up: its shape, mass and how it is held. Metres, kilograms.
+
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
+const TaskBody := preload("res://scene/task_body.gd")
 
 enum Shape { BOX, CYLINDER, SPHERE }
 ## What it stands on, at its start and at its target.

@@ -1,15 +1,13 @@
-class_name PickAndPlace
-extends DemoTask
+extends "res://tasks/base/demo_task.gd"
 ## The task: pick every object up and put it on the outline of its own shape, colour and size.
 ## Kim, Koike and Sato's experiment 2 ("SPIDAR-G", section 7.2), at life size.
 
-
-func task_name() -> String:
-	return "pick_and_place"
-
-
-func title() -> String:
-	return "Pick and place"
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const ObjectCatalogue := preload("res://tasks/pick_and_place/object_catalogue.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
+const TargetOutline := preload("res://tasks/pick_and_place/target_outline.gd")
+const TaskLayout := preload("res://tasks/pick_and_place/task_layout.gd")
+const TaskObject := preload("res://tasks/pick_and_place/task_object.gd")
 
 
 func _lay_out() -> void:

@@ -1,7 +1,10 @@
-class_name TargetOutline
 extends Node3D
 ## Where an object belongs: its outline on the table in its own colour and size, the tolerance
 ## around it as a pale band, its stand where it has one, and a faint ghost of the thing itself.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const LINE_M := 0.0022
 const LIFT_M := 0.0004

@@ -1,6 +1,8 @@
-class_name TaskLayout
 extends RefCounted
 ## Where everything starts and where it has to go, from a seed alone: same seed, same layout.
+
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const TaskLayout := preload("res://tasks/pick_and_place/task_layout.gd")
 
 ## Cells of the table. The pitch leaves room for the opened fingers (x) beside a neighbour, and keeps
 ## all of them where the strings can give weight and squeeze together.

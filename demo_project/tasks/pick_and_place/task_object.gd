@@ -1,6 +1,8 @@
-class_name TaskObject
-extends TaskBody
+extends "res://scene/task_body.gd"
 ## A thing of pick and place: one of the catalogue, with the outline where it belongs.
+
+const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const TargetOutline := preload("res://tasks/pick_and_place/target_outline.gd")
 
 var spec: ObjectSpec
 var target: TargetOutline

@@ -1,6 +1,9 @@
-class_name PartGhost
 extends Node3D
 ## Where a part of the robot belongs: a faint copy that goes when the part is there.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const PartGhost := preload("res://tasks/robot_linking/part_ghost.gd")
+const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
 
 const ALPHA := 0.14
 

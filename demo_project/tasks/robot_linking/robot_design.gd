@@ -1,7 +1,12 @@
-class_name RobotDesign
 extends RefCounted
 ## The robot: what its parts look like, where their sockets are and where each belongs. Metres, kilograms; the robot's
 ## frame has its origin on the table, y up and the front at +z. Plugs sit on the limbs, cups on what carries them.
+
+const DemoPalette := preload("res://scene/demo_palette.gd")
+const FeltRecord := preload("res://scene/felt_record.gd")
+const LinkSocket := preload("res://scene/link_socket.gd")
+const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
+const StandBuilder := preload("res://scene/stand_builder.gd")
 
 const TORSO_M := Vector3(0.044, 0.048, 0.026)
 const TORSO_Y_M := 0.0825

@@ -1,7 +1,11 @@
-class_name RobotLinking
-extends LinkingTask
+extends "res://tasks/base/linking_task.gd"
 ## The task: build a robot by linking head, arms, legs and torso, in any order.
 ## Kim, Koike and Sato's experiment 3 ("SPIDAR-G", section 7.2).
+
+const PartGhost := preload("res://tasks/robot_linking/part_ghost.gd")
+const RobotDesign := preload("res://tasks/robot_linking/robot_design.gd")
+const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
+const RobotPlayer := preload("res://tasks/robot_linking/robot_player.gd")
 
 const STAND_Z_M := -0.045
 ## On the table, before the robot and near its middle: further out the least tension of the strings alone presses nearly
@@ -20,22 +24,6 @@ const LATCH_RAD: PackedFloat64Array = [deg_to_rad(5.0), deg_to_rad(5.0), deg_to_
 ## Of each part from its place in the robot.
 const POSITION_TOLERANCE_M: PackedFloat64Array = [0.004, 0.004, 0.003]
 const ROTATION_TOLERANCE_RAD: PackedFloat64Array = [deg_to_rad(6.0), deg_to_rad(6.0), deg_to_rad(4.0)]
-
-## Nearer than in pick and place: the things are smaller.
-const VIEW_DEG := 27.0
-const VIEW_DOWN_M := 0.000
-
-
-func task_name() -> String:
-	return "robot_linking"
-
-
-func title() -> String:
-	return "Robot linking"
-
-
-func _view() -> Vector2:
-	return Vector2(VIEW_DEG, VIEW_DOWN_M)
 
 
 func _make_player() -> TaskPlayer:
@@ -103,11 +91,3 @@ func _shuffled(things: Array, random: RandomNumberGenerator) -> Array:
 		things[last] = things[other]
 		things[other] = kept
 	return things
-
-
-## Only what falls is a drop: linked parts stay where they are.
-func _note_release(body: TaskBody) -> void:
-	if linker.links.any(func(link: Link) -> bool: return link.socket_on(body) != null):
-		return
-	if body.global_position.y - _items.global_position.y > body.start.origin.y + DROP_HEIGHT_M:
-		logger.drops += 1

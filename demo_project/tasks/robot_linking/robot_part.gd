@@ -1,5 +1,4 @@
-class_name RobotPart
-extends TaskBody
+extends "res://scene/task_body.gd"
 ## One part of the robot, with the pose that it has in the finished one.
 
 ## Robot's frame in the world: origin on the table under its middle, front +z.

@@ -1,5 +1,4 @@
-class_name RobotPlayer
-extends LinkPlayer
+extends "res://play/link_player.gd"
 ## Builds the robot by script: the torso first where it is loose, then the limbs as the layout shuffled them.
 
 ## Parts are weighed before the robot, not above it.
