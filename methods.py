@@ -4,6 +4,7 @@ import hashlib
 import os
 import platform
 import re
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -36,13 +37,38 @@ def sanitizers(value):
     return [name for name in SANITIZERS if name in names]
 
 
+def compiler(env):
+    """The C++ compiler as the start of an argument list: CXX may be two words, as in CXX="ccache g++"."""
+    return shlex.split(env.subst("$CXX"))
+
+
 def accepts(env, *flags):
     """Whether the C++ compiler takes these flags."""
-    command = [env.subst("$CXX").split()[0], *flags, "-E", "-x", "c++", os.devnull]
+    command = [*compiler(env), *flags, "-E", "-x", "c++", os.devnull]
     try:
         return subprocess.run(command, check=False, capture_output=True).returncode == 0
     except OSError:
         return False
+
+
+# --- A checkout in a folder of any name ------------------------------------------------------------
+# SCons joins a command into one line for a shell, and expands $NAME in every path it is given. A path relative to the
+# checkout holds nothing of the checkout's own name, so only such paths are used for what lies inside it.
+
+
+def escape_for_shell(text):
+    """One word of a shell command. SCons calls it for every file and folder of a command."""
+    return shlex.quote(text)
+
+
+def hide_build_folder(env):
+    """The library tells nobody where it was built. Its debug information names the compiler's current folder."""
+    flag = "-fdebug-compilation-dir=."
+    if accepts(env, flag):
+        env.Append(CCFLAGS=[flag])
+    elif os.path.isdir("/proc/self/cwd"):
+        # GCC has no such flag, but takes the name of its current folder from PWD if that is one.
+        env["ENV"]["PWD"] = "/proc/self/cwd"
 
 
 # --- Sources -------------------------------------------------------------------------------------
@@ -165,7 +191,7 @@ def find_hidapi(env):
     name = "libhidapi-hidraw.a"
     path = env["hidapi"]
     if not path:
-        command = [env.subst("$CXX").split()[0], f"-print-file-name={name}"]
+        command = [*compiler(env), f"-print-file-name={name}"]
         done = subprocess.run(command, check=False, text=True, capture_output=True)
         path = done.stdout.strip()
     if not os.path.isfile(path):
@@ -303,6 +329,8 @@ class GodotCpp:
         if not self.library:
             raise BuildError(f"{root}: no {library} in bin/ or lib/; build godot-cpp for it")
         self.version = self.read_version()
+        if not self.version:
+            raise BuildError(f"{root}: no Godot version in include/godot_cpp/core/version.hpp")
 
     def header(self, name):
         paths = (os.path.join(folder, name) for folder in self.includes)
@@ -350,20 +378,16 @@ def write_class_documentation(target, source, env):
 # --- The add-on's files --------------------------------------------------------------------------
 
 
-def stamp_manifest(path, version):
-    """compatibility_minimum must name the API that the library was built from."""
-    if not os.path.isfile(path):
-        return
-    with open(path, encoding="utf-8") as file:
+def write_manifest(target, source, env):
+    """The manifest that Godot reads. Its compatibility_minimum is the version of the API that the library was built
+    from; source: the template, and that version."""
+    template, version = source
+    with open(str(template), encoding="utf-8") as file:
         text = file.read()
-    line = f'compatibility_minimum = "{dotted(version)}"'
-    stamped, count = re.subn(r"(?m)^compatibility_minimum\s*=.*$", line, text)
-    if count != 1:
-        raise BuildError(f"{path}: needs exactly one line compatibility_minimum, has {count}")
-    if stamped != text:
-        print(f"{path}: {line}, the Godot API of this build")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(stamped)
+    if text.count("@GODOT_VERSION@") != 1:
+        raise BuildError(f"{template}: needs @GODOT_VERSION@ exactly once")
+    with open(str(target[0]), "w", encoding="utf-8") as file:
+        file.write(text.replace("@GODOT_VERSION@", version.get_text_contents()))
 
 
 def write_package(target, source, env):

@@ -1,0 +1,43 @@
+# The add-on built, formatted and packed for a release.
+
+build() {
+    need "${build_needs[@]}"
+    find_godot
+    scons -Q -j"$jobs" "$@"
+}
+
+# The release: libraries for Linux and Windows, against the API in $GODOT_API (an extension_api.json of the lowest Godot
+# supported), else that of the Godot in use. The tree's own libraries and manifest are then those of the release.
+package() {
+    local target options=()
+    need "${build_needs[@]}" "${windows_needs[@]}"
+    find_godot
+    python3 tools/fetch/fetch_hidapi.py
+    if [[ -n ${GODOT_API:-} ]]; then
+        [[ -e $GODOT_API ]] || die "GODOT_API=$GODOT_API: no such file"
+        # The engine's C interface only grows: the newest header serves every API.
+        mkdir -p build/api/header
+        (cd build/api/header && "$GODOT" --headless --dump-gdextension-interface >/dev/null)
+        options=("api=$(readlink -f "$GODOT_API")" interface=build/api/header/gdextension_interface.h)
+    else
+        echo "dev: GODOT_API is not set: the release is for the Godot in use and newer ones"
+    fi
+    for target in template_debug template_release; do
+        scons -Q -j"$jobs" platform=windows target=$target "${options[@]}" addon
+    done
+    scons -Q -j"$jobs" "${options[@]}" with_windows=yes package
+}
+
+package_and_try() {
+    package
+    python3 tests/package/run_package_tests.py "$GODOT" "$(newest_package)"
+}
+
+newest_package() { find dist -name 'spidar_g-*.zip' -printf '%T@ %p\n' | sort -n | tail -n 1 | cut -d' ' -f2; }
+
+our_sources() { find gdextension tests tools -name '*.cpp' -o -name '*.h' -o -name '*.hpp' | sort; }
+
+format() {
+    need "${test_needs[@]}"
+    our_sources | xargs clang-format -i
+}
