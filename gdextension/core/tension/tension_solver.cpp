@@ -167,34 +167,32 @@ void TensionSolver::keep(const WrenchMatrix &matrix, const DofArray &wrench) noe
     problem_.wrench = wrench;
 }
 
+// What the fast path refused.
 TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
                                               const DofArray &wrench) noexcept {
-    keep(matrix, wrench);
     TensionResult result;
     settled_ = false;
-    if (!all_finite(problem_.matrix.columns)) {
+    if (!all_finite(matrix.columns)) {
         result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
         result.status = Status::not_finite;
         return result;
     }
-    const bool wrench_is_finite = all_finite(wrench);
-    if (!wrench_is_finite) {
-        problem_.wrench = {};
+    if (!all_finite(wrench)) {
+        result = update(matrix, DofArray{});
+        result.status = Status::not_finite;
+        settled_ = false;
+        return result;
     }
+    keep(matrix, wrench);
     const TensionSolution solution =
-        solve_tension_problem(problem_, warm_ ? &last_active_ : nullptr);
+        solve_tension_problem_safely(problem_, warm_ ? &last_active_ : nullptr);
     if (!usable(solution.status)) {
         result.tensions_n = solution.tensions_n;
         result.iterations = solution.iterations;
         result.status = solution.status;
         return result;
     }
-    result = remember(solution, matrix, problem_.wrench);
-    if (!wrench_is_finite) {
-        result.status = Status::not_finite;
-        settled_ = false;
-    }
-    return result;
+    return remember(solution, matrix, wrench);
 }
 
 TensionResult TensionSolver::remember(const TensionSolution &solution, const WrenchMatrix &matrix,
