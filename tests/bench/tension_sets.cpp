@@ -197,7 +197,7 @@ TensionSet at_shipped_settings(const TensionSet &trajectory) {
             p.proximal_target_n[i] =
                 (steady * steady_target + s.change_weight * last[i]) / p.proximal_weight;
         }
-        last = solve_tension_problem_safely(p, nullptr).tensions_n;
+        last = solve_exactly(p, nullptr).tensions_n;
     }
     return set;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
 
 namespace spidar {
 

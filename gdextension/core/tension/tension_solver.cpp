@@ -1,13 +1,11 @@
 #include "core/tension/tension_solver.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "core/base/describe_value.h"
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
 #include "core/tension/fast/fast_tension.h"
 
 namespace spidar {
@@ -39,14 +37,6 @@ bool same_bits(const T &a, const T &b) noexcept {
     // Bits are what is asked: -0 and NaN too.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
-
-// The strings whose byte has this bit: the product gathers the lowest bits of all eight in its top byte.
-std::uint8_t strings_at(const ActiveSet &active, unsigned bit) noexcept {
-    constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-    constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-    const auto bytes = std::bit_cast<std::uint64_t>(active);
-    return static_cast<std::uint8_t>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
 // Largest |a - b|. In four chains: one alone would wait for itself eight times.
@@ -108,6 +98,12 @@ Fault find_fault(const TensionSettings &s) noexcept {
 }
 
 } // namespace
+
+TensionSolution solve_tension_problem(const TensionProblem &problem,
+                                      const ActiveSet *warm) noexcept {
+    TensionSolution fast;
+    return solve_fast(FastInput::of(problem), warm, fast) ? fast : solve_exactly(problem, warm);
+}
 
 Status TensionSolver::configure(const TensionSettings &settings) noexcept {
     if (find_fault(settings).field != nullptr) {
@@ -184,8 +180,7 @@ TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
         return result;
     }
     keep(matrix, wrench);
-    const TensionSolution solution =
-        solve_tension_problem_safely(problem_, warm_ ? &last_active_ : nullptr);
+    const TensionSolution solution = solve_exactly(problem_, warm_ ? &last_active_ : nullptr);
     if (!usable(solution.status)) {
         result.tensions_n = solution.tensions_n;
         result.iterations = solution.iterations;
@@ -199,8 +194,8 @@ TensionResult TensionSolver::remember(const TensionSolution &solution, const Wre
                                       const DofArray &wrench) noexcept {
     TensionResult result;
     result.iterations = solution.iterations;
-    result.at_min_mask = strings_at(solution.active, 0) & working_mask_;
-    result.at_max_mask = strings_at(solution.active, 1) & working_mask_;
+    result.at_min_mask = strings_at(solution.active, StringBound::at_lower) & working_mask_;
+    result.at_max_mask = strings_at(solution.active, StringBound::at_upper) & working_mask_;
     result.tensions_n = solution.tensions_n;
     bool near_last = has_last_;
     for (std::size_t i = 0; near_last && i < kStrings; ++i) {

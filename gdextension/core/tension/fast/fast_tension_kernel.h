@@ -109,13 +109,8 @@ private:
         low_ = ~movable_ & 0xFFU;
         high_ = 0;
         if (warm != nullptr) {
-            // One byte a string, 1 or 2: the product gathers the lowest bits of all eight in its top byte.
-            const auto guess = std::bit_cast<std::uint64_t>(*warm);
-            constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-            constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-            low_ |= static_cast<unsigned>(((guess & kLowBits) * kGather) >> 56U);
-            high_ |= static_cast<unsigned>((((guess >> 1U) & kLowBits) * kGather) >> 56U);
-            high_ &= ~low_;
+            low_ |= strings_at(*warm, StringBound::at_lower);
+            high_ = strings_at(*warm, StringBound::at_upper) & ~low_;
         }
         const Row at_low = Row::strings(low_);
         const Row at_high = Row::strings(high_);
@@ -337,17 +332,10 @@ private:
         return d > kStep_n ? Verdict::correct_again : Verdict::in_doubt;
     }
 
-    // Bit i to the lowest bit of byte i.
-    static std::uint64_t spread(unsigned mask) noexcept {
-        const std::uint64_t copies = (mask & 0xFFU) * std::uint64_t{0x0101010101010101};
-        const std::uint64_t picked = copies & 0x8040201008040201ULL;
-        return ((picked + 0x7F7F7F7F7F7F7F7FULL) >> 7U) & 0x0101010101010101ULL;
-    }
-
     // False where squares overflow.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
-        solution.active = std::bit_cast<ActiveSet>(spread(low_) | (spread(high_) << 1U));
+        solution.active = active_set(low_, high_);
         solution.largest_error_n = Four::max(front_.absolute(), back_.absolute()).largest();
         solution.iterations = iterations;
         solution.status = Status::ok;

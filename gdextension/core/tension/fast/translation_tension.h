@@ -52,8 +52,8 @@ public:
         unsigned low = ~movable & 0xFFU;
         unsigned high = 0;
         if (warm != nullptr) {
-            low |= strings_at(*warm, 0);
-            high = strings_at(*warm, 1) & ~low;
+            low |= strings_at(*warm, StringBound::at_lower);
+            high = strings_at(*warm, StringBound::at_upper) & ~low;
         }
         const Row at_low = Row::strings(low);
         const Row at_high = Row::strings(high);
@@ -115,25 +115,6 @@ private:
         return ab > size(c) ? ab : size(c);
     }
 
-    // Strings whose byte of the set has this bit.
-    static unsigned strings_at(const ActiveSet &active, unsigned bit) noexcept {
-        constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-        constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-        const auto bytes = std::bit_cast<std::uint64_t>(active);
-        return static_cast<unsigned>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
-    }
-
-    static constexpr auto kAtLower = static_cast<std::uint64_t>(StringBound::at_lower);
-    static constexpr auto kAtUpper = static_cast<std::uint64_t>(StringBound::at_upper);
-    // 1 in byte k where bit k is set: each byte keeps its own bit of the copies, and what is not 0 carries into bit 7.
-    static std::uint64_t a_byte_a_string(unsigned strings) noexcept {
-        constexpr std::uint64_t kCopies = 0x0101010101010101ULL;
-        constexpr std::uint64_t kOwnBit = 0x8040201008040201ULL;
-        constexpr std::uint64_t kAllButTop = 0x7F7F7F7F7F7F7F7FULL;
-        const std::uint64_t own = (strings * kCopies) & kOwnBit;
-        return (((own & kAllButTop) + kAllButTop) | own) >> 7U & kCopies;
-    }
-
     void read_half(std::size_t first) noexcept {
         Four c0 = Four::load(&matrix_.columns[first][0]);
         Four c1 = Four::load(&matrix_.columns[first + 1][0]);
@@ -192,8 +173,7 @@ private:
             return false;
         }
         x.store(solution.tensions_n.data());
-        solution.active = std::bit_cast<ActiveSet>(a_byte_a_string(low) * kAtLower |
-                                                   a_byte_a_string(high) * kAtUpper);
+        solution.active = active_set(low, high);
         solution.largest_error_n = error_n;
         solution.iterations = steps;
         solution.status = Status::ok;

@@ -1,4 +1,4 @@
-// solve_tension_problem(): the exact optimum of one bounded least-squares problem.
+// solve_exactly(): the exact optimum of one bounded least-squares problem.
 //
 // Guess: a few rounds that bound every string that left its range at once and release every string whose
 // bound pulls the wrong way at once. Then a primal active set (one string at a time, the objective falls at
@@ -9,8 +9,7 @@
 
 #include "core/base/finite.h"
 #include "core/tension/exact/box_least_squares.h"
-#include "core/tension/fast/fast_tension.h"
-#include "core/tension/tension_solver.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
 
@@ -297,17 +296,7 @@ TensionSolution refused(const TensionProblem &problem, Status status) noexcept {
 
 } // namespace
 
-TensionSolution solve_tension_problem(const TensionProblem &problem,
-                                      const ActiveSet *warm) noexcept {
-    TensionSolution fast;
-    if (solve_fast({problem, problem.matrix, problem.wrench}, warm, fast)) {
-        return fast;
-    }
-    return solve_tension_problem_safely(problem, warm);
-}
-
-TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
-                                             const ActiveSet *warm) noexcept {
+TensionSolution solve_exactly(const TensionProblem &problem, const ActiveSet *warm) noexcept {
     const Status status = check_problem(problem);
     if (!usable(status)) {
         return refused(problem, status);
