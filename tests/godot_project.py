@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 ADDONS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "addons")
+MANIFEST = os.path.join(ADDONS, "spidar_g", "spidar_g.gdextension")  # written by the build
 EXTENSION = "res://addons/spidar_g/spidar_g.gdextension"
 IMPORT_LIMIT_S = 300  # an import takes seconds; a hung Godot must not hold a test for ever
 
@@ -78,6 +79,8 @@ def prepare_project(project, godot=None):
     project with no assets and no class_name. Raises ProjectError."""
     if not os.path.isfile(os.path.join(project, "project.godot")):
         raise ProjectError(f"{project} holds no project.godot")
+    if not os.path.isfile(MANIFEST):
+        raise ProjectError("addons/spidar_g holds no manifest yet: run ./dev build first")
     link_addons(project)
     list_extensions(project)
     if godot:

@@ -79,12 +79,13 @@ stage_experiment() {
     counted python3 tests/play/run_experiment_tests.py "$GODOT" "$(plotting_python)" --participants 12
 }
 
-stage_editor() { # the add-on in a real editor; handles and calibration by mouse and keyboard
+stage_editor() { # handles and calibration are worked by mouse and keyboard, games started by keys
     need "${picture_needs[@]}" xdotool:xdotool
     counted python3 tests/editor/run_view_tests.py "$GODOT" --actions 200 --seed 1
     start_xvfb
     counted python3 tests/editor/run_view_tests.py "$GODOT" --part mouse
     counted python3 tests/editor/run_calibration_tests.py "$GODOT"
+    counted python3 tests/editor/run_play_from_editor.py "$GODOT"
 }
 
 # The demo as a pack, away from its project.
