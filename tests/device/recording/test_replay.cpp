@@ -261,15 +261,15 @@ TEST_CASE("replay: another build, another schema or no file at all is refused wi
     RecordingWriter writer;
     REQUIRE(writer.open(file.path(), info) == "");
     writer.close();
-    ReplayTransport transport;
-    CHECK(transport.load(file.path()).find("another build") != std::string::npos);
+    Replay unread;
+    CHECK(unread.load(file.path()).find("another build") != std::string::npos);
     info = describe_recording(ideal_settings());
     ++info.command_words;
     CHECK(why_no_replay(info).find("another form") != std::string::npos);
     info = describe_recording(ideal_settings());
     ++info.state_bytes;
     CHECK(why_no_replay(info).find("another form") != std::string::npos);
-    CHECK(transport.load(file.path() + ".absent").find("no such file") != std::string::npos);
+    CHECK(unread.load(file.path() + ".absent").find("no such file") != std::string::npos);
     Session session;
     CHECK(session.loop->start_recording(file.path()).find("No device") != std::string::npos);
     REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
