@@ -25,7 +25,7 @@ play() { # play TASK [--level L] [--seed N] [--out DIR] [more arguments for the 
 
 run_demo() { # run_demo [Godot arguments] -- [demo arguments]: in simulated time; Godot's exit code
     local code=0
-    timeout -k 10 "$play_limit_s" "$GODOT" --audio-driver Dummy --path demo_project \
+    timeout --foreground -k 10 "$play_limit_s" "$GODOT" --audio-driver Dummy --path demo_project \
         --fixed-fps 60 "$@" || code=$?
     ((code != 124)) || echo "dev: the run did not end within $play_limit_s s" >&2
     return "$code"
