@@ -1,7 +1,7 @@
 """C++ source as tokens: no comments, no preprocessor lines, and what each brace is for.
 
-This is not a parser. It knows enough of C++, as clang-format lays it out, to find statements and binary operators; where
-it is wrong, the mutant does not compile and another one is drawn.
+This is not a parser. It knows enough of C++, as clang-format lays it out, to find statements and binary operators.
+Where it is wrong, the mutant does not compile and another one is drawn.
 """
 
 import bisect
@@ -11,13 +11,16 @@ WORD, NUMBER, TEXT, MARK = "word", "number", "text", "mark"
 
 PATTERN = re.compile(
     r"""(?P<skip>\s+|//[^\n]*|/\*.*?\*/|\#(?:[^\n\\]|\\.)*)
-      | (?P<text>(?:u8|[uUL])?R"(?P<fence>[^()\\\s]*)\(.*?\)(?P=fence)"|(?:u8|[uUL])?"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)+')
+      | (?P<text>(?:u8|[uUL])?R"(?P<fence>[^()\\\s]*)\(.*?\)(?P=fence)"
+          |(?:u8|[uUL])?"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)+')
       | (?P<number>\.?\d(?:[eEpP][+-]|'?[\w.])*)
       | (?P<word>[A-Za-z_]\w*)
       | (?P<mark><<=|>>=|<=>|->\*|\.\.\.|::|->|\+\+|--|<<|>>|<=|>=|==|!=|&&|\|\||[-+*/%&|^]=|.)""",
     re.VERBOSE | re.DOTALL,
 )
 OPENING = {"(": ")", "[": "]", "{": "}"}
+SCOPES = {"class", "struct", "union", "enum", "namespace"}
+OF_A_TYPE = {"::", "<", ">", ",", "*", "&"}
 CONTROL = {"if", "for", "while", "switch", "catch"}
 
 
@@ -120,7 +123,7 @@ class Source:
         if before in ("else", "do", "try"):
             return "code"
         words = [self.word(index) for index in range(self.head(brace), brace)]
-        if {"class", "struct", "union", "enum", "namespace"} & set(words) and "(" not in words or words[:1] == ["extern"]:
+        if SCOPES & set(words) and "(" not in words or words[:1] == ["extern"]:
             return "scope"
         index = brace - 1
         while self.word(index) in ("const", "noexcept", "override", "final", "mutable", "&", "&&") or (
@@ -136,6 +139,6 @@ class Source:
 
     def _returns(self, index):
         """Whether the tokens up to `index` are a trailing return type: ) -> Type."""
-        while index > 0 and (self.tokens[index].kind in (WORD, NUMBER) or self.word(index) in ("::", "<", ">", ",", "*", "&")):
+        while index > 0 and (self.tokens[index].kind in (WORD, NUMBER) or self.word(index) in OF_A_TYPE):
             index -= 1
         return self.word(index) == "->" and self.word(index - 1) in (")", "noexcept", "mutable")

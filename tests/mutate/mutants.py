@@ -25,7 +25,7 @@ WEIGHTS = {
 }
 NO_STATEMENT = CONTROL | {
     "else", "do", "case", "default", "try", "using", "typedef", "static_assert", "struct", "class", "enum", "union",
-    "const", "constexpr", "static", "auto", "template", "namespace", "goto", "throw", "return", "}", ";", "[", ":",
+    "const", "constexpr", "static", "auto", "template", "namespace", "goto", "throw", "}", ";", "[", ":",
 }
 RESET_CALL = re.compile(r"(?:reset|restart|clear|shut|fill)(?:_\w+)?")
 RESET_VALUE = re.compile(
@@ -80,7 +80,7 @@ def statements(source):
     tokens = source.tokens
     for index, token in enumerate(tokens):
         around = source.enclosing[index]
-        if around is None or tokens[around].block not in ("code", "function") or token.text in NO_STATEMENT - {"return"}:
+        if around is None or tokens[around].block not in ("code", "function") or token.text in NO_STATEMENT:
             continue
         before = source.word(index - 1)
         begins = (index - 1 == around or before == ";" or before == "}" and source.closes_block(index - 1)

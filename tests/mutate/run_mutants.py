@@ -204,7 +204,8 @@ def run(root, options):
             log(f"{mutant.name}\n{mutant.diff()}")
         return 0
     home = os.path.join(root, "build", "mutate")
-    log(f"seed {options.seed}, {len(chosen)} mutants to draw from; building the unmutated tree in {os.path.relpath(home)}")
+    log(f"seed {options.seed}, {len(chosen)} mutants to draw from")
+    log(f"building the unmutated tree in {os.path.relpath(home)}")
     base = scratch_build.BaseBuild(root, home, options.jobs)
     suite = test_runs.Suite(base, home, log)
     workers = queue.Queue()

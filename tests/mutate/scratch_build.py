@@ -1,9 +1,9 @@
 """A scratch copy of the tree, and spidar_tests built in it without SCons, one object at a time.
 
-SCons needs seconds to look at the whole tree; a mutant changes one source. SCons is therefore asked once, by a dry run,
-for the commands that make spidar_tests, and these commands are run here: each object in a folder of its own, with a list
-of the files that it was made of. The flags are those of the build, without debug information and without warnings
-(neither changes the code of an object). Static libraries are linked as their objects.
+SCons needs seconds to look at the whole tree; a mutant changes one source. A dry run of SCons therefore gives the
+commands that make spidar_tests, once for each run of this program, and they are run here. The compiler writes beside
+each object a list of the files that it was made of. The flags are those of the build, without debug information and
+without warnings: neither changes the code of an object. A static library is linked as its objects.
 """
 
 import collections
