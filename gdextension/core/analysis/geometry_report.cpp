@@ -89,15 +89,15 @@ int rank_of(const TensionProblem &problem) noexcept {
 }
 
 // W (A tau - q)
-DofArray weighted_error(const TensionProblem &problem, const StringArray &tensions) noexcept {
-    DofArray error = apply(problem.matrix, tensions);
+PaperWrench weighted_error(const TensionProblem &problem, const StringArray &tensions) noexcept {
+    PaperWrench error = apply(problem.matrix, tensions);
     for (std::size_t k = 0; k < error.size(); ++k) {
         error[k] = problem.weights[k] * (error[k] - problem.wrench[k]);
     }
     return error;
 }
 
-double length_of(const DofArray &v) noexcept {
+double length_of(const PaperWrench &v) noexcept {
     double sum = 0.0;
     for (const double x : v) {
         sum += x * x;
@@ -107,7 +107,7 @@ double length_of(const DofArray &v) noexcept {
 
 // Largest multiple of `wrench` that tensions within the bounds of `problem` give, by halving: what can be given is convex
 // and, at rest, contains no wrench at all.
-double capacity(TensionProblem problem, const DofArray &wrench, double most) noexcept {
+double capacity(TensionProblem problem, const PaperWrench &wrench, double most) noexcept {
     const auto can = [&](double scale) {
         for (std::size_t k = 0; k < wrench.size(); ++k) {
             problem.wrench[k] = scale * wrench[k];
@@ -133,7 +133,7 @@ double capacity_of_three(const TensionProblem &problem, std::size_t first, doubl
     double least = HUGE_VAL;
     for (std::size_t k = first; k < first + 3; ++k) {
         for (const double sign : {1.0, -1.0}) {
-            DofArray wrench{};
+            PaperWrench wrench{};
             wrench[k] = sign * unit;
             least = std::min(least, unit * capacity(problem, wrench, most));
         }
@@ -181,7 +181,7 @@ void complain_about_exchange(const FrameGeometry &frame, const GripGeometry &gri
     }
 }
 
-std::string unopposed_sentence(const DofArray &unopposed) {
+std::string unopposed_sentence(const PaperWrench &unopposed) {
     std::size_t most = 0;
     for (std::size_t k = 1; k < unopposed.size(); ++k) {
         most = std::fabs(unopposed[k]) > std::fabs(unopposed[most]) ? k : most;
@@ -202,7 +202,7 @@ PoseStatics pose_statics(const FrameGeometry &frame, const GripGeometry &grip,
     problem.upper_n.fill(kTensionRange);
     problem.proximal_target_n.fill(1.0);
     const StringArray tensions = solve_tension_problem(problem, nullptr).tensions_n;
-    const DofArray left = weighted_error(problem, tensions);
+    const PaperWrench left = weighted_error(problem, tensions);
     const double size = length_of(left);
     const int full = grip.kind == GripKind::rigid ? 6 : kDofCount;
     const double most = *std::max_element(tensions.begin(), tensions.end());

@@ -27,12 +27,12 @@ struct Solutions {
     StringArray null{}; // largest element +1
 };
 
-Solutions solve_all(const WrenchMatrix &matrix, const DofArray &wrench,
+Solutions solve_all(const WrenchMatrix &matrix, const PaperWrench &wrench,
                     const TensionSettings &settings) noexcept {
-    const DofArray weights = {settings.weight_force,        settings.weight_force,
-                              settings.weight_force,        settings.weight_moment_per_m,
-                              settings.weight_moment_per_m, settings.weight_moment_per_m,
-                              settings.weight_grasp_per_m};
+    const PaperWeights weights = {settings.weight_force,        settings.weight_force,
+                                  settings.weight_force,        settings.weight_moment_per_m,
+                                  settings.weight_moment_per_m, settings.weight_moment_per_m,
+                                  settings.weight_grasp_per_m};
     std::array<std::array<double, kStrings + 1>, kDofs> m{}; // last column: q
     std::array<std::size_t, kStrings> order{};
     double largest = 0.0;
@@ -156,7 +156,7 @@ WrenchClosure masked_closure(const WrenchMatrix &matrix, const TensionSettings &
     return closure;
 }
 
-FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+FeasibleScale masked_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,
                            const TensionSettings &settings) noexcept {
     TensionProblem problem =
         masked_problem(matrix, settings, settings.min_tension_n, settings.max_tension_n);
@@ -178,7 +178,7 @@ FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
             problem.wrench[k] = scale * wrench[k];
         }
         const TensionSolution solution = solve_tension_problem(problem, nullptr);
-        const DofArray achieved = spidar::apply(matrix, solution.tensions_n);
+        const PaperWrench achieved = spidar::apply(matrix, solution.tensions_n);
         double along = 0.0;
         for (std::size_t k = 0; k < kDofs; ++k) {
             const double square = problem.weights[k] * problem.weights[k];
@@ -229,7 +229,7 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
         return masked_closure(matrix, settings);
     }
     WrenchClosure closure;
-    const Solutions all = solve_all(matrix, DofArray{}, settings);
+    const Solutions all = solve_all(matrix, PaperWrench{}, settings);
     if (!all.full_rank) {
         return closure;
     }
@@ -240,7 +240,7 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
     return closure;
 }
 
-FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,
                              const TensionSettings &settings) noexcept {
     FeasibleScale scale;
     if (!all_finite(wrench)) {

@@ -15,8 +15,8 @@ constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
 // Stands for "no regularising term": costs nothing and still leaves one answer.
 constexpr double kVanishingWeight = 1e-12;
 
-DofArray difference(const DofArray &a, const DofArray &b) noexcept {
-    DofArray result{};
+PaperWrench difference(const PaperWrench &a, const PaperWrench &b) noexcept {
+    PaperWrench result{};
     for (std::size_t k = 0; k < kDofs; ++k) {
         result[k] = a[k] - b[k];
     }
@@ -25,15 +25,15 @@ DofArray difference(const DofArray &a, const DofArray &b) noexcept {
 
 } // namespace
 
-DofArray TensionReport::bias() const noexcept {
-    DofArray sum{};
+PaperWrench TensionReport::bias() const noexcept {
+    PaperWrench sum{};
     for (std::size_t k = 0; k < kDofs; ++k) {
         sum[k] = ridge[k] + reference[k];
     }
     return sum;
 }
 
-TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
+TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wrench,
                              const StringArray &tensions_n,
                              const TensionSettings &settings) noexcept {
     TensionReport report;
@@ -42,7 +42,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
     if (!usable(report.status)) {
         return report;
     }
-    const DofArray achieved = spidar::apply(matrix, tensions_n);
+    const PaperWrench achieved = spidar::apply(matrix, tensions_n);
     TensionProblem problem;
     problem.matrix = matrix;
     problem.wrench = wrench;
@@ -64,15 +64,15 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
         }
         return difference(spidar::apply(matrix, steady.tensions_n), wrench);
     };
-    const DofArray limits = error_with(kVanishingWeight, tensions_n);
-    const DofArray with_ridge =
+    const PaperWrench limits = error_with(kVanishingWeight, tensions_n);
+    const PaperWrench with_ridge =
         settings.ridge > kVanishingWeight ? error_with(settings.ridge, StringArray{}) : limits;
     const double weight = settings.ridge + settings.reference_weight;
     StringArray target_n{};
     for (std::size_t i = 0; i < kStrings; ++i) {
         target_n[i] = settings.reference_weight * reference_n[i] / weight;
     }
-    const DofArray whole = error_with(weight, target_n);
+    const PaperWrench whole = error_with(weight, target_n);
     if (!all_finite(achieved) || !usable(report.status)) {
         report.status = usable(report.status) ? Status::not_finite : report.status;
         return report;

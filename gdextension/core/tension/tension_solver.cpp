@@ -145,7 +145,8 @@ void TensionSolver::aim() noexcept {
     }
 }
 
-TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+TensionResult TensionSolver::update(const WrenchMatrix &matrix,
+                                    const PaperWrench &wrench) noexcept {
     if (settled_ && same_bits(wrench, problem_.wrench) &&
         same_bits(matrix.columns, problem_.matrix.columns)) {
         last_result_.skipped = true;
@@ -158,14 +159,14 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
     return update_carefully(matrix, wrench);
 }
 
-void TensionSolver::keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+void TensionSolver::keep(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept {
     problem_.matrix = matrix;
     problem_.wrench = wrench;
 }
 
 // What the fast path refused.
 TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
-                                              const DofArray &wrench) noexcept {
+                                              const PaperWrench &wrench) noexcept {
     TensionResult result;
     settled_ = false;
     if (!all_finite(matrix.columns)) {
@@ -174,7 +175,7 @@ TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
         return result;
     }
     if (!all_finite(wrench)) {
-        result = update(matrix, DofArray{});
+        result = update(matrix, PaperWrench{});
         result.status = Status::not_finite;
         settled_ = false;
         return result;
@@ -191,7 +192,7 @@ TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
 }
 
 TensionResult TensionSolver::remember(const TensionSolution &solution, const WrenchMatrix &matrix,
-                                      const DofArray &wrench) noexcept {
+                                      const PaperWrench &wrench) noexcept {
     TensionResult result;
     result.iterations = solution.iterations;
     result.at_min_mask = strings_at(solution.active, StringBound::at_lower) & working_mask_;
@@ -250,11 +251,11 @@ void TensionSolver::reset() noexcept {
     aim();
 }
 
-DofArray tension_weights(const TensionSettings &settings) noexcept {
-    DofArray weights = {settings.weight_force,        settings.weight_force,
-                        settings.weight_force,        settings.weight_moment_per_m,
-                        settings.weight_moment_per_m, settings.weight_moment_per_m,
-                        settings.weight_grasp_per_m};
+PaperWeights tension_weights(const TensionSettings &settings) noexcept {
+    PaperWeights weights = {settings.weight_force,        settings.weight_force,
+                            settings.weight_force,        settings.weight_moment_per_m,
+                            settings.weight_moment_per_m, settings.weight_moment_per_m,
+                            settings.weight_grasp_per_m};
     for (std::size_t k = 0; k < kDofs; ++k) {
         if (((static_cast<unsigned>(settings.dof_mask) >> k) & 1U) == 0U) {
             weights[k] = 0.0;

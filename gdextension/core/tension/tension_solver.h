@@ -61,7 +61,7 @@ public:
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
     // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
-    TensionResult update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
     // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
     // Ignored when not finite.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
@@ -73,10 +73,10 @@ public:
 private:
     void prepare() noexcept;
     void aim() noexcept;
-    void keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
-    TensionResult update_carefully(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    void keep(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
+    TensionResult update_carefully(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
     TensionResult remember(const TensionSolution &solution, const WrenchMatrix &matrix,
-                           const DofArray &wrench) noexcept;
+                           const PaperWrench &wrench) noexcept;
 
     TensionSettings settings_{};
     TensionProblem problem_{};      // matrix and wrench: of the last tick, when it settled
@@ -95,6 +95,6 @@ private:
 
 [[nodiscard]] std::string validate(const TensionSettings &settings);
 // Diagonal of W; 0 where the mask leaves a DOF out.
-[[nodiscard]] DofArray tension_weights(const TensionSettings &settings) noexcept;
+[[nodiscard]] PaperWeights tension_weights(const TensionSettings &settings) noexcept;
 
 } // namespace spidar

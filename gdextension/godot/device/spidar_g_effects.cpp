@@ -209,7 +209,8 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     effect.kind = EffectKind::constant;
     effect.id = id;
     effect.dof_mask = spidar::kAllDof;
-    effect.gain = spidar::lanes(
+    // A force to give, or a wave's height, stands in the row of the gains.
+    effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.duration_s = duration_s;
     return take_effect("set_force_effect", effect);
@@ -239,7 +240,8 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     effect.kind = EffectKind::vibration;
     effect.id = id;
     effect.dof_mask = spidar::kAllDof;
-    effect.gain = spidar::lanes(
+    // A force to give, or a wave's height, stands in the row of the gains.
+    effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.frequency_hz = frequency_hz;
     effect.duration_s = duration_s;
@@ -253,7 +255,7 @@ bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double
     effect.kind = EffectKind::detents;
     effect.id = id;
     effect.dof_mask = static_cast<std::uint8_t>(std::clamp(dof_mask, 0, 255));
-    effect.gain.fill(strength);
+    effect.gain.values.fill(strength);
     effect.spacing = same_gains(spacing / frame.scale, spacing, spacing);
     effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
     effect.centre_rotation =

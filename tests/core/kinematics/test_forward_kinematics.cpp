@@ -373,7 +373,7 @@ TEST_CASE(
     for (int i = 0; i < 500; ++i) {
         const GripPose pose = random.pose(rig.grip, 0.15, 35.0 * kDeg);
         rig.kinematics.set_last_pose(pose);
-        DofArray rates{};
+        PaperTwist rates{};
         for (double &rate : rates) {
             rate = random.between(-1.0, 1.0);
         }

@@ -171,7 +171,7 @@ TEST_CASE("rigid grip: 6 x 8 wrench matrix, minus the slopes of the lengths; no 
             CHECK(std::fabs(per_unit + matrix.columns[s][dof]) < 1e-8);
         }
     }
-    for (const DofArray &column : matrix.columns) {
+    for (const PaperWrench &column : matrix.columns) {
         CHECK(column[6] == 0.0);
     }
 }
@@ -183,7 +183,7 @@ TEST_CASE("rigid grip: rates of the lengths give the twist back") {
     REQUIRE(kinematics.configure(device.frame, device.grip) == Status::ok);
     const GripPose pose = draw(random, device.grip);
     REQUIRE(usable(kinematics.update(string_lengths(device.frame, device.grip, pose)).status));
-    const DofArray motion{0.3, -0.2, 0.1, 1.5, -2.0, 0.7, 0.0};
+    const PaperTwist motion{0.3, -0.2, 0.1, 1.5, -2.0, 0.7, 0.0};
     StringArray rates = apply_transposed(wrench_matrix(device.frame, device.grip, pose), motion);
     for (double &rate : rates) {
         rate = -rate; // shortening is positive there

@@ -58,13 +58,13 @@ TEST_CASE(
     bench.activate();
     for (int dof = 0; dof < kDofCount; ++dof) {
         for (const double sign : {1.0, -1.0}) {
-            DofArray q{};
+            PaperWrench q{};
             q[static_cast<std::size_t>(dof)] = sign * (dof < 3 ? 2.0 : 0.05);
             bench.ask(from_paper(q), 1.0);
             bench.tick(300);
-            const DofArray requested = to_paper(bench.now().requested);
-            const DofArray achieved = to_paper(bench.now().achieved);
-            const DofArray bias = tension_report(bench.settings, bench.now()).bias();
+            const PaperWrench requested = to_paper(bench.now().requested);
+            const PaperWrench achieved = to_paper(bench.now().achieved);
+            const PaperWrench bias = tension_report(bench.settings, bench.now()).bias();
             for (std::size_t k = 0; k < achieved.size(); ++k) {
                 CAPTURE(dof);
                 CAPTURE(k);

@@ -125,8 +125,8 @@ void BoxLeastSquares::factor_householder() noexcept {
     }
 }
 
-DofArray BoxLeastSquares::weighted_apply(const StringArray &v) const noexcept {
-    DofArray result{};
+PaperWrench BoxLeastSquares::weighted_apply(const StringArray &v) const noexcept {
+    PaperWrench result{};
     for (std::size_t k = 0; k < kDofs; ++k) {
         double even = 0.0;
         double odd = 0.0;
@@ -144,7 +144,7 @@ BoxLeastSquares::Gradient BoxLeastSquares::gradient(const StringArray &x,
     if (precise) {
         return gradient_precise(x);
     }
-    DofArray force = weighted_apply(x);
+    PaperWrench force = weighted_apply(x);
     Gradient result;
     for (std::size_t k = 0; k < kDofs; ++k) {
         force[k] -= problem_.weights[k] * problem_.wrench[k];
@@ -205,7 +205,7 @@ StringArray BoxLeastSquares::solve(const StringArray &right_side) const noexcept
 }
 
 StringArray BoxLeastSquares::curvature(const StringArray &v) const noexcept {
-    const DofArray force = weighted_apply(v);
+    const PaperWrench force = weighted_apply(v);
     StringArray result{};
     for (std::size_t i = 0; i < kStrings; ++i) {
         result[i] = problem_.proximal_weight * v[i];
@@ -235,7 +235,7 @@ BoxLeastSquares::Release BoxLeastSquares::release(std::size_t string) const noex
 }
 
 double BoxLeastSquares::objective(const StringArray &x) const noexcept {
-    DofArray force = weighted_apply(x);
+    PaperWrench force = weighted_apply(x);
     double sum = 0.0;
     for (std::size_t k = 0; k < kDofs; ++k) {
         force[k] -= problem_.weights[k] * problem_.wrench[k];

@@ -56,7 +56,7 @@ private:
     void factor_householder() noexcept;
     [[nodiscard]] Gradient gradient_precise(const StringArray &x) const noexcept;
     // W A v
-    [[nodiscard]] DofArray weighted_apply(const StringArray &v) const noexcept;
+    [[nodiscard]] PaperWrench weighted_apply(const StringArray &v) const noexcept;
 
     const TensionProblem &problem_;
     std::array<Row, kDofCount> rows_{}; // W A, by DOF, 8 strings wide

@@ -15,8 +15,8 @@ namespace spidar {
 //   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2    subject to lower <= tau <= upper
 struct TensionProblem {
     WrenchMatrix matrix;
-    DofArray wrench{};  // q, the paper's order and g
-    DofArray weights{}; // diagonal of W
+    PaperWrench wrench{};   // q, the paper's order and g
+    PaperWeights weights{}; // diagonal of W
     // Sum of all quadratic terms in tau alone, as one weight and one target per string:
     // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
     double proximal_weight = 0.0;

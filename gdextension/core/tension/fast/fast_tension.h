@@ -10,7 +10,7 @@ namespace spidar {
 struct FastInput {
     const TensionProblem &problem; // all but those two
     const WrenchMatrix &matrix;
-    const DofArray &wrench;
+    const PaperWrench &wrench;
 
     // All of `problem`, its own matrix and wrench included.
     static FastInput of(const TensionProblem &problem) noexcept {

@@ -136,7 +136,7 @@ private:
         Four d3 = Four::load(&matrix_.columns[first + 3][3]);
         Four::transpose(c0, c1, c2, c3);
         Four::transpose(d0, d1, d2, d3);
-        const DofArray &w = p_.weights;
+        const PaperWeights &w = p_.weights;
         (c0 * Four::all(w[0])).store(&rows_[0][first]);
         (c1 * Four::all(w[1])).store(&rows_[1][first]);
         (c2 * Four::all(w[2])).store(&rows_[2][first]);
@@ -344,7 +344,7 @@ private:
 
     const TensionProblem &p_;
     const WrenchMatrix &matrix_;
-    const DofArray &wrench_;
+    const PaperWrench &wrench_;
     alignas(32) double rows_[kFastDofs][kFastStrings]; // R, by DOF
     alignas(32) double x_[kFastStrings];
     alignas(32) double y_[kFastStrings];

@@ -19,7 +19,7 @@ namespace { // each source compiles its own, for its own target
 
 // NOLINTNEXTLINE(misc-definitions-in-headers): `inline` would let the linker mix the targets
 [[nodiscard]] bool is_translation_only(const TensionProblem &problem) noexcept {
-    const DofArray &w = problem.weights;
+    const PaperWeights &w = problem.weights;
     return w[3] == 0.0 && w[4] == 0.0 && w[5] == 0.0 && w[6] == 0.0;
 }
 
@@ -182,7 +182,7 @@ private:
 
     const TensionProblem &p_;
     const WrenchMatrix &matrix_;
-    const DofArray &wrench_;
+    const PaperWrench &wrench_;
     Row row_[3];         // R
     double adjugate_[6]; // xx xy xz yy yz zz
     double over_ = 0.0;  // 1 / determinant

@@ -240,13 +240,13 @@ TEST_CASE(
     for (const double bad : bad_values) {
         TensionProblem problem = good;
         std::vector<double *> fields;
-        for (DofArray &column : problem.matrix.columns) {
+        for (PaperWrench &column : problem.matrix.columns) {
             for (double &value : column) {
                 fields.push_back(&value);
             }
         }
-        for (DofArray *array : {&problem.wrench, &problem.weights}) {
-            for (double &value : *array) {
+        for (auto *values : {&problem.wrench.values, &problem.weights.values}) {
+            for (double &value : *values) {
                 fields.push_back(&value);
             }
         }

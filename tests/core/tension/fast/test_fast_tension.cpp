@@ -136,7 +136,7 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
             problem.proximal_weight = 0.1;
             test::Random random(~seed);
             const double scale = std::pow(10.0, random.uniform(3.0, 5.5));
-            for (DofArray &column : problem.matrix.columns) {
+            for (PaperWrench &column : problem.matrix.columns) {
                 for (double &value : column) {
                     value *= scale;
                 }
@@ -191,7 +191,7 @@ TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
             pose.position_m = Vec3(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05),
                                    random.uniform(-0.05, 0.05));
             const WrenchMatrix matrix = wrench_matrix(frame, GripGeometry{}, pose);
-            DofArray wrench{};
+            PaperWrench wrench{};
             for (std::size_t k = 0; k < wrench.size(); ++k) {
                 wrench[k] = random.uniform(-1.0, 1.0) * (k < 3 ? 1.0 : 0.02);
             }
