@@ -19,7 +19,6 @@ play() { # play TASK [--level L] [--seed N] [--out DIR] [more arguments for the 
     out=${out:-$root/build/play/$task-$level-$seed}
     mkdir -p "$out"
     build
-    prepare_demo
     run_demo --headless -- --play "$task" --level "$level" --seed "$seed" --out "$out" "${more[@]}"
 }
 
@@ -34,7 +33,6 @@ run_demo() { # run_demo [Godot arguments] -- [demo arguments]: in simulated time
 demo() {
     if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
         build
-        prepare_demo
         "$GODOT" --path demo_project "$@"
         return
     fi
@@ -44,7 +42,6 @@ demo() {
     rm -rf "$out"
     mkdir -p "$out"
     build
-    prepare_demo
     start_xvfb
     run_demo --rendering-driver opengl3 --disable-vsync -- \
         --play pick_and_place --seed 1 --out "$out" --pictures "$@" || code=$?
