@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "core/calibration/string_calibration.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_polish.h"
+#include "core/kinematics/search/pose_search.h"
 #include "support/command_line.h"
 #include "support/pose_helpers.h"
 

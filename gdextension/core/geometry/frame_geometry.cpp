@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 
@@ -15,6 +14,9 @@ constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),   Vec3(-1, 1, 1),  Vec3(1, -
                                      Vec3(-1, -1, 1), Vec3(1, 1, -1),  Vec3(-1, 1, -1),
                                      Vec3(1, -1, -1), Vec3(-1, -1, -1)};
 
+// A motor this close to the corner of a box counts as on it: a hundredth of an encoder count, so that
+// a frame typed in with rounded numbers still gets the closed form, and no measurable error follows.
+constexpr double kBoxTolerance_m = 2.5e-7;
 // Motors that lie in one plane or line leave a direction to which no string pulls. Smallest
 // thickness accepted, against the largest extent of the frame.
 constexpr double kMinRelativeThickness = 1e-3;

@@ -7,7 +7,6 @@
 
 #include "core/base/describe_value.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 
@@ -16,6 +15,8 @@ namespace {
 constexpr double kHalfPi = 1.5707963267948966;
 constexpr double kPi = 3.1415926535897932;
 constexpr double kInvSqrt2 = 0.70710678118654752;
+// Shortest pole that validate() accepts: a shorter one is a unit mistake.
+constexpr double kMinPoleHalfLength_m = 1e-3;
 // Joints count as on one line when the largest triangle of them is smaller than this part of its longest side squared.
 constexpr double kMinTriangle = 1e-3;
 

@@ -6,7 +6,6 @@
 
 #include "core/base/finite.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_search.h"
 #include "core/kinematics/steps/gauss_newton.h"
@@ -18,6 +17,32 @@ namespace {
 
 // Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
 constexpr double kFaceMargin_m = 1e-6;
+// No string is longer: the diagonal of the largest frame is 35 m.
+constexpr double kLongestString_m = 40.0;
+// After the steps of a warm tick a residual above this asks for a cold start. Calibrated strings
+// err by less, and the redundant eighth length shows only a third of the error of one string.
+constexpr double kWarmResidualGate_m = 1e-3;
+// A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
+// looked at too, and must fit 50 times better: next to it a wrong branch may fit to a millimetre.
+constexpr double kContentResidual_m = 2e-5;
+// Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
+constexpr double kMaxWarmStep_m = 5e-3;
+// Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
+// millimetres move the pole ends so far in a tick. Beyond, it competes with the closed form.
+constexpr double kTrustedStep_m = 0.02;
+// The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
+constexpr double kMaxSecondStep_m = 5e-4;
+// Above this it leaves more than 10 nm, and a third is taken: movements of more than a millimetre within a tick that were
+// not foreseen, or samples lost.
+constexpr double kThirdStep_m = 2e-5;
+// Motion within one tick after which the last pose says nothing (device restarted, samples lost).
+constexpr double kForgetStep_m = 0.05;
+// Below this smallest scaled pivot the lengths leave a direction open to the square root of rounding: the pose is refused.
+constexpr double kRankDeficientPivot = 1e-12;
+// A warm tick is done when the error it leaves is below this or below kTrackingShare of the residual.
+constexpr double kTrackingFloor_m = 1e-12;
+// A higher order of extrapolation is used when its squared miss was this much smaller.
+constexpr double kForeseenShare = 0.25;
 
 bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {

@@ -17,6 +17,17 @@ namespace spidar {
 
 struct SearchTools; // core/kinematics/search/pose_search.h
 
+// Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
+inline constexpr double kImpossibleResidual_m = 0.020;
+// Smallest scaled pivot of the normal equations, about sigma7 squared. Below this the lengths leave a direction open to
+// 1 %: the pose is flagged.
+inline constexpr double kNearSingularPivot = 1e-4;
+// Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
+inline constexpr int kRivalPeriod = 8;
+// A warm tick is done when the error it leaves is below this part of what the lengths themselves err by: their residual.
+// Errors add by squares, so that the pose is then worse by 0.2 %.
+inline constexpr double kTrackingShare = 0.05;
+
 struct KinematicsResult {
     GripPose pose;
     double residual_rms_m =

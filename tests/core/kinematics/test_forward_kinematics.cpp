@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "core/geometry/wrench_matrix.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_polish.h"
+#include "core/kinematics/search/pose_search.h"
 #include "support/pose_helpers.h"
 
 using namespace spidar;

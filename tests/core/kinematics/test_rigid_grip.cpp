@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "core/geometry/wrench_matrix.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/pose_polish.h"
 #include "core/kinematics/steps/rigid_step.h"

@@ -45,7 +45,7 @@ struct RootHeights {
 [[nodiscard]] RootHeights root_heights(const ClosedForm &form) noexcept;
 
 // What RootPairPose::misfit_m will be, to first order in how far the poles disagree about z: all pairs for little more
-// than the price of one. And how much of an error of the lengths a misfit may be, before kMisfitGain: it grows
+// than the price of one. And how much of an error of the lengths a misfit may be, up to a constant factor: it grows
 // towards the z faces.
 struct MisfitForecast {
     double misfit_m = 0.0;
