@@ -68,8 +68,8 @@ void judge(ForwardKinematics &kinematics, const LengthProblem &problem, const Gr
     bool rival = false;
     for (int pair = 0; pair < kRootPairCount; ++pair) {
         const PolishResult other =
-            polish_pose(problem, closed_form_pose(box, problem.grip.pole_half_length_m,
-                                                  problem.lengths_m, pair));
+            polish_pose(problem, test::closed_form_pose(box, problem.grip.pole_half_length_m,
+                                                        problem.lengths_m, pair));
         const bool distinct = test::distance(other.pose, branch.pose) > kDistinctPose_m;
         const bool inside = std::fabs(other.pose.position_m.z) < box.z;
         rates.not_upright += pair == 0 && distinct ? 1 : 0;

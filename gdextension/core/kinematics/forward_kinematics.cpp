@@ -9,7 +9,6 @@
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_search.h"
 #include "core/kinematics/steps/gauss_newton.h"
-#include "core/kinematics/steps/rigid_step.h"
 
 namespace spidar {
 
@@ -87,8 +86,7 @@ Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeomet
     const std::optional<Vec3> box = box_half_extents(frame);
     is_box_ = box.has_value();
     half_extents_m_ = box.value_or(Vec3(0.0));
-    has_layout_ = make_layout(frame, grip, layout_);
-    crossed_ = has_layout_ && !(frame.pulley_radius_m > 0.0);
+    crossed_ = make_layout(frame, grip, layout_) && !(frame.pulley_radius_m > 0.0);
     closed_form_ = is_box_ && has_paper_attachments(grip);
     last_pose_ = rest_pose(grip);
     reset();
@@ -269,65 +267,6 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
         return refuse(lengths_m, result);
     }
     return search(lengths_m, nullptr, 0.0);
-}
-
-std::optional<Twist> ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
-    const LengthProblem problem{frame_, grip_, rates_m_s};
-    LengthErrors rates = length_errors(problem, last_pose_);
-    rates.residual_m = rates_m_s;
-    const RigidSolution solution = solve_rigid(problem, rates, last_pose_);
-    if (!solution.solvable || !(solution.min_pivot >= kRankDeficientPivot)) {
-        return std::nullopt;
-    }
-    const RigidStep &x = solution.step;
-    Twist twist;
-    twist.linear_m_s = Vec3(x[0], x[1], x[2]);
-    twist.angular_rad_s = Vec3(x[3], x[4], x[5]) * (1.0 / grip_.pole_half_length_m);
-    return twist;
-}
-
-std::optional<Twist>
-ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
-    if (grip_.kind == GripKind::rigid) {
-        return rigid_twist(rates_m_s);
-    }
-    const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
-    const double size = glm::length(area);
-    const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
-    if (!has_layout_ || !(size > kParallelAngle_rad * d2)) {
-        return std::nullopt;
-    }
-    const CrossedPose pose = lanes_of(last_pose_);
-    const LengthErrors paths = length_errors({frame_, grip_, rates_m_s}, last_pose_);
-    CrossedErrors rates;
-    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
-        const auto &strings = layout_.strings[slot];
-        rates.direction[slot] = lanes_of(paths.direction[strings[0]], paths.direction[strings[1]]);
-        rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
-    }
-    const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
-    if (!factor.solvable || !(factor.min_pivot >= kRankDeficientPivot)) {
-        return std::nullopt;
-    }
-    const CrossedStep step = solve(factor, rates);
-    if (!std::isfinite(step.size_m2)) {
-        return std::nullopt;
-    }
-    // Pole k turns by omega +- alpha n, n the normal of both, alpha half the grasp rate.
-    const Vec3 n = area / size;
-    const Vec3 rate1 = lane(step.poles_m, 0);
-    const Vec3 rate2 = lane(step.poles_m, 1);
-    const double turn1 = glm::dot(rate1, glm::cross(n, last_pose_.r1_m)) / d2;
-    const double turn2 = glm::dot(rate2, glm::cross(n, last_pose_.r2_m)) / d2;
-    Twist twist;
-    twist.linear_m_s = lane(step.position_m, 0);
-    twist.grasp_rate_rad_s = turn1 - turn2;
-    // Out of their plane: omega . (r x n) = rate . n for both poles.
-    twist.angular_rad_s = 0.5 * (turn1 + turn2) * n +
-                          (glm::dot(rate1, n) * glm::cross(glm::cross(last_pose_.r2_m, n), n) -
-                           glm::dot(rate2, n) * glm::cross(glm::cross(last_pose_.r1_m, n), n)) /
-                              size;
-    return twist;
 }
 
 SearchTools ForwardKinematics::search_tools() const noexcept {

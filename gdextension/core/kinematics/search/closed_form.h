@@ -68,8 +68,4 @@ struct RootPairPose {
 // Its pose alone, for a pair that is tried whatever its misfit: z without the last refinement.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
-// Both at once.
-[[nodiscard]] GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
-                                        const StringArray &lengths_m, int pair) noexcept;
-
 } // namespace spidar
