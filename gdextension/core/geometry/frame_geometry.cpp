@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
@@ -73,6 +74,15 @@ FrameGeometry make_box_frame(const Vec3 &half_extents_m) noexcept {
         frame.motors_m[i] = kCornerSigns[i] * half_extents_m;
     }
     return frame;
+}
+
+MotorBox box_around_motors(const FrameGeometry &frame) noexcept {
+    MotorBox box{frame.motors_m[0], frame.motors_m[0]};
+    for (const Vec3 &motor : frame.motors_m) {
+        box.low_m = glm::min(box.low_m, motor);
+        box.high_m = glm::max(box.high_m, motor);
+    }
+    return box;
 }
 
 std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept {

@@ -26,6 +26,13 @@ struct FrameGeometry {
 // (+++)(-++)(+-+)(--+)(++-)(-+-)(+--)(---).
 [[nodiscard]] FrameGeometry make_box_frame(const Vec3 &half_extents_m) noexcept;
 
+// The smallest box around all motors, edges along the axes (unit: m).
+struct MotorBox {
+    Vec3 low_m{0.0};
+    Vec3 high_m{0.0};
+};
+[[nodiscard]] MotorBox box_around_motors(const FrameGeometry &frame) noexcept;
+
 // (a, b, c) when the motors are the corners of such a box (to 0.25 um), else nothing. The
 // closed-form kinematics exist for boxes only; Gauss-Newton serves every frame.
 [[nodiscard]] std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept;

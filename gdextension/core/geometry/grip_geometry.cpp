@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
@@ -22,13 +21,8 @@ constexpr double kMinTriangle = 1e-3;
 
 // Half the longest side of the box around the motors (unit: m).
 double room_of(const FrameGeometry &frame) noexcept {
-    Vec3 low = frame.motors_m[0];
-    Vec3 high = frame.motors_m[0];
-    for (const Vec3 &motor : frame.motors_m) {
-        low = glm::min(low, motor);
-        high = glm::max(high, motor);
-    }
-    const Vec3 size = high - low;
+    const MotorBox box = box_around_motors(frame);
+    const Vec3 size = box.high_m - box.low_m;
     return 0.5 * std::fmax(size.x, std::fmax(size.y, size.z));
 }
 
