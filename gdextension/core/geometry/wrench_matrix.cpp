@@ -4,7 +4,6 @@
 
 #include "core/geometry/pole_lanes.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 

@@ -9,15 +9,12 @@ namespace spidar {
 
 namespace {
 
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
-
 // Stands for "no regularising term": costs nothing and still leaves one answer.
 constexpr double kVanishingWeight = 1e-12;
 
 PaperWrench difference(const PaperWrench &a, const PaperWrench &b) noexcept {
     PaperWrench result{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         result[k] = a[k] - b[k];
     }
     return result;
@@ -27,7 +24,7 @@ PaperWrench difference(const PaperWrench &a, const PaperWrench &b) noexcept {
 
 PaperWrench TensionReport::bias() const noexcept {
     PaperWrench sum{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         sum[k] = ridge[k] + reference[k];
     }
     return sum;
@@ -48,7 +45,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wren
     problem.wrench = wrench;
     problem.weights = tension_weights(settings);
     StringArray reference_n{};
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = !has_string(settings.broken_mask, i);
         problem.lower_n[i] = works ? settings.min_tension_n : 0.0;
         problem.upper_n[i] = works ? settings.max_tension_n : 0.0;
@@ -69,7 +66,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wren
         settings.ridge > kVanishingWeight ? error_with(settings.ridge, StringArray{}) : limits;
     const double weight = settings.ridge + settings.reference_weight;
     StringArray target_n{};
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         target_n[i] = settings.reference_weight * reference_n[i] / weight;
     }
     const PaperWrench whole = error_with(weight, target_n);
@@ -83,7 +80,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wren
     report.ridge = difference(with_ridge, limits);
     report.reference = difference(whole, with_ridge);
     report.transient = difference(report.error, whole);
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = problem.lower_n[i] < problem.upper_n[i];
         if (works && steady.active[i] == StringBound::at_lower) {
             report.at_min_mask = with_string(report.at_min_mask, i);
@@ -91,7 +88,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wren
             report.at_max_mask = with_string(report.at_max_mask, i);
         }
     }
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         if (std::abs(problem.weights[k] * limits[k]) > kNoticeableLimit_n) {
             report.status = Status::wrench_limited;
         }

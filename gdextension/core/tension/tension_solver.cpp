@@ -12,9 +12,6 @@ namespace spidar {
 
 namespace {
 
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
-
 // An error of the weighted wrench above this is reported (unit: N at the pole ends; a tenth of what a fingertip
 // can tell), when the regularising terms do not explain it.
 constexpr double kWrenchLimited_n = 1e-3;
@@ -120,7 +117,7 @@ void TensionSolver::prepare() noexcept {
     working_mask_ = static_cast<std::uint8_t>(~static_cast<unsigned>(s.broken_mask));
     const double steady_weight = s.ridge + s.reference_weight;
     const double whole_weight = steady_weight + s.change_weight;
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = has_string(working_mask_, i);
         const double pull = works ? s.reference_weight * s.reference_tension_n : 0.0;
         problem_.lower_n[i] = works ? s.min_tension_n : 0.0;
@@ -139,7 +136,7 @@ void TensionSolver::aim() noexcept {
     problem_.proximal_target_n = steady_target_n_;
     if (has_last_) {
         problem_.proximal_weight += settings_.change_weight;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             problem_.proximal_target_n[i] = steady_pull_[i] + change_pull_[i] * last_tensions_n_[i];
         }
     }
@@ -199,13 +196,13 @@ TensionResult TensionSolver::remember(const TensionSolution &solution, const Wre
     result.at_max_mask = strings_at(solution.active, StringBound::at_upper) & working_mask_;
     result.tensions_n = solution.tensions_n;
     bool near_last = has_last_;
-    for (std::size_t i = 0; near_last && i < kStrings; ++i) {
+    for (std::size_t i = 0; near_last && i < kStringCount; ++i) {
         near_last = std::abs(solution.tensions_n[i] - last_tensions_n_[i]) <= kSettled_n &&
                     last_tensions_n_[i] >= problem_.lower_n[i] &&
                     last_tensions_n_[i] <= problem_.upper_n[i];
     }
     if (near_last) {
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (solution.active[i] == StringBound::free) {
                 result.tensions_n[i] = last_tensions_n_[i];
             }
@@ -256,7 +253,7 @@ PaperWeights tension_weights(const TensionSettings &settings) noexcept {
                             settings.weight_force,        settings.weight_moment_per_m,
                             settings.weight_moment_per_m, settings.weight_moment_per_m,
                             settings.weight_grasp_per_m};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         if (((static_cast<unsigned>(settings.dof_mask) >> k) & 1U) == 0U) {
             weights[k] = 0.0;
         }

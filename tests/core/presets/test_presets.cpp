@@ -67,7 +67,6 @@ TEST_CASE("presets: each is valid, of full rank, closed at rest and over most of
         CHECK(validate(device.grip, device.frame).empty());
         CHECK(device.metres_per_count > 1e-6);
         CHECK(device.min_tension_n < device.max_tension_n);
-        CHECK(preset_named(device.name) == static_cast<Preset>(i));
         const GeometryReport report =
             report_geometry(device.frame, device.grip, device.min_tension_n, 10.0, 200);
         CHECK(report.sound());
@@ -78,7 +77,6 @@ TEST_CASE("presets: each is valid, of full rank, closed at rest and over most of
         CHECK(report.force_capacity_n > 5.0);
         CHECK(report.moment_capacity_nm > 0.1);
     }
-    CHECK_FALSE(preset_named("SpidarG6X4").has_value());
 }
 
 TEST_CASE("presets: the left-hand device mirrors the right-hand one") {

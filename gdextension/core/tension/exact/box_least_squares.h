@@ -57,6 +57,8 @@ private:
     [[nodiscard]] Gradient gradient_precise(const StringArray &x) const noexcept;
     // W A v
     [[nodiscard]] PaperWrench weighted_apply(const StringArray &v) const noexcept;
+    // sum += (W A)' force
+    void add_transposed(const PaperWrench &force, StringArray &sum) const noexcept;
 
     const TensionProblem &problem_;
     std::array<Row, kDofCount> rows_{}; // W A, by DOF, 8 strings wide

@@ -15,8 +15,6 @@ namespace spidar {
 
 namespace {
 
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-
 // A Newton step that moves no string by more than this ends the refinement: the next one would be at least
 // 1e6 times smaller (see kCancelledPivot).
 constexpr double kStepTolerance_n = 1e-10;
@@ -42,7 +40,7 @@ class ActiveSetSearch {
 public:
     ActiveSetSearch(const TensionProblem &problem, BoxLeastSquares &system) noexcept
         : problem_(problem), system_(system) {
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (problem.lower_n[i] < problem.upper_n[i]) {
                 movable_ = with_string(movable_, i);
             }
@@ -97,7 +95,7 @@ private:
         bare_releases_ = 0;
         factored_ = false;
         precise_ = false;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             const StringBound guess = warm == nullptr ? StringBound::free : (*warm)[i];
             if (!has_string(movable_, i) || guess == StringBound::at_lower) {
                 hold(i, StringBound::at_lower);
@@ -132,8 +130,8 @@ private:
     // the first one met afterwards).
     bool take_step(const StringArray &step) noexcept {
         double share = 1.0;
-        std::size_t first = kStrings;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        std::size_t first = kStringCount;
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (!has_string(free_, i)) {
                 continue;
             }
@@ -143,13 +141,13 @@ private:
             }
             const double bound = step[i] < 0.0 ? problem_.lower_n[i] : problem_.upper_n[i];
             const double reach = (bound - tensions_[i]) / step[i];
-            if (first == kStrings || reach < share) {
+            if (first == kStringCount || reach < share) {
                 share = std::clamp(reach, 0.0, 1.0);
                 first = i;
             }
         }
-        if (first == kStrings) {
-            for (std::size_t i = 0; i < kStrings; ++i) {
+        if (first == kStringCount) {
+            for (std::size_t i = 0; i < kStringCount; ++i) {
                 tensions_[i] += step[i];
             }
             return true;
@@ -157,7 +155,7 @@ private:
         const bool guessing = guess_rounds_ > 0;
         guess_rounds_ -= guessing ? 1 : 0;
         const StringMask was_free = free_;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (!has_string(was_free, i)) {
                 continue;
             }
@@ -192,59 +190,68 @@ private:
         return largest_step > kStepTolerance_n && ++refinements_ <= kMaxRefinements;
     }
 
-    // At the optimum of the free strings: lets go of strings whose bound pulls the wrong way. False when none.
-    // `step` is the last (tiny) step, which gradient_ does not know yet.
+    enum class Release { none, unclear, bare, sure };
+
+    // Whether held string i goes free. `wish`: how strongly it wants into its range; `noise`: the rounding of that.
+    [[nodiscard]] Release judge_release(std::size_t i, double wish, double noise) const noexcept {
+        if (!(wish > -noise)) {
+            return Release::none;
+        }
+        if (wish > noise && wish > kSureMove_n * system_.diagonal(i)) {
+            return Release::sure;
+        }
+        // Near zero: what counts is how far the strings would move.
+        const BoxLeastSquares::Release release = system_.release(i);
+        double reach = 1.0;
+        for (const double value : release.direction) {
+            reach = std::max(reach, std::abs(value));
+        }
+        if (!precise_ && noise * reach > kReleaseMove_n * release.stiffness) {
+            return Release::unclear;
+        }
+        if (wish * reach > kSureMove_n * release.stiffness) {
+            return Release::sure;
+        }
+        return wish * reach > kReleaseMove_n * release.stiffness && bare_releases_ < kBareReleases
+                   ? Release::bare
+                   : Release::none;
+    }
+
+    // At the optimum of the free strings: lets go of strings whose bound pulls the wrong way, all of them while guessing,
+    // the worst one afterwards. False when none. `step` is the last (tiny) step, which gradient_ does not know yet.
     bool release_strings(const StringArray &step) noexcept {
         const StringArray change = system_.curvature(step);
         const double noise = precise_ ? 0.0 : kGradientRounding * gradient_.largest_force_n;
         double worst = 0.0;
-        std::size_t worst_string = kStrings;
+        std::size_t worst_string = kStringCount;
         bool worst_barely = false;
         bool released = false;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (has_string(free_, i) || !has_string(movable_, i)) {
                 continue;
             }
             const double slope = gradient_.values[i] + change[i];
-            bool barely = false;
-            // How strongly the string wants into its range.
             const double wish = active_[i] == StringBound::at_lower ? -slope : slope;
-            if (!(wish > -noise)) {
-                continue;
+            const Release release = judge_release(i, wish, noise);
+            if (release == Release::unclear) {
+                precise_ = true; // take this look again, exactly
+                return true;
             }
-            if (!(wish > noise && wish > kSureMove_n * system_.diagonal(i))) {
-                // Near zero: what counts is how far the strings would move.
-                const BoxLeastSquares::Release release = system_.release(i);
-                double reach = 1.0;
-                for (double value : release.direction) {
-                    reach = std::max(reach, std::abs(value));
-                }
-                if (!precise_ && noise * reach > kReleaseMove_n * release.stiffness) {
-                    precise_ = true; // take this look again, exactly
-                    return true;
-                }
-                if (!(wish * reach > kReleaseMove_n * release.stiffness)) {
-                    continue;
-                }
-                if (!(wish * reach > kSureMove_n * release.stiffness)) {
-                    if (bare_releases_ >= kBareReleases) {
-                        continue;
-                    }
-                    barely = true;
-                }
+            if (release == Release::none) {
+                continue;
             }
             if (guess_rounds_ > 0) {
                 released = true;
-                let_go(i, barely);
+                let_go(i, release == Release::bare);
             } else if (wish > worst) {
                 worst = wish;
                 worst_string = i;
-                worst_barely = barely;
+                worst_barely = release == Release::bare;
             }
         }
         if (released) {
             --guess_rounds_;
-        } else if (worst_string < kStrings) {
+        } else if (worst_string < kStringCount) {
             let_go(worst_string, worst_barely);
             released = true;
         }
@@ -273,7 +280,7 @@ Status check_problem(const TensionProblem &problem) noexcept {
         return Status::not_finite;
     }
     bool ordered = problem.proximal_weight > 0.0;
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         ordered = ordered && problem.lower_n[i] <= problem.upper_n[i];
     }
     return ordered ? Status::ok : Status::invalid_settings;
@@ -284,7 +291,7 @@ TensionSolution refused(const TensionProblem &problem, Status status) noexcept {
     TensionSolution solution;
     solution.status = status;
     solution.active.fill(StringBound::at_lower);
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const double lower = problem.lower_n[i];
         const double upper = problem.upper_n[i];
         const double most = std::isfinite(upper) && upper > 0.0 ? upper : 0.0;

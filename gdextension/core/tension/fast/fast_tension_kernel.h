@@ -94,18 +94,12 @@ private:
 
     // Bounds, target, start and R. False for bounds in disorder or nothing finite.
     bool read(const ActiveSet *warm) noexcept {
-        const Row lower = Row::load(p_.lower_n.data());
-        const Row upper = Row::load(p_.upper_n.data());
-        const Row target = Row::load(p_.proximal_target_n.data());
-        const Four most = Four::all(kLargest);
-        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
-        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
-        const Four fine_a = (lower.a <= upper.a) & (size_a <= most);
-        const Four fine_b = (lower.b <= upper.b) & (size_b <= most);
-        if (Row::bits(fine_a, fine_b) != 0xFFU || !(p_.proximal_weight > 0.0)) {
+        const BoundRows<Four> bounds(p_);
+        const auto &[lower, upper, target] = bounds;
+        if (!bounds.sound() || !(p_.proximal_weight > 0.0)) {
             return false;
         }
-        movable_ = Row::bits(lower.a < upper.a, lower.b < upper.b);
+        movable_ = bounds.movable();
         low_ = ~movable_ & 0xFFU;
         high_ = 0;
         if (warm != nullptr) {

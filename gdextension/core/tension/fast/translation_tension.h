@@ -31,19 +31,13 @@ public:
 
     // False: `solution` means nothing, as for solve_fast().
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
-        const Row lower = Row::load(p_.lower_n.data());
-        const Row upper = Row::load(p_.upper_n.data());
-        const Row target = Row::load(p_.proximal_target_n.data());
-        const Four most = Four::all(kLargest);
-        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
-        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
-        const unsigned fine = Row::bits((lower.a <= upper.a) & (size_a <= most),
-                                        (lower.b <= upper.b) & (size_b <= most));
+        const BoundRows<Four> bounds(p_);
+        const auto &[lower, upper, target] = bounds;
         const double w = p_.proximal_weight;
-        if (fine != 0xFFU || !(w > 0.0)) {
+        if (!bounds.sound() || !(w > 0.0)) {
             return false;
         }
-        const unsigned movable = Row::bits(lower.a < upper.a, lower.b < upper.b);
+        const unsigned movable = bounds.movable();
         read_half(0);
         read_half(4);
         const double b0 = p_.weights[0] * wrench_[0];
