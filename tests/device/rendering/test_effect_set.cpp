@@ -44,10 +44,10 @@ Effect effect_of(EffectKind kind, double gain) {
     Effect effect;
     effect.kind = kind;
     effect.dof_mask = kAllDof;
-    effect.gain.fill(gain);
+    effect.gain.values.fill(gain);
     effect.duration_s = 1.0;
     effect.frequency_hz = 50.0;
-    effect.spacing.fill(0.01);
+    effect.spacing.values.fill(0.01);
     return effect;
 }
 
