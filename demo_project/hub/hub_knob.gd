@@ -32,7 +32,7 @@ func show_touched(touched: bool) -> void:
 
 ## Does nothing while the scene is still being put together.
 func _show() -> void:
-	if not is_node_ready() and get_node_or_null(^"Label") == null:
+	if get_node_or_null(^"Label") == null:
 		return
 	($Label as Label3D).text = text
 	_material().albedo_color = colour
