@@ -235,6 +235,7 @@ def run(stages, command):
 
 
 def list_stages(stages):
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `./dev stages | head` is no error
     for stage in stages:
         print(f"{stage.name:<18} {stage.group:<8} {stage.limit_s:4} s  {stage.checks}")
 
