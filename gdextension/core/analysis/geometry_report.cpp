@@ -175,7 +175,7 @@ PoseStatics pose_statics(const FrameGeometry &frame, const GripGeometry &grip,
     problem.proximal_target_n.fill(1.0);
     const StringArray tensions = solve_tension_problem(problem, nullptr).tensions_n;
     const PaperWrench left = weighted_error(problem, tensions);
-    const double size = norm(left);
+    const double size = norm(left.values);
     const int full = grip.kind == GripKind::rigid ? 6 : kDofCount;
     const double most = *std::max_element(tensions.begin(), tensions.end());
     // By its optimality no string works against what the strings leave over.
