@@ -6,15 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
 #include "device/contract/grip_points.h"
-#include "device/rendering/wrench_request.h"
 
 namespace spidar {
 
 namespace {
 
-// After a pause of the game the contacts come back over this time, not with a blow.
-constexpr double kRecovery_s = 0.050;
 // Deeper than any grip can be in a frame of half a metre: keeps absurd offsets from overflowing.
 constexpr double kMaxDepth_m = 0.5;
 constexpr double kMaxGraspDepth_rad = 1.6;
@@ -74,8 +72,7 @@ Vec3 turn_gradient(const Vec3 &turn, const Vec3 &axis) noexcept {
 
 void ContactRenderer::configure(const ServoSettings &settings) noexcept {
     *this = ContactRenderer();
-    full_s_ = settings.safety.contacts_full_s;
-    gone_s_ = settings.safety.contacts_gone_s;
+    strength_.configure(settings.safety);
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
@@ -143,7 +140,7 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
     }
     clock_.receive(command.contacts_state_time_s, now_s);
     if (count_ == 0) {
-        strength_ = 1.0; // the game goes on and touches nothing: nothing to recover from
+        strength_.set(1.0); // the game goes on and touches nothing: nothing to recover from
     }
     return clamp;
 }
@@ -153,10 +150,7 @@ bool ContactRenderer::age(double dt_s) noexcept {
     if (count_ == 0) {
         return false; // an empty set never grows old
     }
-    const double left =
-        std::clamp(1.0 - (clock_.age_s() - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
-    strength_ = std::min(left, strength_ + dt_s / kRecovery_s);
-    if (left > 0.0) {
+    if (strength_.advance(clock_.age_s(), dt_s)) {
         return false;
     }
     count_ = 0;
@@ -307,7 +301,7 @@ Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
             track.anchored = false;
             continue;
         }
-        track.push *= strength_;
+        track.push *= strength_.value();
         if (is_grasp_stop(track.plane)) {
             track.grasp_torque_nm = track.push * track.now.normal.x;
             sum.grasp_torque_nm += track.grasp_torque_nm;

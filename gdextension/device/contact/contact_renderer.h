@@ -8,8 +8,9 @@
 #include "device/contact/contact_surface.h"
 #include "device/contact/god_object.h"
 #include "device/contract/game_clock.h"
+#include "device/contract/motion.h"
+#include "device/contract/request_fade.h"
 #include "device/contract/servo_snapshot.h"
-#include "device/rendering/motion_filter.h"
 #include "device/settings/gain_clamp.h"
 #include "device/settings/servo_settings.h"
 
@@ -61,8 +62,6 @@ private:
     ConstraintRow measure(Track &track, const GripMotion &motion) const noexcept;
     void rub(Track &track, const GripMotion &motion) const noexcept;
 
-    double full_s_ = 0.1;
-    double gone_s_ = 0.3;
     GainCaps caps_{};
     std::array<Track, kMaxContacts> tracks_{};
     std::size_t count_ = 0;
@@ -70,7 +69,7 @@ private:
     GameClock clock_;
     double state_time_s_ = -1.0; // of the last set
     GripPose pose_;              // last rendered
-    double strength_ = 1.0;      // falls with age, comes back gradually
+    RefreshedStrength strength_{1.0};
 };
 
 } // namespace spidar

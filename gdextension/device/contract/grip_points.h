@@ -4,7 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "device/contract/servo_snapshot.h"
+#include "device/contract/grip_state.h"
+#include "device/contract/haptic_command.h"
 
 namespace spidar {
 

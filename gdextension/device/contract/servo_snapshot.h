@@ -6,36 +6,13 @@
 
 #include "core/base/status.h"
 #include "core/base/types.h"
-#include "core/geometry/grip_geometry.h"
 #include "core/kinematics/grasp_detector.h"
+#include "device/contract/device_state.h"
+#include "device/contract/grip_state.h"
 #include "device/contract/haptic_command.h"
 #include "device/settings/gain_clamp.h"
 
 namespace spidar {
-
-// Simulated device: CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED.
-// Real device: CLOSED -> CONNECTED -> TAUT -> CALIBRATED -> ARMING -> ACTIVE -> FADING -> CALIBRATED.
-// FAULT is latched.
-enum class DeviceState : std::uint8_t {
-    closed = 0,    // no device
-    connected = 1, // reading; motors at zero
-    arming = 2,    // forces rise
-    active = 3,
-    fading = 4, // forces fall, then connected
-    fault = 5,  // motors off until clear_fault() and arm()
-    taut = 6,   // zero_at_home(): strings drawn taut, zero taken, then checked by moving the grip
-    calibrated = 7, // zero known; pretension keeps the strings taut, so that it stays known
-};
-[[nodiscard]] const char *describe(DeviceState state) noexcept;
-
-struct GripState {
-    GripPose pose;
-    GripFrame frame;
-    Twist twist; // filtered
-    double residual_rms_m = 0.0;
-    double conditioning = 0.0;
-    Status status = Status::held_last_pose; // < 0 or held_last_pose: the pose is an old one
-};
 
 struct ContactReport {
     std::int32_t id = 0;

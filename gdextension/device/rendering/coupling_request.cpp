@@ -14,8 +14,6 @@ namespace {
 
 // One game period: what jumps between two updates is spread over it.
 constexpr double kCrossFade_s = 0.016;
-// A coupling that begins, or returns after a pause of the game, comes on over this.
-constexpr double kOnset_s = 0.050;
 constexpr double kMaxProxySpeed_m_s = 10.0;
 constexpr double kMaxProxyTurnRate_rad_s = 50.0;
 // Beyond any frame: keeps absurd proxies from overflowing.
@@ -34,8 +32,7 @@ bool has(std::uint8_t mask, int dof) noexcept {
 
 void CouplingRequest::configure(const ServoSettings &settings) noexcept {
     *this = CouplingRequest();
-    full_s_ = settings.safety.contacts_full_s;
-    gone_s_ = settings.safety.contacts_gone_s;
+    strength_.configure(settings.safety);
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
@@ -121,7 +118,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         from_stiffness_ = next.stiffness;
         from_damping_ = next.damping;
         jump_ = Displacement();
-        strength_ = 0.0;
+        strength_.set(0.0);
         clock_ = GameClock();
         clock_.receive(next.state_time_s, now_s);
     }
@@ -139,14 +136,8 @@ bool CouplingRequest::age(double dt_s) noexcept {
         live_ = clock_.age_s() < kCrossFade_s;
         return false; // withdrawn, not forgotten
     }
-    const double left =
-        std::clamp(1.0 - (clock_.age_s() - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
-    strength_ = std::min(left, strength_ + dt_s / kOnset_s);
-    if (left > 0.0) {
-        return false;
-    }
-    live_ = false;
-    return true;
+    live_ = strength_.advance(clock_.age_s(), dt_s);
+    return !live_;
 }
 
 Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
@@ -182,11 +173,12 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
                                   grip.frame.grasp_angle_rad - motion.ahead.grasp_rad) +
                              gain(from_damping_, coupling_.damping, kGrasp) *
                                  (pull.grasp_rate_rad_s - motion.velocity.grasp_rate_rad_s);
-    wrench.force_n = strength_ * no_longer_than(wrench.force_n, coupling_.max_force_n);
-    wrench.moment_nm = strength_ * no_longer_than(wrench.moment_nm, coupling_.max_moment_nm);
+    const double strength = strength_.value();
+    wrench.force_n = strength * no_longer_than(wrench.force_n, coupling_.max_force_n);
+    wrench.moment_nm = strength * no_longer_than(wrench.moment_nm, coupling_.max_moment_nm);
     wrench.grasp_torque_nm =
-        strength_ * std::clamp(wrench.grasp_torque_nm, -coupling_.max_grasp_torque_nm,
-                               coupling_.max_grasp_torque_nm);
+        strength * std::clamp(wrench.grasp_torque_nm, -coupling_.max_grasp_torque_nm,
+                              coupling_.max_grasp_torque_nm);
     return wrench;
 }
 

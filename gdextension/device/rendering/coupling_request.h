@@ -3,7 +3,8 @@
 
 #include "device/contract/game_clock.h"
 #include "device/contract/haptic_command.h"
-#include "device/rendering/motion_filter.h"
+#include "device/contract/motion.h"
+#include "device/contract/request_fade.h"
 #include "device/settings/gain_clamp.h"
 #include "device/settings/servo_settings.h"
 
@@ -29,8 +30,6 @@ private:
     [[nodiscard]] Proxy proxy_now() const noexcept;
     [[nodiscard]] double faded_in() const noexcept;
 
-    double full_s_ = 0.1;
-    double gone_s_ = 0.3;
     GainCaps caps_{};
     Coupling coupling_{};
     DofGains from_stiffness_{};
@@ -38,7 +37,7 @@ private:
     Displacement jump_{}; // where the last proxy was, relative to this one
     bool live_ = false;
     GameClock clock_;
-    double strength_ = 0.0;
+    RefreshedStrength strength_{0.0};
 };
 
 } // namespace spidar

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/request_fade.h"
 
 namespace spidar {
 
@@ -166,9 +167,8 @@ bool EffectSet::empty() const noexcept {
 
 DofGains EffectSet::gain_now(const Track &track) const noexcept {
     const double s = std::min(1.0, track.fade_s / kCrossFade_s);
-    const double past_s = track.age_s - track.effect.duration_s;
     const double left =
-        track.ended ? 0.0 : std::clamp(1.0 - std::max(0.0, past_s) / fade_out_s_, 0.0, 1.0);
+        track.ended ? 0.0 : faded_out(track.age_s - track.effect.duration_s, fade_out_s_);
     DofGains gain{};
     for (std::size_t i = 0; i < gain.size(); ++i) {
         gain[i] = left * (track.from[i] + s * (track.effect.gain[i] - track.from[i]));

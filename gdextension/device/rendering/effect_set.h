@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/contract/haptic_command.h"
-#include "device/rendering/motion_filter.h"
+#include "device/contract/motion.h"
 #include "device/settings/gain_clamp.h"
 #include "device/settings/servo_settings.h"
 

@@ -1,5 +1,7 @@
 #include "device/rendering/haptic_renderer.h"
 
+#include "device/contract/dof_lanes.h"
+
 namespace spidar {
 
 void HapticRenderer::configure(const ServoSettings &settings) noexcept {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "device/contact/contact_renderer.h"
+#include "device/contract/servo_snapshot.h"
 #include "device/rendering/coupling_request.h"
 #include "device/rendering/effect_set.h"
+#include "device/rendering/motion_filter.h"
 #include "device/rendering/passivity.h"
 #include "device/rendering/wrench_request.h"
 

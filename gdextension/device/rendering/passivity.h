@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/contract/haptic_command.h"
-#include "device/rendering/motion_filter.h"
+#include "device/contract/motion.h"
 
 namespace spidar {
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/contract/dof_lanes.h"
+#include "device/contract/request_fade.h"
+
 namespace spidar {
 
 namespace {
@@ -80,11 +83,7 @@ bool WrenchRequest::age(double dt_s) noexcept {
 }
 
 Wrench WrenchRequest::value() const noexcept {
-    if (!live_ || age_s_ <= duration_s_) {
-        return wrench_; // zero when not live
-    }
-    const double left = 1.0 - (age_s_ - duration_s_) / safety_.wrench_fade_s;
-    return std::clamp(left, 0.0, 1.0) * wrench_;
+    return faded_out(age_s_ - duration_s_, safety_.wrench_fade_s) * wrench_; // zero when not live
 }
 
 } // namespace spidar

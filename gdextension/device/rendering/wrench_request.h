@@ -6,14 +6,6 @@
 
 namespace spidar {
 
-[[nodiscard]] inline Wrench operator+(const Wrench &a, const Wrench &b) noexcept {
-    return {a.force_n + b.force_n, a.moment_nm + b.moment_nm,
-            a.grasp_torque_nm + b.grasp_torque_nm};
-}
-[[nodiscard]] inline Wrench operator*(double factor, const Wrench &wrench) noexcept {
-    return {factor * wrench.force_n, factor * wrench.moment_nm, factor * wrench.grasp_torque_nm};
-}
-
 // The factor (0..1] that brings force, moment and grasp torque inside their limits. One factor for all seven
 // DOF: the direction of the wrench is kept. Holds for every finite wrench, 1e308 too; 0 for one that is not.
 [[nodiscard]] double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept;

@@ -3,7 +3,8 @@
 // taut, the zero is taken and checked, and they are held taut until arm().
 #pragma once
 
-#include "device/contract/servo_snapshot.h"
+#include "core/base/status.h"
+#include "device/contract/device_state.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "device/contract/servo_snapshot.h"
+#include "core/geometry/grip_geometry.h"
 
 namespace spidar {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "device/contract/dof_lanes.h"
 #include "device/rendering/rotor_compensation.h"
 #include "device/step/tension_diagnosis.h"
 

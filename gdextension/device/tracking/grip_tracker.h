@@ -2,8 +2,7 @@
 #pragma once
 
 #include "core/kinematics/forward_kinematics.h"
-#include "device/contract/servo_snapshot.h"
-#include "device/rendering/motion_filter.h"
+#include "device/contract/motion.h"
 #include "device/settings/servo_settings.h"
 #include "device/tracking/length_correction.h"
 

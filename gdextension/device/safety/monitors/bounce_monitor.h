@@ -3,7 +3,7 @@
 // each touch. A tap loses it.
 #pragma once
 
-#include "device/contract/servo_snapshot.h"
+#include "core/base/types.h"
 
 namespace spidar {
 

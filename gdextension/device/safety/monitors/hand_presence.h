@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "device/contract/servo_snapshot.h"
+#include "core/geometry/grip_geometry.h"
 #include "device/settings/servo_settings.h"
 
 namespace spidar {

@@ -3,7 +3,7 @@
 // of the grip's velocity, in each DOF, and of what the contacts push, where a firm hand hardly moves.
 #pragma once
 
-#include "device/contract/servo_snapshot.h"
+#include "core/base/types.h"
 
 namespace spidar {
 

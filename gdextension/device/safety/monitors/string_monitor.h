@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/diagnosis/string_fault_observer.h"
-#include "device/contract/servo_snapshot.h"
+#include "device/contract/grip_state.h"
 #include "device/settings/servo_settings.h"
 
 namespace spidar {

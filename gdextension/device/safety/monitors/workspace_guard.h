@@ -2,7 +2,7 @@
 // hardly tell or turn it.
 #pragma once
 
-#include "device/contract/servo_snapshot.h"
+#include "device/contract/grip_state.h"
 #include "device/settings/servo_settings.h"
 
 namespace spidar {

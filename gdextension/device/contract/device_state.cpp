@@ -1,4 +1,4 @@
-#include "device/contract/servo_snapshot.h"
+#include "device/contract/device_state.h"
 
 namespace spidar {
 
