@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/request_fade.h"
 
 namespace spidar {
 
@@ -17,10 +18,6 @@ constexpr double kMostTurn_rad = 0.35;
 constexpr double kMostAdded_m = 0.002;
 // Two updates nearer than this tell no rate.
 constexpr double kLeastApart_s = 1e-4;
-
-double blend(double from, double to, double s) noexcept {
-    return from + s * (to - from);
-}
 
 bool is_stop(const ContactPlane &plane) noexcept {
     return plane.target == ContactTarget::grasp_stop || plane.target == ContactTarget::turn_stop;
@@ -103,7 +100,7 @@ ContactSurface SurfaceTrack::now(const GameClock &clock) const noexcept {
         to.normal = turned(plane_.normal, moved_s);
         to.offset_m += glm::dot(to.normal - plane_.normal, pivot_m_);
     }
-    const double s = fading_in_ ? std::min(1.0, clock.age_s() / kContactCrossFade_s) : 1.0;
+    const double s = fading_in_ ? cross_fade(clock.age_s()) : 1.0;
     if (!(s < 1.0)) {
         return to;
     }

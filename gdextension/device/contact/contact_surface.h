@@ -8,9 +8,6 @@
 
 namespace spidar {
 
-// One game period: steps of a plane between two updates are spread over it.
-inline constexpr double kContactCrossFade_s = 0.016;
-
 struct ContactSurface {
     Vec3 normal{0.0, 1.0, 0.0};
     Vec3 velocity_m_s{0.0};

@@ -1,5 +1,5 @@
-// How requests fade. A game speaks 30 to 144 times a second and the servo loop renders 1000 times: what the game
-// stops to refresh must not act for ever, and must not end with a blow.
+// How requests come and go. A game speaks 30 to 144 times a second and the servo loop renders 1000 times: what the game
+// changes must not reach the hand as a blow, and what it stops to refresh must not act for ever.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,17 @@
 #include "device/settings/servo_settings.h"
 
 namespace spidar {
+
+// One game period at 60 Hz: what jumps between two updates is spread over it.
+inline constexpr double kCrossFade_s = 0.016;
+// The new value's share, since_s after the update; the old one has the rest.
+[[nodiscard]] inline double cross_fade(double since_s) noexcept {
+    return std::min(1.0, since_s / kCrossFade_s);
+}
+// From `from` (share 0) to `to` (share 1).
+[[nodiscard]] inline double blend(double from, double to, double share) noexcept {
+    return from + share * (to - from);
+}
 
 // What is left of a request whose full duration ended past_s ago (negative: not yet) and that fades over fade_s.
 [[nodiscard]] inline double faded_out(double past_s, double fade_s) noexcept {

@@ -12,8 +12,6 @@ namespace spidar {
 
 namespace {
 
-// One game period: what jumps between two updates is spread over it.
-constexpr double kCrossFade_s = 0.016;
 constexpr double kMaxProxySpeed_m_s = 10.0;
 constexpr double kMaxProxyTurnRate_rad_s = 50.0;
 // Beyond any frame: keeps absurd proxies from overflowing.
@@ -36,13 +34,9 @@ void CouplingRequest::configure(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
-double CouplingRequest::faded_in() const noexcept {
-    return std::min(1.0, clock_.age_s() / kCrossFade_s);
-}
-
 CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
     const double moved_s = clock_.carried_s();
-    const double left = 1.0 - faded_in();
+    const double left = 1.0 - cross_fade(clock_.age_s());
     const Twist &twist = coupling_.twist;
     Proxy proxy;
     proxy.position_m = coupling_.position_m + moved_s * twist.linear_m_s + left * jump_.linear_m;
@@ -101,10 +95,10 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
     const bool carries_on = live_ && coupling_.dof_mask != 0;
     if (carries_on) {
         const Proxy old = proxy_now();
-        const double s = faded_in();
+        const double s = cross_fade(clock_.age_s());
         for (std::size_t i = 0; i < from_stiffness_.size(); ++i) {
-            from_stiffness_[i] += s * (coupling_.stiffness[i] - from_stiffness_[i]);
-            from_damping_[i] += s * (coupling_.damping[i] - from_damping_[i]);
+            from_stiffness_[i] = blend(from_stiffness_[i], coupling_.stiffness[i], s);
+            from_damping_[i] = blend(from_damping_[i], coupling_.damping[i], s);
         }
         // From where the old proxy is to where the new one is by now.
         coupling_ = next;
@@ -152,9 +146,9 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
                          motion.ahead.linear_m;
     const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) +
                            motion.lead_s * pull.angular_rad_s - motion.ahead.angular_rad;
-    const double s = faded_in();
+    const double s = cross_fade(clock_.age_s());
     const auto gain = [s](const DofGains &from, const DofGains &to, std::size_t i) {
-        return from[i] + s * (to[i] - from[i]);
+        return blend(from[i], to[i], s);
     };
     Wrench wrench;
     for (int k = 0; k < 3; ++k) {

@@ -28,7 +28,6 @@ private:
         double grasp_angle_rad = 0.0;
     };
     [[nodiscard]] Proxy proxy_now() const noexcept;
-    [[nodiscard]] double faded_in() const noexcept;
 
     GainCaps caps_{};
     Coupling coupling_{};

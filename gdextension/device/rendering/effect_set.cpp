@@ -14,7 +14,6 @@ namespace spidar {
 
 namespace {
 
-constexpr double kCrossFade_s = 0.016; // one game period
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // Of the servo rate: more would not be a sine any more.
 constexpr double kHighestVibration = 0.25;
@@ -166,12 +165,12 @@ bool EffectSet::empty() const noexcept {
 }
 
 DofGains EffectSet::gain_now(const Track &track) const noexcept {
-    const double s = std::min(1.0, track.fade_s / kCrossFade_s);
+    const double s = cross_fade(track.fade_s);
     const double left =
         track.ended ? 0.0 : faded_out(track.age_s - track.effect.duration_s, fade_out_s_);
     DofGains gain{};
     for (std::size_t i = 0; i < gain.size(); ++i) {
-        gain[i] = left * (track.from[i] + s * (track.effect.gain[i] - track.from[i]));
+        gain[i] = left * blend(track.from[i], track.effect.gain[i], s);
     }
     return gain;
 }

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "device/contact/contact_surface.h"
-#include "device/contract/motion.h"
+#include "device/rendering/motion_filter.h"
 
 using namespace spidar;
 
