@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/grip_geometry.h"
+#include "device/contract/dof_lanes.h"
 #include "device/simulation/simulated_plant.h"
 
 namespace spidar::test {
@@ -80,11 +81,6 @@ inline StringArray equal_tensions(double tension_n) {
     return result;
 }
 
-inline DofArray in_order(const Wrench &w) {
-    return {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
-            w.moment_nm.y, w.moment_nm.z, w.grasp_torque_nm};
-}
-
 // Pole ends written out from the design page: r1 at 45 deg + psi/2 in the grip's x-y plane, r2 at 45 deg - psi/2.
 inline double string_length(const PlantSettings &settings, const HandTarget &pose, std::size_t i) {
     const double psi = std::acos(0.0) - pose.grasp_angle_rad;
@@ -134,10 +130,10 @@ inline HandTarget pose_of(const PlantTruth &truth) {
 
 inline bool is_finite(const PlantTruth &truth) {
     double sum = truth.energy_to_hand_j + truth.frame.grasp_angle_rad;
-    for (const double value : in_order(truth.strings)) {
+    for (const double value : lanes(truth.strings)) {
         sum += value;
     }
-    for (const double value : in_order(truth.hand)) {
+    for (const double value : lanes(truth.hand)) {
         sum += value;
     }
     for (int axis = 0; axis < 3; ++axis) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/calibration/string_calibration.h"
+#include "device/contract/dof_lanes.h"
 #include "device/loop/servo_loop.h"
 #include "device/recording/replay_transport.h"
 
@@ -124,19 +125,18 @@ void print_recorded(const RecordedCycle &cycle, const StringCalibration &strings
     }
 }
 
-void print_wrench(const Wrench &wrench) {
-    std::printf(",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", wrench.force_n.x, wrench.force_n.y,
-                wrench.force_n.z, wrench.moment_nm.x, wrench.moment_nm.y, wrench.moment_nm.z,
-                wrench.grasp_torque_nm);
+void print_lanes(const DofLanes &row) {
+    for (const double value : row) {
+        std::printf(",%.6g", value);
+    }
 }
 
 void print_replayed(const ServoSnapshot &now) {
     const Vec3 &p = now.grip.pose.position_m;
-    const Twist &twist = now.grip.twist;
     std::printf(",%.8f,%.8f,%.8f,%.7f", p.x, p.y, p.z, now.grip.frame.grasp_angle_rad);
-    print_wrench({twist.linear_m_s, twist.angular_rad_s, twist.grasp_rate_rad_s});
-    print_wrench(now.requested);
-    print_wrench(now.achieved);
+    print_lanes(lanes(now.grip.twist));
+    print_lanes(lanes(now.requested));
+    print_lanes(lanes(now.achieved));
 }
 
 // Runs a recording through a servo loop; show(transport, snapshot) after each cycle.

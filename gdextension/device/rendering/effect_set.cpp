@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
 #include "device/contract/request_fade.h"
 
 namespace spidar {
@@ -24,10 +25,6 @@ constexpr double kMostForce = 1e6;
 
 bool has(const Effect &effect, std::size_t dof) noexcept {
     return ((effect.dof_mask >> dof) & 1U) != 0;
-}
-
-DofGains lanes(const Vec3 &a, const Vec3 &b, double c) noexcept {
-    return {a.x, a.y, a.z, b.x, b.y, b.z, c};
 }
 
 // The cap that belongs to a DOF.
@@ -189,8 +186,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
         return result;
     }
     case EffectKind::viscous: {
-        const DofGains v = lanes(motion.velocity.linear_m_s, motion.velocity.angular_rad_s,
-                                 motion.velocity.grasp_rate_rad_s);
+        const DofLanes v = lanes(motion.velocity);
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[i] *= -v[i];
         }
@@ -201,7 +197,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
         break;
     }
     const GripState &grip = motion.grip;
-    const DofGains away =
+    const DofLanes away =
         lanes(grip.pose.position_m + motion.ahead.linear_m - effect.centre_m,
               rotation_log(grip.frame.rotation * glm::transpose(effect.centre_rotation)) +
                   motion.ahead.angular_rad,
@@ -219,7 +215,7 @@ DofGains EffectSet::force(const Track &track, const GripMotion &motion) const no
 }
 
 Wrench EffectSet::render(const GripMotion &motion) noexcept {
-    DofGains sum{};
+    DofLanes sum{};
     for (std::size_t i = 0; i < sum.size(); ++i) {
         sum[i] = leaving_part_ * leaving_[i];
     }
@@ -229,7 +225,7 @@ Wrench EffectSet::render(const GripMotion &motion) noexcept {
             sum[i] += last_[t][i];
         }
     }
-    return {Vec3(sum[0], sum[1], sum[2]), Vec3(sum[3], sum[4], sum[5]), sum[6]};
+    return of_lanes<Wrench>(sum);
 }
 
 } // namespace spidar

@@ -1,7 +1,10 @@
 #include "device/rendering/motion_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
@@ -52,8 +55,8 @@ void MotionFilter::reset() noexcept {
 }
 
 void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
-    const Lanes now{moved.linear_m.x,    moved.linear_m.y,    moved.linear_m.z, moved.angular_rad.x,
-                    moved.angular_rad.y, moved.angular_rad.z, moved.grasp_rad,  0.0};
+    Lanes now{};
+    std::ranges::copy(lanes(moved), now.begin());
     if (dt_s != filtered_dt_s_) {
         filtered_dt_s_ = dt_s;
         filter_share_ = -std::expm1(-cutoff_rad_s_ * dt_s);
@@ -81,16 +84,17 @@ void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
 }
 
 Displacement MotionFilter::ahead() const noexcept {
-    Lanes sum{};
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    DofLanes sum{};
+    for (std::size_t i = 0; i < sum.size(); ++i) {
         sum[i] = offset_[i] + lead_s_ * velocity_[i];
     }
-    return {Vec3(sum[0], sum[1], sum[2]), Vec3(sum[3], sum[4], sum[5]), sum[6]};
+    return of_lanes<Displacement>(sum);
 }
 
 Twist MotionFilter::velocity() const noexcept {
-    const Lanes &v = velocity_;
-    return {Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]), v[6]};
+    DofLanes row{};
+    std::copy_n(velocity_.begin(), row.size(), row.begin());
+    return of_lanes<Twist>(row);
 }
 
 } // namespace spidar

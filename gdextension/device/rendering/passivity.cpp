@@ -12,25 +12,10 @@ constexpr double kNoForce = 1e-5;
 // What is stored below this (a millimetre against that force) is forgotten with it.
 constexpr double kNoEnergy_j = 1e-8;
 
-DofGains lanes(const Wrench &w) noexcept {
-    return {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
-            w.moment_nm.y, w.moment_nm.z, w.grasp_torque_nm};
-}
-
-DofGains lanes(const Displacement &d) noexcept {
-    return {d.linear_m.x,    d.linear_m.y,    d.linear_m.z, d.angular_rad.x,
-            d.angular_rad.y, d.angular_rad.z, d.grasp_rad};
-}
-
-DofGains lanes(const Twist &t) noexcept {
-    return {t.linear_m_s.x,    t.linear_m_s.y,    t.linear_m_s.z,    t.angular_rad_s.x,
-            t.angular_rad_s.y, t.angular_rad_s.z, t.grasp_rate_rad_s};
-}
-
 } // namespace
 
 void EnergyObserver::update(const Displacement &moved) noexcept {
-    const DofGains move = lanes(moved);
+    const DofLanes move = lanes(moved);
     for (std::size_t i = 0; i < move.size(); ++i) {
         injected_j_[i] += held_[i] * move[i];
     }
@@ -55,15 +40,15 @@ void PassivityController::reset() noexcept {
 
 Wrench PassivityController::correct(const Wrench &asked, const Displacement &moved,
                                     const Twist &velocity, double dt_s) noexcept {
-    const DofGains force = lanes(asked);
-    if (settled_ && force == DofGains{}) {
+    const DofLanes force = lanes(asked);
+    if (settled_ && force == DofLanes{}) {
         return asked; // nothing held, nothing stored: motion alone changes nothing
     }
-    const DofGains move = lanes(moved);
-    const DofGains speed = lanes(velocity);
+    const DofLanes move = lanes(moved);
+    const DofLanes speed = lanes(velocity);
     const double blend = dt_s / (dt_s + kSlow_s);
     const double keep = 1.0 - dt_s / (dt_s + kMemory_s);
-    DofGains out = force;
+    DofLanes out = force;
     acting_ = false;
     bool moving = false;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -84,7 +69,7 @@ Wrench PassivityController::correct(const Wrench &asked, const Displacement &mov
     if (!moving) {
         reset();
     }
-    return {Vec3(out[0], out[1], out[2]), Vec3(out[3], out[4], out[5]), out[6]};
+    return of_lanes<Wrench>(out);
 }
 
 } // namespace spidar

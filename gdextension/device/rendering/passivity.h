@@ -2,8 +2,8 @@
 // what a wrench or coupling held between two frames of the game gives too much (Hannaford and Ryu 2002).
 #pragma once
 
+#include "device/contract/dof_lanes.h"
 #include "device/contract/haptic_command.h"
-#include "device/contract/motion.h"
 
 namespace spidar {
 
@@ -19,7 +19,7 @@ public:
     [[nodiscard]] const DofGains &injected_j() const noexcept { return injected_j_; }
 
 private:
-    DofGains held_{};
+    DofLanes held_{};
     DofGains injected_j_{};
 };
 
@@ -46,9 +46,9 @@ public:
 
 private:
     DofGains most_{};
-    DofGains slow_{};
-    DofGains changing_{}; // held since the last cycle
-    DofGains store_j_{};
+    DofLanes slow_{};
+    DofLanes changing_{}; // held since the last cycle
+    DofLanes store_j_{};
     bool acting_ = false;
     bool settled_ = true;
 };

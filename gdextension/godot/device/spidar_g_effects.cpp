@@ -6,6 +6,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "device/contract/dof_lanes.h"
 #include "godot/base/type_conversions.h"
 
 using godot::ClassDB;
@@ -39,11 +40,6 @@ std::string read_gains(const char *method, const char *field,
 
 spidar::DofGains same_gains(double linear, double angular, double grasp) {
     return {linear, linear, linear, angular, angular, angular, grasp};
-}
-
-spidar::DofGains gains_of(const spidar::Wrench &wrench) {
-    return {wrench.force_n.x,   wrench.force_n.y,   wrench.force_n.z,      wrench.moment_nm.x,
-            wrench.moment_nm.y, wrench.moment_nm.z, wrench.grasp_torque_nm};
 }
 
 // What of an effect makes no sense, with the remedy.
@@ -213,7 +209,7 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     effect.kind = EffectKind::constant;
     effect.id = id;
     effect.dof_mask = spidar::kAllDof;
-    effect.gain = gains_of(
+    effect.gain = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.duration_s = duration_s;
     return take_effect("set_force_effect", effect);
@@ -243,7 +239,7 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     effect.kind = EffectKind::vibration;
     effect.id = id;
     effect.dof_mask = spidar::kAllDof;
-    effect.gain = gains_of(
+    effect.gain = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.frequency_hz = frequency_hz;
     effect.duration_s = duration_s;

@@ -10,6 +10,7 @@
 
 #include "core/analysis/wrench_closure.h"
 #include "core/geometry/grip_geometry.h"
+#include "device/contract/dof_lanes.h"
 #include "device/safety/monitors/workspace_guard.h"
 #include "device/step/tension_diagnosis.h"
 #include "godot/base/type_conversions.h"
@@ -263,9 +264,7 @@ PackedFloat64Array SpidarGWorkspace::get_given_wrench(const Transform3D &pose, d
     solver.configure(here->tension);
     const spidar::Wrench given = spidar::from_paper(
         spidar::apply(here->matrix, solver.update(here->matrix, wrench).tensions_n));
-    return spidar::to_godot(DofArray{given.force_n.x, given.force_n.y, given.force_n.z,
-                                     given.moment_nm.x, given.moment_nm.y, given.moment_nm.z,
-                                     given.grasp_torque_nm});
+    return spidar::to_godot(spidar::lanes(given));
 }
 
 void SpidarGWorkspace::_bind_methods() {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "device/contract/dof_lanes.h"
 #include "device/rendering/coupling_request.h"
 
 using namespace spidar;
@@ -63,12 +64,12 @@ TEST_CASE("coupling: a spring in each of seven DOF, only where the mask says") {
             rig.coupling.dof_mask =
                 masked ? static_cast<std::uint8_t>(kAllDof & ~(1U << dof)) : kAllDof;
             const Wrench w = rig.play(100);
-            const double given[] = {w.force_n.x,   w.force_n.y,   w.force_n.z,      w.moment_nm.x,
-                                    w.moment_nm.y, w.moment_nm.z, w.grasp_torque_nm};
+            const DofLanes given = lanes(w);
             CAPTURE(dof);
             for (int k = 0; k < kDofCount; ++k) {
                 const bool acts = k == dof && !masked;
-                CHECK(given[k] == doctest::Approx(acts ? rig.coupling.stiffness[i] * away : 0.0));
+                CHECK(given[static_cast<std::size_t>(k)] ==
+                      doctest::Approx(acts ? rig.coupling.stiffness[i] * away : 0.0));
             }
         }
     }

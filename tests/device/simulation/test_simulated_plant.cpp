@@ -19,7 +19,7 @@ TEST_CASE("plant: net wrench of the strings is the virtual work of the tensions 
             pull(plant, random.tensions(0.3, 10.0));
             plant.advance(0.02);
             const PlantTruth truth = plant.truth();
-            const DofArray given = in_order(truth.strings);
+            const DofLanes given = lanes(truth.strings);
             const DofArray expected =
                 virtual_work_forces(settings, pose_of(truth), truth.tensions_n);
             for (std::size_t dof = 0; dof < kDofCount; ++dof) {
@@ -117,8 +117,8 @@ TEST_CASE("plant: at rest the hand's wrench is minus the strings' and its spring
                 plant.advance(1.0);
             }
             const PlantTruth truth = plant.truth();
-            const DofArray strings = in_order(truth.strings);
-            const DofArray hand = in_order(truth.hand);
+            const DofLanes strings = lanes(truth.strings);
+            const DofLanes hand = lanes(truth.hand);
             for (std::size_t dof = 0; dof < kDofCount; ++dof) {
                 CAPTURE(round);
                 CAPTURE(dof);

@@ -194,7 +194,7 @@ TEST_CASE("plant: the hand feels nothing of the take-up when the motors are off"
     plant.set_hand_target(at({0.1, -0.05, 0.08}));
     plant.advance(1.0);
     plant.advance(1.0);
-    for (const double value : in_order(plant.truth().strings)) {
+    for (const double value : lanes(plant.truth().strings)) {
         CHECK(std::abs(value) < 2e-3);
     }
     CHECK(glm::length(plant.truth().pose.position_m - Vec3(0.1, -0.05, 0.08)) < 1e-5);
@@ -364,7 +364,7 @@ TEST_CASE("plant: a broken string pulls no more, winds in, and is taut when mend
     CHECK(plant.counts()[3] == 0); // all wound in
     const HandTarget pose = pose_of(plant.truth());
     const DofArray expected = virtual_work_forces(settings, pose, plant.truth().tensions_n);
-    CHECK(std::abs(in_order(plant.truth().strings)[0] - expected[0]) < 1e-7);
+    CHECK(std::abs(lanes(plant.truth().strings)[0] - expected[0]) < 1e-7);
     plant.set_broken_strings(0);
     plant.advance(0.2);
     CHECK(plant.truth().tensions_n[3] > 0.9);

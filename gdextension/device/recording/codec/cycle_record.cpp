@@ -1,7 +1,11 @@
 #include "device/recording/codec/cycle_record.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
+
+#include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
@@ -16,10 +20,8 @@ struct Filler {
         put(v.y);
         put(v.z);
     }
-    void put(const StringArray &values) noexcept {
-        for (const double value : values) {
-            put(value);
-        }
+    void put(std::span<const double> values) noexcept {
+        next = std::copy(values.begin(), values.end(), next);
     }
 };
 
@@ -35,12 +37,8 @@ void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
     filler.put(grip.pose.position_m);
     filler.put(grip.pose.r1_m);
     filler.put(grip.pose.r2_m);
-    filler.put(grip.twist.linear_m_s);
-    filler.put(grip.twist.angular_rad_s);
-    filler.put(grip.twist.grasp_rate_rad_s);
-    filler.put(snapshot.requested.force_n);
-    filler.put(snapshot.requested.moment_nm);
-    filler.put(snapshot.requested.grasp_torque_nm);
+    filler.put(lanes(grip.twist));
+    filler.put(lanes(snapshot.requested));
     filler.put(grip.frame.grasp_angle_rad);
     filler.put(snapshot.force_scale);
     filler.put(snapshot.time_s);

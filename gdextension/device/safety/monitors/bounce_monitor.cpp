@@ -20,7 +20,7 @@ constexpr double kGain = 1.1;
 constexpr int kBounces = 3;
 constexpr double kLongestPause_s = 0.4;
 
-double dot(const DofArray &a, const DofArray &b) noexcept {
+double dot(const DofLanes &a, const DofLanes &b) noexcept {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         sum += a[i] * b[i];
@@ -32,15 +32,9 @@ double dot(const DofArray &a, const DofArray &b) noexcept {
 
 bool BounceMonitor::update(const Twist &twist, const Wrench &push, double dt_s) noexcept {
     since_s_ += dt_s;
-    const DofArray speed = pole_end_speeds(twist);
-    const Vec3 couple = push.moment_nm / kRotationArm_m;
-    const DofArray force{push.force_n.x,
-                         push.force_n.y,
-                         push.force_n.z,
-                         couple.x,
-                         couple.y,
-                         couple.z,
-                         push.grasp_torque_nm / kGraspArm_m};
+    const DofLanes speed = pole_end_speeds(twist);
+    const DofLanes force =
+        lanes(push.force_n, push.moment_nm / kRotationArm_m, push.grasp_torque_nm / kGraspArm_m);
     const bool touches = dot(force, force) > kLeastPush_n * kLeastPush_n; // false for NaN
     if (touches) {
         if (!touching_) {

@@ -3,7 +3,7 @@
 // each touch. A tap loses it.
 #pragma once
 
-#include "core/base/types.h"
+#include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
@@ -18,8 +18,8 @@ public:
     [[nodiscard]] double speed_m_s() const noexcept { return speed_m_s_; }
 
 private:
-    DofArray arrival_m_s_{};
-    DofArray impulse_ns_{};
+    DofLanes arrival_m_s_{};
+    DofLanes impulse_ns_{};
     double touched_s_ = 0.0; // how long, while it touches
     double since_s_ = 0.0;   // the last bounce
     double speed_m_s_ = 0.0;

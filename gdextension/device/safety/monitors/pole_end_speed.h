@@ -1,7 +1,7 @@
 // The seven DOF of a twist on one scale, for monitors that weigh them against each other.
 #pragma once
 
-#include "core/base/types.h"
+#include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
@@ -10,14 +10,9 @@ inline constexpr double kRotationArm_m = 0.04;
 inline constexpr double kGraspArm_m = 0.02;
 
 // m/s.
-inline DofArray pole_end_speeds(const Twist &twist) noexcept {
-    return {twist.linear_m_s.x,
-            twist.linear_m_s.y,
-            twist.linear_m_s.z,
-            kRotationArm_m * twist.angular_rad_s.x,
-            kRotationArm_m * twist.angular_rad_s.y,
-            kRotationArm_m * twist.angular_rad_s.z,
-            kGraspArm_m * twist.grasp_rate_rad_s};
+[[nodiscard]] inline DofLanes pole_end_speeds(const Twist &twist) noexcept {
+    return lanes(twist.linear_m_s, kRotationArm_m * twist.angular_rad_s,
+                 kGraspArm_m * twist.grasp_rate_rad_s);
 }
 
 } // namespace spidar

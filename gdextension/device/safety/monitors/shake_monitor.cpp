@@ -71,7 +71,7 @@ bool ShakeMonitor::Channel::settled() const noexcept {
 
 void ShakeMonitor::update(const Twist &twist, const Wrench &push, bool rendering,
                           double dt_s) noexcept {
-    const DofArray speeds = pole_end_speeds(twist);
+    const DofLanes speeds = pole_end_speeds(twist);
     bool shaking = false;
     for (std::size_t k = 0; k < speeds_.size(); ++k) {
         if (speeds_[k].update(speeds[k], kSpeed, dt_s)) {
