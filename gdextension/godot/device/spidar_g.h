@@ -23,7 +23,7 @@
 #include "godot/settings/spidar_g_config.h"
 
 namespace spidar {
-class ReplayTransport;
+class Replay;
 }
 
 class SpidarG : public godot::Node3D {
@@ -277,7 +277,7 @@ private:
     std::string fallback_;                // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
-    spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
+    spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
     spidar::HapticCommand command_;
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()

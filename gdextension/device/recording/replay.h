@@ -1,5 +1,5 @@
-// A recording in place of a device: gives a servo loop what the recorded one was given, and compares what comes out with
-// what came out then, bit for bit. No motor is behind it.
+// A recording that is played again: gives a servo loop what the recorded one was given, and compares what comes out with
+// what came out then, bit for bit. No motor is behind it, and no game's command comes between.
 #pragma once
 
 #include <atomic>
@@ -7,12 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "device/contract/transport.h"
 #include "device/recording/recording_file.h"
+#include "device/step/cycle_source.h"
 
 namespace spidar {
-
-class ServoStep;
 
 struct ReplayReport {
     std::uint64_t cycles = 0;          // replayed so far
@@ -24,9 +22,9 @@ struct ReplayReport {
     double time_s = 0.0;
 };
 
-class ReplayTransport final : public Transport {
+class Replay final : public CycleSource {
 public:
-    // Empty: the transport is ready for ServoLoop. Else one sentence: no file, damaged, of another build.
+    // Empty: ready for ServoLoop. Else one sentence: no file, damaged, of another build.
     [[nodiscard]] std::string load(const std::string &path);
 
     // Those of the recorded device: what to start the loop with.
@@ -36,17 +34,13 @@ public:
     // Sets the process to the vector level of the recording, and back when closed.
     Status open() noexcept override;
     void close() noexcept override;
-    Status read(DeviceReading &reading) noexcept override;
-    Status write(const DriveCommand &command) noexcept override;
     [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
-    [[nodiscard]] ReplayTransport *as_replay() noexcept override { return this; }
-
-    // From the loop, before each cycle. False: the recording is at its end, and the loop rests. At the start of a
-    // segment the step gets the memory that it had.
-    bool next(ServoStep &step, HapticCommand &command, double &dt_s) noexcept;
-    [[nodiscard]] bool may_arm_itself() const noexcept { return cycle_.input.may_arm_itself; }
-    // After each cycle.
-    void compare(const ServoSnapshot &snapshot, const DriveCommand &drive) noexcept;
+    // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
+    bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
+    Status write(const DriveCommand &drive) noexcept override;
+    // Compares.
+    void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
+                double dt_s) noexcept override;
 
     // The cycle that was last replayed, as recorded. From the loop's thread, or when it rests.
     [[nodiscard]] const RecordedCycle &cycle() const noexcept { return cycle_; }

@@ -1,4 +1,4 @@
-#include "device/recording/replay_transport.h"
+#include "device/recording/replay.h"
 
 #include <cstring>
 #include <new>
@@ -8,12 +8,12 @@
 
 namespace spidar {
 
-std::string ReplayTransport::load(const std::string &path) {
+std::string Replay::load(const std::string &path) {
     std::string problem = reader_.open(path);
     return problem.empty() ? why_no_replay(reader_.info()) : problem;
 }
 
-Status ReplayTransport::open() noexcept {
+Status Replay::open() noexcept {
     if (is_open_) {
         return Status::ok;
     }
@@ -25,14 +25,14 @@ Status ReplayTransport::open() noexcept {
     return Status::ok;
 }
 
-void ReplayTransport::close() noexcept {
+void Replay::close() noexcept {
     if (is_open_) {
         set_simd_level(level_before_);
         is_open_ = false;
     }
 }
 
-bool ReplayTransport::next(ServoStep &step, HapticCommand &command, double &dt_s) noexcept {
+bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {
     bool more = false;
     try {
         more = !finished_.load(std::memory_order_relaxed) && reader_.next(cycle_);
@@ -51,22 +51,19 @@ bool ReplayTransport::next(ServoStep &step, HapticCommand &command, double &dt_s
         std::memcpy(static_cast<void *>(&step), reader_.memory().data(), sizeof step);
     }
     if (cycle_.command_is_new) {
-        load_words(cycle_.command_words, command);
+        load_words(cycle_.command_words, given.command);
     }
-    dt_s = cycle_.input.dt_s;
+    given.command_is_new = true; // for who records the replay
+    given.input = cycle_.input;
     return true;
 }
 
-Status ReplayTransport::read(DeviceReading &reading) noexcept {
-    reading = cycle_.input.reading;
-    return cycle_.input.read_status;
-}
-
-Status ReplayTransport::write(const DriveCommand & /*command*/) noexcept {
+Status Replay::write(const DriveCommand & /*drive*/) noexcept {
     return cycle_.input.write_status;
 }
 
-void ReplayTransport::compare(const ServoSnapshot &snapshot, const DriveCommand &drive) noexcept {
+void Replay::finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
+                    double /*dt_s*/) noexcept {
     CycleOutput output;
     fill_output(snapshot, drive, output);
     cycles_.fetch_add(1, std::memory_order_relaxed);
@@ -78,7 +75,7 @@ void ReplayTransport::compare(const ServoSnapshot &snapshot, const DriveCommand 
     }
 }
 
-ReplayReport ReplayTransport::report() const noexcept {
+ReplayReport Replay::report() const noexcept {
     ReplayReport report;
     report.finished = finished_.load(std::memory_order_acquire);
     report.cycles = cycles_.load(std::memory_order_relaxed);
@@ -89,7 +86,7 @@ ReplayReport ReplayTransport::report() const noexcept {
     return report;
 }
 
-std::string ReplayTransport::damage() const {
+std::string Replay::damage() const {
     return finished_.load(std::memory_order_acquire) ? reader_.damage() : std::string();
 }
 
