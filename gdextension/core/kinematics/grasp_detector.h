@@ -26,7 +26,7 @@ public:
     GraspPhase update(double grasp_angle_rad, double dt_s) noexcept;
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
     // No change of phase is waiting for its dwell.
-    [[nodiscard]] bool settled() const noexcept { return candidate_ == phase_; }
+    [[nodiscard]] bool at_rest() const noexcept { return candidate_ == phase_; }
     void reset() noexcept;
 
 private:

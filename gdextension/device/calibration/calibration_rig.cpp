@@ -188,9 +188,7 @@ void CalibrationRig::Impl::keep_sample(double dt_s) noexcept {
     if (!orders.collecting || since_sample_s < kSampleInterval_s) {
         return;
     }
-    if (CountArray *const slot = samples.free_slot()) { // full: nobody fetches, so leave it
-        *slot = reading.counts;
-        samples.commit();
+    if (samples.offer(reading.counts)) { // full: nobody fetches, so leave it
         since_sample_s = 0.0;
     }
 }
@@ -280,13 +278,7 @@ bool CalibrationRig::latest(RigNews &news) noexcept {
 }
 
 bool CalibrationRig::next_sample(CountArray &counts) noexcept {
-    const CountArray *const oldest = impl_->samples.oldest();
-    if (oldest == nullptr) {
-        return false;
-    }
-    counts = *oldest;
-    impl_->samples.pop();
-    return true;
+    return impl_->samples.take(counts);
 }
 
 } // namespace spidar

@@ -21,7 +21,6 @@ constexpr double kMaxPlaneSpeed_m_s = 10.0;
 constexpr double kMaxFriction = 10.0;
 // Below this a contact is no contact yet, and its share of a push is not a number to divide by.
 constexpr double kLeastDepth_m = 1e-9;
-constexpr double kFarAway_m = 10.0; // beyond any frame: such a plane never or always touches
 // Keeps 1 / stiffness finite for a contact that only damps.
 constexpr double kSoftestContact_n_m = 1e-3;
 // 1 / sqrt of the god-object's stiffnesses.
@@ -54,6 +53,16 @@ bool is_turn_stop(const ContactPlane &plane) noexcept {
 
 bool is_stop(const ContactPlane &plane) noexcept {
     return is_grasp_stop(plane) || is_turn_stop(plane);
+}
+
+// A DOF of the kind that the contact acts on: caps differ between the kinds.
+std::size_t kind_of_dof(const ContactPlane &plane) noexcept {
+    constexpr std::size_t kTurn = 3;
+    constexpr std::size_t kGrasp = 6;
+    if (is_stop(plane)) {
+        return is_grasp_stop(plane) ? kGrasp : kTurn;
+    }
+    return 0;
 }
 
 // How the component along `axis` of the rotation vector `turn` changes with an angular velocity: a covector.
@@ -97,20 +106,15 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
         if (is_grasp_stop(plane)) {
             plane.normal = Vec3(plane.normal.x > 0.0 ? 1.0 : -1.0, 0.0, 0.0);
             plane.velocity_m_s = Vec3(plane.velocity_m_s.x, 0.0, 0.0);
-            plane.stiffness_n_m = capped(plane.stiffness_n_m, caps_.grasp_stiffness_nm_rad,
-                                         Gain::grasp_stiffness, index, caps_.from_latency, clamp);
-            plane.damping_n_s_m = capped(plane.damping_n_s_m, caps_.grasp_damping_nm_s_rad,
-                                         Gain::grasp_damping, index, false, clamp);
         } else {
             plane.normal = glm::normalize(plane.normal);
-            const bool turn = is_turn_stop(plane);
-            plane.stiffness_n_m = capped(
-                plane.stiffness_n_m, turn ? caps_.turn_stiffness_nm_rad : caps_.stiffness_n_m,
-                turn ? Gain::turn_stiffness : Gain::stiffness, index, caps_.from_latency, clamp);
-            plane.damping_n_s_m = capped(
-                plane.damping_n_s_m, turn ? caps_.turn_damping_nm_s_rad : caps_.damping_n_s_m,
-                turn ? Gain::turn_damping : Gain::damping, index, false, clamp);
         }
+        const DofCap stiffness = stiffness_cap(caps_, kind_of_dof(plane));
+        const DofCap damping = damping_cap(caps_, kind_of_dof(plane));
+        plane.stiffness_n_m = capped(plane.stiffness_n_m, stiffness.most, stiffness.gain, index,
+                                     caps_.from_latency, clamp);
+        plane.damping_n_s_m =
+            capped(plane.damping_n_s_m, damping.most, damping.gain, index, false, clamp);
         plane.friction = capped(plane.friction, kMaxFriction, Gain::friction, index, false, clamp);
         plane.offset_m = std::clamp(plane.offset_m, -kFarAway_m, kFarAway_m);
         for (int k = 0; k < 3; ++k) {

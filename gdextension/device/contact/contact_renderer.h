@@ -38,7 +38,7 @@ public:
 
     // Same order as the command's contacts.
     int report(std::array<ContactReport, kMaxContacts> &reports) const noexcept;
-    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    [[nodiscard]] bool at_rest() const noexcept { return count_ == 0; }
 
 private:
     struct Track {

@@ -29,8 +29,6 @@ public:
     // The surface at the clock's present.
     [[nodiscard]] ContactSurface now(const GameClock &clock) const noexcept;
 
-    [[nodiscard]] const ContactPlane &plane() const noexcept { return plane_; }
-
 private:
     ContactPlane plane_; // as last given
     ContactSurface from_;

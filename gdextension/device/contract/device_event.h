@@ -85,7 +85,7 @@ public:
     void begin_cycle(double time_s) noexcept;
     void tell(DeviceEventKind kind, int string = -1, double value = 0.0) noexcept;
     // Nothing was told in this cycle, not even again.
-    [[nodiscard]] bool silent() const noexcept { return silent_; }
+    [[nodiscard]] bool at_rest() const noexcept { return silent_; }
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return {events_.data(), count_};
     }

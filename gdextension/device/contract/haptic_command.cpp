@@ -1,45 +1,21 @@
 #include "device/contract/haptic_command.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
+
+#include "core/base/finite.h"
 
 namespace spidar {
 
 namespace {
 
-bool all_finite(const Vec3 &v) noexcept {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // A normal this far from unit length is a mistake, not rounding: games compute in single precision (1e-7).
 constexpr double kUnitTolerance = 1e-3;
 
-bool all_finite(const Mat3 &m) noexcept {
-    return all_finite(m[0]) && all_finite(m[1]) && all_finite(m[2]);
-}
-
-bool all_finite(const Twist &twist) noexcept {
-    return all_finite(twist.linear_m_s) && all_finite(twist.angular_rad_s) &&
-           std::isfinite(twist.grasp_rate_rad_s);
-}
-
-bool all_finite(const DofGains &gains) noexcept {
-    for (const double gain : gains) {
-        if (!std::isfinite(gain)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 bool none_negative(const DofGains &gains) noexcept {
-    for (const double gain : gains) {
-        if (!(gain >= 0.0)) {
-            return false;
-        }
-    }
-    return true;
+    return std::ranges::all_of(gains, [](double gain) { return gain >= 0.0; });
 }
 
 // Orthonormal, right-handed.
@@ -53,11 +29,25 @@ bool is_rotation(const Mat3 &m) noexcept {
            glm::dot(glm::cross(m[0], m[1]), m[2]) > 0.0;
 }
 
+// The first `count` of these.
+template <typename Requests, typename Validate>
+Status validate_first(const Requests &requests, int count, Validate validate) noexcept {
+    if (count < 0 || count > static_cast<int>(requests.size())) {
+        return Status::invalid_request;
+    }
+    for (int i = 0; i < count; ++i) {
+        const Status status = validate(requests[static_cast<std::size_t>(i)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    return Status::ok;
+}
+
 } // namespace
 
 Status validate_wrench(const Wrench &wrench, double duration_s) noexcept {
-    if (!all_finite(wrench.force_n) || !all_finite(wrench.moment_nm) ||
-        !std::isfinite(wrench.grasp_torque_nm) || !std::isfinite(duration_s)) {
+    if (!all_finite(wrench, duration_s)) {
         return Status::not_finite;
     }
     if (!(duration_s >= 0.0 && duration_s <= kMaxWrenchDuration_s)) {
@@ -67,9 +57,8 @@ Status validate_wrench(const Wrench &wrench, double duration_s) noexcept {
 }
 
 Status validate_contact(const ContactPlane &contact) noexcept {
-    if (!all_finite(contact.normal) || !all_finite(contact.velocity_m_s) ||
-        !std::isfinite(contact.offset_m) || !std::isfinite(contact.stiffness_n_m) ||
-        !std::isfinite(contact.damping_n_s_m) || !std::isfinite(contact.friction)) {
+    if (!all_finite(contact.normal, contact.velocity_m_s, contact.offset_m, contact.stiffness_n_m,
+                    contact.damping_n_s_m, contact.friction)) {
         return Status::not_finite;
     }
     if (contact.target > ContactTarget::turn_stop) {
@@ -94,27 +83,16 @@ Status validate_contact(const ContactPlane &contact) noexcept {
 }
 
 Status validate_contacts(const HapticCommand &command) noexcept {
-    if (!std::isfinite(command.contacts_state_time_s)) {
+    if (!all_finite(command.contacts_state_time_s)) {
         return Status::not_finite;
     }
-    if (command.contact_count < 0 || command.contact_count > kMaxContacts) {
-        return Status::invalid_request;
-    }
-    for (int i = 0; i < command.contact_count; ++i) {
-        const Status status = validate_contact(command.contacts[static_cast<std::size_t>(i)]);
-        if (!usable(status)) {
-            return status;
-        }
-    }
-    return Status::ok;
+    return validate_first(command.contacts, command.contact_count, validate_contact);
 }
 
 Status validate_coupling(const Coupling &coupling) noexcept {
-    if (!all_finite(coupling.position_m) || !all_finite(coupling.rotation) ||
-        !std::isfinite(coupling.grasp_angle_rad) || !all_finite(coupling.twist) ||
-        !all_finite(coupling.stiffness) || !all_finite(coupling.damping) ||
-        !std::isfinite(coupling.max_force_n) || !std::isfinite(coupling.max_moment_nm) ||
-        !std::isfinite(coupling.max_grasp_torque_nm) || !std::isfinite(coupling.state_time_s)) {
+    if (!all_finite(coupling.position_m, coupling.rotation, coupling.grasp_angle_rad,
+                    coupling.twist, coupling.stiffness, coupling.damping, coupling.max_force_n,
+                    coupling.max_moment_nm, coupling.max_grasp_torque_nm, coupling.state_time_s)) {
         return Status::not_finite;
     }
     const bool usable_gains = none_negative(coupling.stiffness) && none_negative(coupling.damping);
@@ -127,10 +105,8 @@ Status validate_coupling(const Coupling &coupling) noexcept {
 }
 
 Status validate_effect(const Effect &effect) noexcept {
-    if (!all_finite(effect.gain) || !all_finite(effect.centre_m) ||
-        !all_finite(effect.centre_rotation) || !std::isfinite(effect.centre_grasp_rad) ||
-        !std::isfinite(effect.frequency_hz) || !all_finite(effect.spacing) ||
-        !std::isfinite(effect.duration_s)) {
+    if (!all_finite(effect.gain, effect.centre_m, effect.centre_rotation, effect.centre_grasp_rad,
+                    effect.frequency_hz, effect.spacing, effect.duration_s)) {
         return Status::not_finite;
     }
     if (static_cast<int>(effect.kind) >= kEffectKindCount || effect.dof_mask > kAllDof ||
@@ -158,16 +134,7 @@ Status validate_effect(const Effect &effect) noexcept {
 }
 
 Status validate_effects(const HapticCommand &command) noexcept {
-    if (command.effect_count < 0 || command.effect_count > kMaxEffects) {
-        return Status::invalid_request;
-    }
-    for (int i = 0; i < command.effect_count; ++i) {
-        const Status status = validate_effect(command.effects[static_cast<std::size_t>(i)]);
-        if (!usable(status)) {
-            return status;
-        }
-    }
-    return Status::ok;
+    return validate_first(command.effects, command.effect_count, validate_effect);
 }
 
 } // namespace spidar

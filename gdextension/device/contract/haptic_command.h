@@ -11,6 +11,8 @@
 namespace spidar {
 
 inline constexpr int kMaxContacts = 8;
+// Beyond any frame: no request reaches further, so that absurd ones do not overflow.
+inline constexpr double kFarAway_m = 10.0;
 // A raw wrench is short-lived by nature: nothing local stops a grip that the hand lets go.
 inline constexpr double kMaxWrenchDuration_s = 60.0;
 
@@ -24,7 +26,6 @@ enum class ContactTarget : std::uint8_t {
     grasp_stop = 5,  // 1-D: acts on grasp_angle
     turn_stop = 6,   // 1-D: acts on the grip's turn about one axis
 };
-inline constexpr int kContactTargetCount = 7;
 
 // Bit k of a DOF mask: x, y, z, turns about x, y, z, grasp; axes of the device.
 inline constexpr std::uint8_t kAllDof = 0x7F;

@@ -30,6 +30,15 @@ struct DriveCommand {
         false; // acts only with motors_on false: the device may forget latched faults
 };
 
+// What a servo cycle takes in from outside, beside the game's command.
+struct CycleInput {
+    DeviceReading reading; // stays what it was when nothing new came
+    double dt_s = 0.001;
+    Status read_status = Status::ok;
+    Status write_status = Status::ok; // of what this cycle sends: for ServoStep::report_write()
+    bool may_arm_itself = false;
+};
+
 class Transport {
 public:
     Transport() = default;

@@ -27,26 +27,9 @@ void HidStatistics::write_took(std::uint64_t time_us) noexcept {
 }
 
 HidCounters HidStatistics::counters() const noexcept {
-    const auto value = [](const Counter &counter) {
-        return counter.load(std::memory_order_relaxed);
-    };
-    HidCounters read;
-    read.reports = value(reports);
-    read.superseded = value(superseded);
-    read.lost = value(lost);
-    read.wrong_length = value(wrong_length);
-    read.corrupt = value(corrupt);
-    read.replayed = value(replayed);
-    read.out_of_order = value(out_of_order);
-    read.implausible = value(implausible);
-    read.stale = value(stale);
-    read.restarts = value(restarts);
-    read.commands = value(commands);
-    read.skipped_commands = value(skipped_commands);
-    read.write_failures = value(write_failures);
-    read.losses = value(losses);
-    read.replugs = value(replugs);
-    return read;
+    return {reports,  superseded,       lost,           wrong_length, corrupt,
+            replayed, out_of_order,     implausible,    stale,        restarts,
+            commands, skipped_commands, write_failures, losses,       replugs};
 }
 
 HidTimes HidStatistics::times() const noexcept {
@@ -54,7 +37,6 @@ HidTimes HidStatistics::times() const noexcept {
     times.round_trip_p50_us = round_trip_.quantile_us(kMedian);
     times.round_trip_p99_us = round_trip_.quantile_us(kTail);
     times.round_trip_max_us = round_trip_.max_us();
-    times.write_p50_us = write_time_.quantile_us(kMedian);
     times.write_p99_us = write_time_.quantile_us(kTail);
     times.write_max_us = write_time_.max_us();
     return times;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "device/loop/host_watchdogs.h"
 #include "device/step/cycle_source.h"
@@ -16,21 +17,62 @@ public:
     explicit DeviceSource(std::unique_ptr<Transport> transport)
         : transport_(std::move(transport)), writer_(*transport_) {}
 
-    Status open() noexcept override;
-    void close() noexcept override;
-    Status begin(bool threaded) noexcept override;
-    void motors_off() noexcept override;
+    Status open() noexcept override {
+        const Status status = transport_->open();
+        is_open_ = usable(status);
+        return status;
+    }
+    void close() noexcept override {
+        transport_->close();
+        is_open_ = false;
+    }
+    Status begin(bool threaded) noexcept override {
+        watchdogs_.restart();
+        use_writer_ = threaded && transport_->write_may_block();
+        return use_writer_ ? writer_.start() : Status::ok;
+    }
+    void motors_off() noexcept override {
+        if (use_writer_) {
+            writer_.stop();
+        } else if (is_open_) {
+            transport_->write(DriveCommand());
+        }
+    }
     [[nodiscard]] bool simulated() const noexcept override { return transport_->simulated(); }
     [[nodiscard]] bool wait_report(std::int64_t until_ns) noexcept override {
         return transport_->wait_report(until_ns);
     }
-    bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
-    Status write(const DriveCommand &drive) noexcept override;
-    void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
-                double dt_s) noexcept override;
+
+    bool next(CycleGiven &given, ServoStep & /*step*/, EventLog &events) noexcept override {
+        const bool from_game = commands_.read(given.command);
+        const bool stops =
+            watchdogs_.watch(use_writer_ ? &writer_ : nullptr, given.command, events);
+        given.command_is_new = from_game || stops;
+        given.input.may_arm_itself = transport_->simulated();
+        given.input.read_status = transport_->read(given.input.reading);
+        return true;
+    }
+    Status write(const DriveCommand &drive) noexcept override {
+        if (!use_writer_) {
+            return transport_->write(drive);
+        }
+        writer_.post(drive);
+        if (!drive.motors_on) {
+            writer_.allow(); // what a panic forbade is off in what is posted, too
+        }
+        return writer_.take_result();
+    }
+    void finish(const ServoSnapshot & /*snapshot*/, const DriveCommand & /*drive*/,
+                double dt_s) noexcept override {
+        transport_->advance(dt_s);
+    }
+
     void publish(const HapticCommand &command) noexcept override { commands_.write(command); }
     bool read_command(HapticCommand &command) noexcept override { return commands_.read(command); }
-    void panic() noexcept override;
+    void panic() noexcept override {
+        watchdogs_.panic();
+        writer_.forbid();
+    }
 
 private:
     std::unique_ptr<Transport> transport_;

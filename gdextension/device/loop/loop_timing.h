@@ -1,7 +1,6 @@
 // How punctual a loop's thread is: counted by that thread, read by any other at any time.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 
@@ -24,24 +23,73 @@ struct LoopStatistics {
 class LoopTiming {
 public:
     // While no thread runs. rate_hz: what measured_rate_hz says until a second was measured.
-    void restart(double rate_hz) noexcept;
+    void restart(double rate_hz) noexcept {
+        lateness_.clear();
+        step_time_.clear();
+        missed_deadlines_.store(0, std::memory_order_relaxed);
+        late_cycles_.store(0, std::memory_order_relaxed);
+        measured_rate_hz_.store(rate_hz, std::memory_order_relaxed);
+        real_time_priority_.store(false, std::memory_order_relaxed);
+        cycles_of_hundred_ = 0;
+        late_of_hundred_ = 0;
+    }
 
-    // From the loop's thread.
+    // From the loop's thread, all but the last two.
+    void begin(std::int64_t now_ns) noexcept {
+        second_began_ns_ = now_ns;
+        cycles_of_second_ = 0;
+    }
     void set_real_time_priority(bool granted) noexcept {
         real_time_priority_.store(granted, std::memory_order_relaxed);
     }
-    void begin(std::int64_t now_ns) noexcept;
     // A cycle begins so long after its deadline. True: too many of the last hundred came late.
-    bool woken(std::int64_t late_ns) noexcept;
-    void cycle_ended(std::int64_t woken_ns, std::int64_t now_ns) noexcept;
-    void missed(std::int64_t deadlines) noexcept;
+    bool woken(std::int64_t late_ns) noexcept {
+        lateness_.add(late_ns);
+        const bool late = late_ns > kLate_ns;
+        late_cycles_.fetch_add(late ? 1 : 0, std::memory_order_relaxed);
+        late_of_hundred_ += late ? 1 : 0;
+        if (++cycles_of_hundred_ < 100) {
+            return false;
+        }
+        const bool too_many = late_of_hundred_ > kLateOfHundred;
+        cycles_of_hundred_ = 0;
+        late_of_hundred_ = 0;
+        return too_many;
+    }
+    void cycle_ended(std::int64_t woken_ns, std::int64_t now_ns) noexcept {
+        step_time_.add(now_ns - woken_ns);
+        ++cycles_of_second_;
+        const auto window_ns = static_cast<double>(now_ns - second_began_ns_);
+        if (window_ns >= 1e9) {
+            measured_rate_hz_.store(cycles_of_second_ * 1e9 / window_ns, std::memory_order_relaxed);
+            begin(now_ns);
+        }
+    }
+    void missed(std::int64_t deadlines) noexcept {
+        missed_deadlines_.fetch_add(static_cast<std::uint64_t>(deadlines),
+                                    std::memory_order_relaxed);
+    }
 
-    [[nodiscard]] LoopStatistics statistics() const noexcept;
-    // Samples of the lateness in each of LoopHistogram's buckets.
-    [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
-    lateness_counts() const noexcept;
+    [[nodiscard]] LoopStatistics statistics() const noexcept {
+        constexpr double kMedian = 0.5;
+        constexpr double kTail = 0.99;
+        return {measured_rate_hz_.load(std::memory_order_relaxed),
+                lateness_.quantile_us(kMedian),
+                lateness_.quantile_us(kTail),
+                lateness_.max_us(),
+                step_time_.quantile_us(kMedian),
+                step_time_.quantile_us(kTail),
+                missed_deadlines_.load(std::memory_order_relaxed),
+                late_cycles_.load(std::memory_order_relaxed),
+                real_time_priority_.load(std::memory_order_relaxed)};
+    }
+    [[nodiscard]] const LoopHistogram &lateness() const noexcept { return lateness_; }
 
 private:
+    // A cycle this late is counted; so many in a hundred are told.
+    static constexpr std::int64_t kLate_ns = 1'000'000;
+    static constexpr int kLateOfHundred = 3;
+
     LoopHistogram lateness_;
     LoopHistogram step_time_;
     std::atomic<std::uint64_t> missed_deadlines_{0};
@@ -52,7 +100,7 @@ private:
     int cycles_of_hundred_ = 0;
     int late_of_hundred_ = 0;
     std::int64_t second_began_ns_ = 0;
-    std::int64_t cycles_of_second_ = 0;
+    int cycles_of_second_ = 0;
 };
 
 } // namespace spidar

@@ -15,15 +15,46 @@ class Recordings {
 public:
     // From the controlling thread. in_time: the loop runs in a thread of its own. Empty: recording. Else one sentence.
     [[nodiscard]] std::string start(const std::string &path, const ServoSettings &settings,
-                                    bool in_time);
-    void stop() noexcept;
+                                    bool in_time) {
+        if (recording()) {
+            return "A recording runs already. Stop it before the next one starts.";
+        }
+        const std::uint64_t done = cycles_.load(std::memory_order_acquire);
+        std::erase_if(owned_, [done, in_time](const Owned &owned) {
+            return !in_time || done >= owned.free_at_cycle;
+        });
+        auto recorder = std::make_unique<Recorder>(settings, in_time);
+        std::string problem = recorder->open(path);
+        if (problem.empty()) {
+            owned_.push_back({std::move(recorder)});
+            current_.store(owned_.back().recorder.get(), std::memory_order_release);
+        }
+        return problem;
+    }
+    void stop() noexcept {
+        Recorder *const recorder = current_.exchange(nullptr, std::memory_order_acq_rel);
+        if (recorder == nullptr) {
+            return;
+        }
+        // The cycle that runs now may hold it, and the one that is about to begin has not seen the change.
+        constexpr std::uint64_t kCyclesToLetGo = 2;
+        owned_.back().free_at_cycle = cycles_.load(std::memory_order_acquire) + kCyclesToLetGo;
+        recorder->close();
+        last_ = recorder->statistics();
+    }
     // The same, while the loop rests: nothing holds a recorder.
-    void stop_at_rest() noexcept;
+    void stop_at_rest() noexcept {
+        stop();
+        owned_.clear();
+    }
     [[nodiscard]] bool recording() const noexcept {
         return current_.load(std::memory_order_relaxed) != nullptr;
     }
     // Of the recording that runs, or else of the last one.
-    [[nodiscard]] RecorderStatistics statistics() const noexcept;
+    [[nodiscard]] RecorderStatistics statistics() const noexcept {
+        const Recorder *const recorder = current_.load(std::memory_order_relaxed);
+        return recorder != nullptr ? recorder->statistics() : last_;
+    }
 
     // From the loop's thread: what this cycle is recorded by, null for nothing; and the end of a cycle.
     [[nodiscard]] Recorder *current() const noexcept {

@@ -37,7 +37,7 @@ void ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
     }
     for (const auto &log : {step_.events(), host_events_.events()}) {
         for (const DeviceEvent &event : log) {
-            events_.push(event);
+            events_.offer(event);
         }
     }
     host_events_.begin_cycle(snapshot.time_s);
@@ -50,7 +50,7 @@ void ServoCycle::show_open_failed(Status why) noexcept {
     ServoSnapshot closed;
     closed.fault = why;
     snapshots_.write(closed);
-    events_.push({0.0, 0.0, DeviceEventKind::open_failed, -1, 0});
+    events_.offer({0.0, 0.0, DeviceEventKind::open_failed, -1, 0});
 }
 
 void ServoCycle::show_closed() noexcept {

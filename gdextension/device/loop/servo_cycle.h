@@ -6,8 +6,8 @@
 #include "device/loop/recordings.h"
 #include "device/step/cycle_source.h"
 #include "device/step/servo_step.h"
-#include "device/threads/event_queue.h"
 #include "device/threads/nonblocking.h"
+#include "device/threads/spsc_ring.h"
 #include "device/threads/triple_buffer.h"
 
 namespace spidar {
@@ -26,19 +26,23 @@ public:
 
     [[nodiscard]] CycleSource &source() noexcept { return *source_; }
     [[nodiscard]] Recordings &recordings() noexcept { return recordings_; }
+    [[nodiscard]] const Recordings &recordings() const noexcept { return recordings_; }
     // Of the host, beside the step's. From the loop's thread.
     [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
     // From the controlling thread; false: nothing new.
     bool latest(ServoSnapshot &snapshot) noexcept { return snapshots_.read(snapshot); }
-    bool next_event(DeviceEvent &event) noexcept { return events_.pop(event); }
+    bool next_event(DeviceEvent &event) noexcept { return events_.take(event); }
 
 private:
+    // When nobody reads them, the newest are dropped.
+    static constexpr std::size_t kWaitingEvents = 256;
+
     std::unique_ptr<CycleSource> source_;
     ServoStep step_;
     CycleGiven given_;
     Recordings recordings_;
     EventLog host_events_;
-    EventQueue events_;
+    SpscRing<DeviceEvent> events_{kWaitingEvents};
     TripleBuffer<ServoSnapshot> snapshots_;
 };
 

@@ -7,25 +7,21 @@
 #include <memory>
 #include <string>
 
-#include "device/contract/device_event.h"
-#include "device/contract/haptic_command.h"
-#include "device/contract/servo_snapshot.h"
 #include "device/contract/transport.h"
 #include "device/loop/loop_timing.h"
-#include "device/recording/recorder_statistics.h"
-#include "device/settings/servo_settings.h"
+#include "device/loop/servo_cycle.h"
+#include "device/loop/servo_thread.h"
+#include "device/loop/tick_accumulator.h"
 
 namespace spidar {
-
-class CycleSource;
 
 class ServoLoop {
 public:
     // A device.
     explicit ServoLoop(std::unique_ptr<Transport> transport);
     // What brings its own commands: a Replay (recording/replay.h).
-    explicit ServoLoop(std::unique_ptr<CycleSource> source);
-    ~ServoLoop(); // stop()
+    explicit ServoLoop(std::unique_ptr<CycleSource> source) : cycle_(std::move(source)) {}
+    ~ServoLoop() { stop(); }
     ServoLoop(const ServoLoop &) = delete;
     ServoLoop &operator=(const ServoLoop &) = delete;
 
@@ -38,38 +34,54 @@ public:
     void stop() noexcept;
     // From any thread, at any time, one atomic: the motors go off in the next cycle, and at once where a writer thread
     // serves the device. Latched: clear_fault() and arm() lead back.
-    void panic_stop() noexcept;
+    void panic_stop() noexcept { cycle_.source().panic(); }
     // Since the thread began its last cycle (unit: s); 0 when none runs. What a game watches the loop by.
-    [[nodiscard]] double since_last_cycle_s() const noexcept;
+    [[nodiscard]] double since_last_cycle_s() const noexcept {
+        return thread_.since_last_cycle_s();
+    }
     // What happened, in order. False: nothing more. From the controlling thread.
-    bool next_event(DeviceEvent &event) noexcept;
-    [[nodiscard]] bool running() const noexcept;
-    [[nodiscard]] bool threaded() const noexcept;
+    bool next_event(DeviceEvent &event) noexcept { return cycle_.next_event(event); }
+    [[nodiscard]] bool running() const noexcept { return is_running_; }
+    [[nodiscard]] bool threaded() const noexcept { return thread_.running(); }
 
     // Stepped only: advance by numerator/denominator seconds of simulated time in whole servo cycles; the rest
     // is carried (rational accumulator: 1/60 s at 1 kHz gives 16 or 17 cycles). Returns the cycles run.
     int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
 
     // Newest command wins. Wait-free.
-    void publish(const HapticCommand &command) noexcept;
+    void publish(const HapticCommand &command) noexcept { cycle_.source().publish(command); }
     // The newest snapshot. True when it is newer than at the last call. Wait-free.
-    bool latest(ServoSnapshot &snapshot) noexcept;
-    [[nodiscard]] LoopStatistics statistics() const noexcept;
+    bool latest(ServoSnapshot &snapshot) noexcept { return cycle_.latest(snapshot); }
+    [[nodiscard]] LoopStatistics statistics() const noexcept { return timing_.statistics(); }
     // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
-    lateness_counts() const noexcept;
+    lateness_counts() const noexcept {
+        return timing_.lateness().counts();
+    }
 
     // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
     // a recording that runs goes on. stop() ends a recording too.
-    [[nodiscard]] std::string start_recording(const std::string &path);
-    void stop_recording() noexcept;
-    [[nodiscard]] bool recording() const noexcept;
+    [[nodiscard]] std::string start_recording(const std::string &path) {
+        return running() ? cycle_.recordings().start(path, settings_, threaded())
+                         : "No device is open: there is nothing to record. Open one first.";
+    }
+    void stop_recording() noexcept { cycle_.recordings().stop(); }
+    [[nodiscard]] bool recording() const noexcept { return cycle_.recordings().recording(); }
     // Of the recording that runs, or else of the last one.
-    [[nodiscard]] RecorderStatistics recording_statistics() const noexcept;
+    [[nodiscard]] RecorderStatistics recording_statistics() const noexcept {
+        return cycle_.recordings().statistics();
+    }
 
 private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    // Ready for the first cycle, and the source open if it can be.
+    Status prepare(const ServoSettings &settings) noexcept;
+
+    ServoCycle cycle_;
+    LoopTiming timing_;
+    ServoThread thread_{cycle_, timing_};
+    TickAccumulator ticks_; // stepped
+    ServoSettings settings_;
+    bool is_running_ = false;
 };
 
 } // namespace spidar

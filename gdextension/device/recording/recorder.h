@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "device/recording/recorder_statistics.h"
 #include "device/recording/recording_file.h"
 #include "device/threads/spsc_ring.h"
 
@@ -20,6 +19,14 @@ class ServoStep;
 
 // The ring holds this much time: what a disk may sleep before cycles are lost.
 inline constexpr double kRingTime_s = 4.0;
+
+// What a recording has come to.
+struct RecorderStatistics {
+    std::uint64_t cycles = 0; // handed over
+    std::uint64_t lost = 0;   // the ring was full; marked in the file
+    std::uint64_t bytes = 0;  // written
+    bool failed = false;      // the file could not be written any further
+};
 
 class Recorder {
 public:

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kMaxProxySpeed_m_s = 10.0;
 constexpr double kMaxProxyTurnRate_rad_s = 50.0;
-// Beyond any frame: keeps absurd proxies from overflowing.
-constexpr double kFarAway_m = 10.0;
 
 Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     const double length = glm::length(v);
@@ -58,24 +56,11 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
             next.stiffness[i] = 0.0;
             next.damping[i] = 0.0;
         }
-        const bool linear = dof < 3;
-        const bool grasp = dof == 6;
-        next.stiffness[i] = capped(next.stiffness[i],
-                                   linear  ? caps_.stiffness_n_m
-                                   : grasp ? caps_.grasp_stiffness_nm_rad
-                                           : caps_.turn_stiffness_nm_rad,
-                                   linear  ? Gain::stiffness
-                                   : grasp ? Gain::grasp_stiffness
-                                           : Gain::turn_stiffness,
-                                   dof, caps_.from_latency, clamp);
-        next.damping[i] = capped(next.damping[i],
-                                 linear  ? caps_.damping_n_s_m
-                                 : grasp ? caps_.grasp_damping_nm_s_rad
-                                         : caps_.turn_damping_nm_s_rad,
-                                 linear  ? Gain::damping
-                                 : grasp ? Gain::grasp_damping
-                                         : Gain::turn_damping,
-                                 dof, false, clamp);
+        const DofCap stiffness = stiffness_cap(caps_, i);
+        const DofCap damping = damping_cap(caps_, i);
+        next.stiffness[i] = capped(next.stiffness[i], stiffness.most, stiffness.gain, dof,
+                                   caps_.from_latency, clamp);
+        next.damping[i] = capped(next.damping[i], damping.most, damping.gain, dof, false, clamp);
     }
     for (int k = 0; k < 3; ++k) {
         next.position_m[k] = std::clamp(next.position_m[k], -kFarAway_m, kFarAway_m);

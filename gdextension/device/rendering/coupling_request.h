@@ -19,7 +19,7 @@ public:
     // Once a cycle, before accept(). True in the cycle in which the coupling is dropped for its age.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
-    [[nodiscard]] bool live() const noexcept { return live_; }
+    [[nodiscard]] bool at_rest() const noexcept { return !live_; }
 
 private:
     struct Proxy {

@@ -18,23 +18,11 @@ namespace {
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // Of the servo rate: more would not be a sine any more.
 constexpr double kHighestVibration = 0.25;
-// Beyond any frame: keeps absurd centres from overflowing.
-constexpr double kFarAway_m = 10.0;
 // A constant force beyond these is the sum's limit's business; this only keeps it from overflowing.
 constexpr double kMostForce = 1e6;
 
 bool has(const Effect &effect, std::size_t dof) noexcept {
     return ((effect.dof_mask >> dof) & 1U) != 0;
-}
-
-// The cap that belongs to a DOF.
-double of_dof(std::size_t dof, double linear, double turn, double grasp) noexcept {
-    return dof < 3 ? linear : dof < 6 ? turn : grasp;
-}
-
-GainClamp::Gain gain_name(std::size_t dof, GainClamp::Gain linear, GainClamp::Gain turn,
-                          GainClamp::Gain grasp) noexcept {
-    return dof < 3 ? linear : dof < 6 ? turn : grasp;
 }
 
 } // namespace
@@ -61,30 +49,23 @@ GainClamp EffectSet::cap(Effect &effect, std::int32_t index) const noexcept {
             gain = 0.0;
             continue;
         }
-        const double stiffest = of_dof(i, caps_.stiffness_n_m, caps_.turn_stiffness_nm_rad,
-                                       caps_.grasp_stiffness_nm_rad);
+        const DofCap stiffest = stiffness_cap(caps_, i);
+        const DofCap damping = damping_cap(caps_, i);
         switch (effect.kind) {
         case EffectKind::viscous:
-            gain = capped(gain,
-                          of_dof(i, caps_.damping_n_s_m, caps_.turn_damping_nm_s_rad,
-                                 caps_.grasp_damping_nm_s_rad),
-                          gain_name(i, Gain::damping, Gain::turn_damping, Gain::grasp_damping),
-                          index, false, clamp);
+            gain = capped(gain, damping.most, damping.gain, index, false, clamp);
             break;
         case EffectKind::spring:
-            gain =
-                capped(gain, stiffest,
-                       gain_name(i, Gain::stiffness, Gain::turn_stiffness, Gain::grasp_stiffness),
-                       index, caps_.from_latency, clamp);
+            gain = capped(gain, stiffest.most, stiffest.gain, index, caps_.from_latency, clamp);
             break;
         case EffectKind::detents:
             // The stiffness at the bottom of a valley is 2 pi / spacing times its depth.
-            gain = capped(gain, stiffest * effect.spacing[i] / kTurn_rad, Gain::force, index,
+            gain = capped(gain, stiffest.most * effect.spacing[i] / kTurn_rad, Gain::force, index,
                           caps_.from_latency, clamp);
             break;
         case EffectKind::vibration:
-            gain = capped(gain, of_dof(i, kMaxVibration_n, kMaxVibration_nm, kMaxVibration_nm),
-                          Gain::force, index, false, clamp);
+            gain = capped(gain, i < 3 ? kMaxVibration_n : kMaxVibration_nm, Gain::force, index,
+                          false, clamp);
             break;
         case EffectKind::constant:
             gain = capped(gain, kMostForce, Gain::force, index, false, clamp);
@@ -153,7 +134,7 @@ int EffectSet::age(double dt_s) noexcept {
     return ended;
 }
 
-bool EffectSet::empty() const noexcept {
+bool EffectSet::at_rest() const noexcept {
     bool over = leaving_part_ <= 0.0;
     for (std::size_t i = 0; i < count_; ++i) {
         over = over && tracks_[i].ended;

@@ -18,7 +18,8 @@ public:
     // Once a cycle, before accept(). Number of effects that ended in this cycle.
     int age(double dt_s) noexcept;
     Wrench render(const GripMotion &motion) noexcept;
-    [[nodiscard]] bool empty() const noexcept;
+    // Every effect is over, and what was taken out has faded.
+    [[nodiscard]] bool at_rest() const noexcept;
 
 private:
     struct Track {

@@ -7,15 +7,15 @@ namespace spidar {
 void HapticRenderer::configure(const ServoSettings &settings) noexcept {
     *this = HapticRenderer();
     const RenderSettings &render = settings.render;
-    motion_.configure(render, settings.rate_hz);
-    contacts_.configure(settings);
-    coupling_.configure(settings);
-    wrench_.configure(settings.safety);
-    effects_.configure(settings);
+    parts_.motion.configure(render, settings.rate_hz);
+    parts_.contacts.configure(settings);
+    parts_.coupling.configure(settings);
+    parts_.wrench.configure(settings.safety);
+    parts_.effects.configure(settings);
     const double share = render.passivity_share;
     const double linear = share * render.max_damping_n_s_m;
     const double turn = share * render.max_turn_damping_nm_s_rad;
-    controller_.configure(
+    parts_.controller.configure(
         {linear, linear, linear, turn, turn, turn, share * render.max_grasp_damping_nm_s_rad});
     load_.force_n = -render.compensated_mass_kg * render.gravity_m_s2;
 }
@@ -36,10 +36,10 @@ void HapticRenderer::note(const GainClamp &clamp, ServoCounters &counters) noexc
 
 void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_s,
                           ServoCounters &counters) noexcept {
-    counters.expired_requests += wrench_.age(dt_s) ? 1U : 0U;
-    counters.expired_requests += contacts_.age(dt_s) ? 1U : 0U;
-    counters.expired_requests += coupling_.age(dt_s) ? 1U : 0U;
-    counters.expired_requests += static_cast<std::uint64_t>(effects_.age(dt_s));
+    counters.expired_requests += parts_.wrench.age(dt_s) ? 1U : 0U;
+    counters.expired_requests += parts_.contacts.age(dt_s) ? 1U : 0U;
+    counters.expired_requests += parts_.coupling.age(dt_s) ? 1U : 0U;
+    counters.expired_requests += static_cast<std::uint64_t>(parts_.effects.age(dt_s));
     // A renewed sequence that is not valid: the last good request stands until it expires.
     const auto is_new = [&counters](std::uint64_t &seen, std::uint64_t sequence, auto &&validate) {
         if (sequence == seen) {
@@ -52,57 +52,58 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     };
     if (is_new(wrench_sequence_, command.wrench_sequence,
                [&] { return validate_wrench(command.wrench, command.wrench_duration_s); })) {
-        note(wrench_.accept(command.wrench, command.wrench_duration_s), counters);
+        note(parts_.wrench.accept(command.wrench, command.wrench_duration_s), counters);
     }
     if (is_new(contacts_sequence_, command.contacts_sequence,
                [&] { return validate_contacts(command); })) {
-        note(contacts_.accept(command, now_s), counters);
+        note(parts_.contacts.accept(command, now_s), counters);
     }
     if (is_new(coupling_sequence_, command.coupling_sequence,
                [&] { return validate_coupling(command.coupling); })) {
-        note(coupling_.accept(command.coupling, now_s), counters);
+        note(parts_.coupling.accept(command.coupling, now_s), counters);
     }
     if (is_new(effects_sequence_, command.effects_sequence,
                [&] { return validate_effects(command); })) {
-        note(effects_.accept(command), counters);
+        note(parts_.effects.accept(command), counters);
     }
 }
 
 Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, bool trusted,
                               double dt_s) noexcept {
-    observer_.update(moved);
+    parts_.observer.update(moved);
     GripMotion motion;
     motion.grip = grip;
     if (trusted) {
-        motion_.update(moved, dt_s);
-        motion.ahead = motion_.ahead();
-        motion.velocity = motion_.velocity();
-        motion.lead_s = motion_.steady_lead_s();
+        parts_.motion.update(moved, dt_s);
+        motion.ahead = parts_.motion.ahead();
+        motion.velocity = parts_.motion.velocity();
+        motion.lead_s = parts_.motion.steady_lead_s();
     } else {
-        motion_.reset();
+        parts_.motion.reset();
     }
     // A raw wrench is given as it was asked: whoever asks for one answers for its energy.
-    const Wrench held = coupling_.render(motion);
-    Wrench sum = wrench_.value() + controller_.correct(held, moved, motion.velocity, dt_s);
+    const Wrench held = parts_.coupling.render(motion);
+    Wrench sum =
+        parts_.wrench.value() + parts_.controller.correct(held, moved, motion.velocity, dt_s);
     contact_push_ = Wrench();
-    if (!contacts_.empty()) {
-        contact_push_ = contacts_.render(motion, dt_s);
+    if (!parts_.contacts.at_rest()) {
+        contact_push_ = parts_.contacts.render(motion, dt_s);
         sum = sum + contact_push_;
     }
-    if (!effects_.empty()) {
-        sum = sum + effects_.render(motion);
+    if (!parts_.effects.at_rest()) {
+        sum = sum + parts_.effects.render(motion);
     }
     return sum + load_;
 }
 
 void HapticRenderer::given(double scale, double dt_s) noexcept {
-    contacts_.integrate(scale, dt_s);
-    observer_.hold(Wrench()); // until it is known what the strings give
+    parts_.contacts.integrate(scale, dt_s);
+    parts_.observer.hold(Wrench()); // until it is known what the strings give
 }
 
 void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {
-    snapshot.contact_count = contacts_.report(snapshot.contacts);
-    snapshot.injected_j = observer_.injected_j();
+    snapshot.contact_count = parts_.contacts.report(snapshot.contacts);
+    snapshot.injected_j = parts_.observer.injected_j();
     snapshot.clamp = last_clamp_;
 }
 
@@ -113,16 +114,11 @@ bool HapticRenderer::has_seen(const HapticCommand &command) const noexcept {
            command.effects_sequence == effects_sequence_;
 }
 
-bool HapticRenderer::at_rest() const noexcept {
-    return contacts_.empty() && effects_.empty() && !coupling_.live() && motion_.settled() &&
-           controller_.settled();
-}
-
 // What is over or empty has an age too: a game that comes back is judged by it.
-void HapticRenderer::wait(double dt_s) noexcept {
-    wrench_.age(dt_s);
-    contacts_.age(dt_s);
-    effects_.age(dt_s);
+void HapticRenderer::advance_at_rest(double dt_s) noexcept {
+    parts_.wrench.age(dt_s);
+    parts_.contacts.age(dt_s);
+    parts_.effects.age(dt_s);
 }
 
 } // namespace spidar

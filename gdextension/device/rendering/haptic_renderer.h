@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/contact/contact_renderer.h"
+#include "device/contract/rest.h"
 #include "device/contract/servo_snapshot.h"
 #include "device/rendering/coupling_request.h"
 #include "device/rendering/effect_set.h"
@@ -31,7 +32,7 @@ public:
     // What becomes of it until the next cycle: `scale` of what render() returned is asked of the strings,
     void given(double scale, double dt_s) noexcept;
     // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
-    void achieved(const Wrench &wrench) noexcept { observer_.hold(wrench); }
+    void achieved(const Wrench &wrench) noexcept { parts_.observer.hold(wrench); }
 
     // Of what render() returned last, the part of the contacts.
     [[nodiscard]] const Wrench &contact_push() const noexcept { return contact_push_; }
@@ -40,24 +41,32 @@ public:
 
     // Nothing new in this command.
     [[nodiscard]] bool has_seen(const HapticCommand &command) const noexcept;
-    // Nothing but a raw wrench is asked, and nothing moves: while that is steady, render() gives the same again and
-    // changes nothing.
-    [[nodiscard]] bool at_rest() const noexcept;
-    // Of the raw wrench, over the next time step.
-    [[nodiscard]] bool steady(double dt_s) const noexcept { return wrench_.steady(dt_s); }
-    // In place of take(), render() and given(), at rest.
-    void wait(double dt_s) noexcept;
+    // At rest nothing but a raw wrench is asked.
+    [[nodiscard]] bool at_rest() const noexcept { return all_at_rest(parts_); }
+    [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
+    [[nodiscard]] bool rests_through(double dt_s) const noexcept {
+        return parts_.wrench.rests_through(dt_s);
+    }
+    void advance_at_rest(double dt_s) noexcept;
 
 private:
     void note(const GainClamp &clamp, ServoCounters &counters) noexcept;
 
-    MotionFilter motion_;
-    ContactRenderer contacts_;
-    CouplingRequest coupling_;
-    WrenchRequest wrench_;
-    EffectSet effects_;
-    PassivityController controller_;
-    EnergyObserver observer_;
+    struct Parts {
+        MotionFilter motion;
+        ContactRenderer contacts;
+        CouplingRequest coupling;
+        WrenchRequest wrench;
+        EffectSet effects;
+        PassivityController controller;
+        EnergyObserver observer;
+        template <typename Combine>
+        auto with_all(Combine &&combine) const noexcept {
+            const auto &[a, b, c, d, e, f, g] = *this;
+            return combine(a, b, c, d, e, f, g);
+        }
+    };
+    Parts parts_;
     Wrench contact_push_{};
     Wrench load_{}; // holds up the grip's weight
     GainClamp last_clamp_{};

@@ -24,7 +24,7 @@ constexpr double kRestSpeed = 1e-10; // m/s, rad/s
 
 void MotionFilter::configure(const RenderSettings &settings, double rate_hz) noexcept {
     *this = MotionFilter();
-    cutoff_rad_s_ = 2.0 * std::numbers::pi * settings.velocity_cutoff_hz;
+    velocity_filter_ = OnePole(settings.velocity_cutoff_hz);
     lead_s_ = settings.delay_compensation_s;
     steady_lead_s_ = lead_s_;
     const double hz = settings.string_resonance_hz;
@@ -51,17 +51,13 @@ void MotionFilter::reset() noexcept {
     offset_ = {};
     last_offset_ = {};
     velocity_ = {};
-    settled_ = true;
+    at_rest_ = true;
 }
 
 void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
     Lanes now{};
     std::ranges::copy(lanes(moved), now.begin());
-    if (dt_s != filtered_dt_s_) {
-        filtered_dt_s_ = dt_s;
-        filter_share_ = -std::expm1(-cutoff_rad_s_ * dt_s);
-    }
-    const double alpha = filter_share_;
+    const double alpha = velocity_filter_.share(dt_s);
     const double per_s = 1.0 / dt_s;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const double offset =
@@ -77,7 +73,7 @@ void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
         moving = std::abs(moved_[i]) > kRestMove || std::abs(offset_[i]) > kRestMove ||
                  std::abs(last_offset_[i]) > kRestMove || std::abs(velocity_[i]) > kRestSpeed;
     }
-    settled_ = false;
+    at_rest_ = false;
     if (!moving) {
         reset();
     }

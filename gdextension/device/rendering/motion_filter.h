@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/base/one_pole.h"
 #include "device/contract/motion.h"
 #include "device/settings/render_settings.h"
 
@@ -22,16 +23,14 @@ public:
     // The prediction less the delay of the notch.
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
     // The grip stood still long enough: further updates without motion change nothing.
-    [[nodiscard]] bool settled() const noexcept { return settled_; }
+    [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
 
 private:
     // One lane a DOF, padded to whole vectors.
     static constexpr std::size_t kLanes = 8;
     using Lanes = std::array<double, kLanes>;
 
-    double cutoff_rad_s_ = 0.0;
-    double filter_share_ = 0.0; // of a time step of filtered_dt_s_
-    double filtered_dt_s_ = 0.0;
+    OnePole velocity_filter_;
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
     // offset = filtered - measured position = (c0 + c1 / z) / (1 + a1 / z + a2 / z^2) moved
@@ -43,7 +42,7 @@ private:
     Lanes offset_{};
     Lanes last_offset_{};
     Lanes velocity_{};
-    bool settled_ = true;
+    bool at_rest_ = true;
 };
 
 } // namespace spidar

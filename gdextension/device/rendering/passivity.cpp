@@ -16,6 +16,7 @@ constexpr double kNoEnergy_j = 1e-8;
 
 void EnergyObserver::update(const Displacement &moved) noexcept {
     const DofLanes move = lanes(moved);
+    moving_ = move != DofLanes{};
     for (std::size_t i = 0; i < move.size(); ++i) {
         injected_j_[i] += held_[i] * move[i];
     }
@@ -34,14 +35,13 @@ void PassivityController::reset() noexcept {
     slow_ = {};
     changing_ = {};
     store_j_ = {};
-    acting_ = false;
-    settled_ = true;
+    at_rest_ = true;
 }
 
 Wrench PassivityController::correct(const Wrench &asked, const Displacement &moved,
                                     const Twist &velocity, double dt_s) noexcept {
     const DofLanes force = lanes(asked);
-    if (settled_ && force == DofLanes{}) {
+    if (at_rest_ && force == DofLanes{}) {
         return asked; // nothing held, nothing stored: motion alone changes nothing
     }
     const DofLanes move = lanes(moved);
@@ -49,7 +49,6 @@ Wrench PassivityController::correct(const Wrench &asked, const Displacement &mov
     const double blend = dt_s / (dt_s + kSlow_s);
     const double keep = 1.0 - dt_s / (dt_s + kMemory_s);
     DofLanes out = force;
-    acting_ = false;
     bool moving = false;
     for (std::size_t i = 0; i < out.size(); ++i) {
         store_j_[i] = std::clamp(keep * store_j_[i] - changing_[i] * move[i], -kStore_j, kStore_j);
@@ -59,13 +58,12 @@ Wrench PassivityController::correct(const Wrench &asked, const Displacement &mov
             // What would be taken back in this cycle, as far as the cap allows.
             const double damping = -store_j_[i] < most_[i] * full ? -store_j_[i] / full : most_[i];
             out[i] -= damping * speed[i];
-            acting_ = acting_ || speed[i] != 0.0;
         }
         changing_[i] = out[i] - slow_[i];
         moving = moving || force[i] != 0.0 || std::abs(slow_[i]) > kNoForce ||
                  std::abs(store_j_[i]) > kNoEnergy_j;
     }
-    settled_ = false;
+    at_rest_ = false;
     if (!moving) {
         reset();
     }

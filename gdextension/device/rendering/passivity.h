@@ -15,12 +15,15 @@ public:
     void update(const Displacement &moved) noexcept;
     // What acts until the next update.
     void hold(const Wrench &wrench) noexcept;
+    // Without motion no work is done.
+    [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
     // Work done on the hand since the start (unit: J).
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
 
 private:
     DofLanes held_{};
     DofLanes injected_j_{};
+    bool moving_ = false; // in the last update()
 };
 
 // Damps a DOF while its changing part has given the hand more than it took. A slow force, such as a weight, is the
@@ -39,18 +42,15 @@ public:
     // The wrench to give in place of `asked`.
     Wrench correct(const Wrench &asked, const Displacement &moved, const Twist &velocity,
                    double dt_s) noexcept;
-    // Damping of the last cycle was not zero.
-    [[nodiscard]] bool acting() const noexcept { return acting_; }
     // Nothing changes any more while nothing is asked, wherever the grip moves.
-    [[nodiscard]] bool settled() const noexcept { return settled_; }
+    [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
 
 private:
     DofGains most_{};
     DofLanes slow_{};
     DofLanes changing_{}; // held since the last cycle
     DofLanes store_j_{};
-    bool acting_ = false;
-    bool settled_ = true;
+    bool at_rest_ = true;
 };
 
 } // namespace spidar

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/finite.h"
 #include "device/contract/dof_lanes.h"
 #include "device/contract/request_fade.h"
 
@@ -45,11 +46,7 @@ double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept
         std::min({factor_for(wrench.force_n, safety.max_force_n),
                   factor_for(wrench.moment_nm, safety.max_moment_nm),
                   factor_for(Vec3(wrench.grasp_torque_nm, 0.0, 0.0), safety.max_grasp_torque_nm)});
-    const Wrench limited = factor * wrench;
-    const double sum = limited.force_n.x + limited.force_n.y + limited.force_n.z +
-                       limited.moment_nm.x + limited.moment_nm.y + limited.moment_nm.z +
-                       limited.grasp_torque_nm;
-    return std::isfinite(sum) ? factor : 0.0;
+    return all_finite(factor * wrench) ? factor : 0.0;
 }
 
 void WrenchRequest::configure(const SafetySettings &safety) noexcept {

@@ -18,8 +18,9 @@ public:
     // Once a cycle, before accept(). True in the cycle in which the request ends.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench value() const noexcept;
-    // Not asked for, or still in full after this time step.
-    [[nodiscard]] bool steady(double dt_s) const noexcept {
+    // Not asked for, or in full.
+    [[nodiscard]] bool at_rest() const noexcept { return rests_through(0.0); }
+    [[nodiscard]] bool rests_through(double dt_s) const noexcept {
         return !live_ || age_s_ + dt_s <= duration_s_;
     }
 

@@ -95,6 +95,16 @@ void DeviceStateMachine::refuse_zero() noexcept {
     }
 }
 
+void DeviceStateMachine::arm(const Inputs &inputs, bool ramps_wrench, Outcome &outcome) noexcept {
+    outcome.no_hand = !inputs.hand_present;
+    if (inputs.hand_present && inputs.tracking && inputs.game_alive && inputs.device_ready) {
+        state_ = DeviceState::arming;
+        wrench_scale_ = ramps_wrench ? 0.0 : 1.0;
+        ramps_wrench_ = ramps_wrench;
+        arm_pending_s_ = 0.0;
+    }
+}
+
 DeviceStateMachine::Outcome DeviceStateMachine::advance_connected(const Inputs &inputs,
                                                                   bool wanted) noexcept {
     Outcome outcome;
@@ -115,16 +125,7 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance_connected(const Inputs &
         outcome.zero_needed = true;
         return outcome;
     }
-    if (!inputs.hand_present) {
-        outcome.no_hand = true;
-        return outcome;
-    }
-    if (inputs.tracking && inputs.game_alive && inputs.device_ready) {
-        state_ = DeviceState::arming;
-        wrench_scale_ = 1.0; // pretension and wrench rise together
-        ramps_wrench_ = false;
-        arm_pending_s_ = 0.0;
-    }
+    arm(inputs, false, outcome); // pretension and wrench rise together
     return outcome;
 }
 
@@ -164,15 +165,7 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance_calibrated(const Inputs 
     if (!wanted || !(arm_pending_s_ > 0.0)) {
         return outcome;
     }
-    if (!inputs.hand_present) {
-        outcome.no_hand = true;
-        return outcome;
-    }
-    if (inputs.tracking && inputs.game_alive && inputs.device_ready) {
-        state_ = DeviceState::arming; // from pretension: only the wrench rises
-        ramps_wrench_ = true;
-        arm_pending_s_ = 0.0;
-    }
+    arm(inputs, true, outcome); // from pretension: only the wrench rises
     return outcome;
 }
 

@@ -71,6 +71,8 @@ public:
 private:
     void disarm() noexcept;
     void rest() noexcept;
+    // Arms, unless somebody or something is missing.
+    void arm(const Inputs &inputs, bool ramps_wrench, Outcome &outcome) noexcept;
     Outcome advance_connected(const Inputs &inputs, bool wanted) noexcept;
     Outcome advance_taut(const Inputs &inputs, double dt_s) noexcept;
     Outcome advance_calibrated(const Inputs &inputs, bool wanted) noexcept;

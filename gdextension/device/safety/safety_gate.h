@@ -22,8 +22,6 @@ public:
     // Motors off, in this very cycle: no slew.
     void shut() noexcept { last_n_ = {}; }
 
-    [[nodiscard]] const StringArray &last_n() const noexcept { return last_n_; }
-
 private:
     StringArray max_n_{};
     double slew_n_per_s_ = 0.0;

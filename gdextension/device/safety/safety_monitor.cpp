@@ -18,21 +18,21 @@ Status SafetyMonitor::configure(const ServoSettings &settings) noexcept {
         return status;
     }
     *this = SafetyMonitor();
-    strings_ = strings;
+    parts_.strings = strings;
     safety_ = settings.safety;
-    speed_.configure(safety_);
-    heat_.configure(safety_);
+    parts_.speed.configure(safety_);
+    parts_.heat.configure(safety_);
     workspace_.configure(settings);
-    hand_.configure(safety_);
+    parts_.hand.configure(safety_);
     return Status::ok;
 }
 
 void SafetyMonitor::restart() noexcept {
-    speed_.configure(safety_);
-    shake_.configure();
-    bounce_.configure();
-    strings_.reset();
-    hand_.restart();
+    parts_.speed.configure(safety_);
+    parts_.shake.configure();
+    parts_.bounce.configure();
+    parts_.strings.reset();
+    parts_.hand.restart();
     named_told_ = false;
     fade_ = 1.0;
     scale_ = 1.0;
@@ -42,49 +42,50 @@ void SafetyMonitor::restart() noexcept {
 SafetyMonitor::Verdict SafetyMonitor::watch_strings(const Sample &sample, EventLog &events,
                                                     double dt_s) noexcept {
     if (sample.fresh) {
-        strings_.update(sample.counts, sample.lengths_m, sample.grip, sample.moved,
-                        sample.strongest_n, dt_s);
+        parts_.strings.update(sample.counts, sample.lengths_m, sample.grip, sample.moved,
+                              sample.strongest_n, dt_s);
     }
-    if (strings_.suspicious()) {
-        events.tell(DeviceEventKind::string_suspected, strings_.string(), strings_.parity_m());
+    if (parts_.strings.suspicious()) {
+        events.tell(DeviceEventKind::string_suspected, parts_.strings.string(),
+                    parts_.strings.parity_m());
     }
-    const FaultEvidence &named = strings_.named();
+    const FaultEvidence &named = parts_.strings.named();
     const bool found = named.fault != StringFault::none;
     if (found && !named_told_) {
         events.tell(DeviceEventKind::string_named, named.string, named.error_m);
     }
     named_told_ = found;
-    if (strings_.faulty()) {
-        return {Action::motors_off, Status::string_fault, strings_.string()};
+    if (parts_.strings.faulty()) {
+        return {Action::motors_off, Status::string_fault, parts_.strings.string()};
     }
     return found ? Verdict{Action::stand_down, Status::string_fault, named.string} : Verdict{};
 }
 
 SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLog &events,
                                                    double dt_s) noexcept {
-    speed_.update(sample.fastest_m_s, sample.grip.twist, dt_s);
-    shake_.update(sample.grip.twist, sample.contact_push, sample.motors_on && sample.rendering,
-                  dt_s);
+    parts_.speed.update(sample.fastest_m_s, sample.grip.twist, dt_s);
+    parts_.shake.update(sample.grip.twist, sample.contact_push,
+                        sample.motors_on && sample.rendering, dt_s);
     if (!sample.motors_on) {
-        bounce_.configure();
+        parts_.bounce.configure();
         return {};
     }
-    if (bounce_.update(sample.grip.twist, sample.contact_push, dt_s)) {
+    if (parts_.bounce.update(sample.grip.twist, sample.contact_push, dt_s)) {
         // Three bounces have given enough: to a quarter at once, and off at the next row.
-        shake_.found(bounce_.speed_m_s());
-        shake_.found(bounce_.speed_m_s());
+        parts_.shake.found(parts_.bounce.speed_m_s());
+        parts_.shake.found(parts_.bounce.speed_m_s());
     }
-    if (speed_.too_fast()) {
+    if (parts_.speed.too_fast()) {
         return {Action::motors_off, Status::over_speed, -1};
     }
-    if (speed_.fast(dt_s)) {
+    if (parts_.speed.fast(dt_s)) {
         events.tell(DeviceEventKind::fast_grip, -1, sample.fastest_m_s);
     }
-    if (shake_.unstable()) {
+    if (parts_.shake.unstable()) {
         return {Action::motors_off, Status::unstable, -1};
     }
-    if (shake_.scale() < 1.0) {
-        events.tell(DeviceEventKind::shaking, -1, shake_.swing_m_s());
+    if (parts_.shake.scale() < 1.0) {
+        events.tell(DeviceEventKind::shaking, -1, parts_.shake.swing_m_s());
     }
     const double beyond_m = workspace_.beyond_m(sample.grip);
     if (beyond_m > 0.0) {
@@ -94,11 +95,12 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
 }
 
 SafetyMonitor::Verdict SafetyMonitor::watch_heat(EventLog &events) noexcept {
-    if (!(heat_.spent() < 1.0)) {
-        return {Action::stand_down, Status::overheated, heat_.warmest_string()};
+    if (!(parts_.heat.spent() < 1.0)) {
+        return {Action::stand_down, Status::overheated, parts_.heat.warmest_string()};
     }
-    if (heat_.scale() < 1.0) {
-        events.tell(DeviceEventKind::motors_warm, heat_.warmest_string(), heat_.spent());
+    if (parts_.heat.scale() < 1.0) {
+        events.tell(DeviceEventKind::motors_warm, parts_.heat.warmest_string(),
+                    parts_.heat.spent());
     }
     return {};
 }
@@ -106,15 +108,16 @@ SafetyMonitor::Verdict SafetyMonitor::watch_heat(EventLog &events) noexcept {
 SafetyMonitor::Verdict SafetyMonitor::watch(const Sample &sample, EventLog &events,
                                             double dt_s) noexcept {
     if (sample.fresh) {
-        hand_.update(sample.grip.pose, dt_s);
+        parts_.hand.update(sample.grip.pose, dt_s);
     }
     const Verdict strings = watch_strings(sample, events, dt_s);
     const Verdict motion = watch_motion(sample, events, dt_s);
     const Verdict heat = watch_heat(events);
-    fading_ = strings_.suspicious() || speed_.fast(dt_s);
+    fading_ = parts_.strings.suspicious() || parts_.speed.fast(dt_s);
     fade_ =
         fading_ ? std::max(0.0, fade_ - dt_s / kFade_s) : std::min(1.0, fade_ + dt_s / kRecovery_s);
-    scale_ = fade_ * shake_.scale() * heat_.scale() * WorkspaceGuard::scale(sample.grip);
+    scale_ =
+        fade_ * parts_.shake.scale() * parts_.heat.scale() * WorkspaceGuard::scale(sample.grip);
     Verdict worst = strings;
     for (const Verdict &other : {motion, heat}) {
         worst = other.action > worst.action ? other : worst;

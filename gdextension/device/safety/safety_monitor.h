@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/contract/device_event.h"
+#include "device/contract/rest.h"
 #include "device/safety/monitors/bounce_monitor.h"
 #include "device/safety/monitors/hand_presence.h"
 #include "device/safety/monitors/shake_monitor.h"
@@ -41,16 +42,18 @@ public:
     Verdict watch(const Sample &sample, EventLog &events, double dt_s) noexcept;
     // What the motors pull in this cycle (unit: N).
     void spend(const StringArray &tensions_n, double dt_s) noexcept {
-        heat_.spend(tensions_n, dt_s);
+        parts_.heat.spend(tensions_n, dt_s);
     }
 
-    // Nothing is scaled down, and watch() of the same sample changes nothing but the age of the hand's last move.
+    // At rest nothing is scaled down. spend() goes on.
     [[nodiscard]] bool at_rest() const noexcept {
-        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && shake_.settled() && bounce_.settled() &&
-               strings_.settled();
+        return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && all_at_rest(parts_);
     }
-    // In place of watch(), at rest.
-    void wait(double dt_s) noexcept { hand_.wait(dt_s); }
+    void advance_at_rest(double dt_s) noexcept { parts_.hand.advance_at_rest(dt_s); }
+    [[nodiscard]] bool rests_through(double /*dt_s*/) const noexcept {
+        return parts_.heat.at_rest();
+    }
+    [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
     // What is left of the wrench, 0..1. Falls to zero within 20 ms, comes back within 50.
     [[nodiscard]] double wrench_scale() const noexcept { return scale_; }
     // False: the velocity is not to be damped with.
@@ -58,9 +61,9 @@ public:
     [[nodiscard]] Wrench wall(const GripState &grip) const noexcept {
         return workspace_.wall(grip);
     }
-    [[nodiscard]] bool hand_present() const noexcept { return hand_.present(); }
-    [[nodiscard]] const StringMonitor &strings() const noexcept { return strings_; }
-    [[nodiscard]] const ThermalBudget &heat() const noexcept { return heat_; }
+    [[nodiscard]] bool hand_present() const noexcept { return parts_.hand.present(); }
+    [[nodiscard]] const StringMonitor &strings() const noexcept { return parts_.strings; }
+    [[nodiscard]] const ThermalBudget &heat() const noexcept { return parts_.heat; }
 
 private:
     Verdict watch_strings(const Sample &sample, EventLog &events, double dt_s) noexcept;
@@ -68,13 +71,21 @@ private:
     Verdict watch_heat(EventLog &events) noexcept;
 
     SafetySettings safety_{};
-    SpeedGuard speed_;
-    ShakeMonitor shake_;
-    BounceMonitor bounce_;
-    StringMonitor strings_;
-    ThermalBudget heat_;
-    WorkspaceGuard workspace_;
-    HandPresence hand_;
+    WorkspaceGuard workspace_; // has no state
+    struct Parts {
+        SpeedGuard speed;
+        ShakeMonitor shake;
+        BounceMonitor bounce;
+        StringMonitor strings;
+        ThermalBudget heat;
+        HandPresence hand;
+        template <typename Combine>
+        auto with_all(Combine &&combine) const noexcept {
+            const auto &[a, b, c, d, e, f] = *this;
+            return combine(a, b, c, d, e, f);
+        }
+    };
+    Parts parts_;
     double fade_ = 1.0;
     double scale_ = 1.0;
     bool fading_ = false;

@@ -23,7 +23,12 @@ public:
     // For this long: one bad sample refuses nothing.
     static constexpr double kHold_s = 0.020;
 
-    void begin() noexcept { *this = ZeroCheck(); }
+    void begin() noexcept {
+        *this = ZeroCheck();
+        running_ = true;
+    }
+    void end() noexcept { running_ = false; }
+    [[nodiscard]] bool at_rest() const noexcept { return !running_; }
     Verdict update(const GripPose &pose, double parity_m, double dt_s) noexcept {
         if (!started_) {
             started_ = true;
@@ -44,6 +49,7 @@ public:
     [[nodiscard]] double worst_m() const noexcept { return worst_m_; }
 
 private:
+    bool running_ = false;
     bool started_ = false;
     Vec3 home_m_{0.0};
     Vec3 last_m_{0.0};

@@ -1,6 +1,7 @@
 #include "device/settings/gain_clamp.h"
 
 #include <cstdio>
+#include <iterator>
 
 namespace spidar {
 
@@ -12,48 +13,25 @@ struct GainName {
     const char *setting; // that lifts the cap
 };
 
-GainName name_of(GainClamp::Gain gain) {
-    using Gain = GainClamp::Gain;
-    switch (gain) {
-    case Gain::stiffness:
-        return {"stiffness", "N/m", "max_stiffness"};
-    case Gain::damping:
-        return {"damping", "N s/m", "max_damping"};
-    case Gain::turn_stiffness:
-        return {"turning stiffness", "N m/rad", "max_turn_stiffness"};
-    case Gain::turn_damping:
-        return {"turning damping", "N m s/rad", "max_turn_damping"};
-    case Gain::grasp_stiffness:
-        return {"grasp stiffness", "N m/rad", "max_grasp_stiffness"};
-    case Gain::grasp_damping:
-        return {"grasp damping", "N m s/rad", "max_grasp_damping"};
-    case Gain::friction:
-        return {"friction", "", ""};
-    case Gain::speed:
-        return {"velocity", "m/s or rad/s", ""};
-    case Gain::force:
-        return {"strength", "N or N m", ""};
-    case Gain::wrench:
-        return {"wrench", "of what was asked", "max_force, max_moment, max_grasp_torque"};
-    case Gain::none:
-        break;
-    }
-    return {"", "", ""};
-}
+// In the order of GainClamp::Gain.
+constexpr GainName kGains[] = {
+    {"", "", ""},
+    {"stiffness", "N/m", "max_stiffness"},
+    {"damping", "N s/m", "max_damping"},
+    {"turning stiffness", "N m/rad", "max_turn_stiffness"},
+    {"turning damping", "N m s/rad", "max_turn_damping"},
+    {"grasp stiffness", "N m/rad", "max_grasp_stiffness"},
+    {"grasp damping", "N m s/rad", "max_grasp_damping"},
+    {"friction", "", ""},
+    {"velocity", "m/s or rad/s", ""},
+    {"strength", "N or N m", ""},
+    {"wrench", "of what was asked", "max_force, max_moment, max_grasp_torque"},
+};
+static_assert(std::size(kGains) == static_cast<std::size_t>(GainClamp::Gain::wrench) + 1);
 
-const char *name_of(GainClamp::Request request) {
-    switch (request) {
-    case GainClamp::Request::contact:
-        return "contact";
-    case GainClamp::Request::coupling:
-        return "coupling, DOF";
-    case GainClamp::Request::effect:
-        return "effect";
-    case GainClamp::Request::wrench:
-        return "request";
-    }
-    return "request";
-}
+// In the order of GainClamp::Request.
+constexpr const char *kRequests[] = {"contact", "coupling, DOF", "effect", "request"};
+static_assert(std::size(kRequests) == static_cast<std::size_t>(GainClamp::Request::wrench) + 1);
 
 } // namespace
 
@@ -61,10 +39,11 @@ std::string describe(const GainClamp &clamp, const RenderSettings &settings, dou
     if (!clamp) {
         return {};
     }
-    const GainName gain = name_of(clamp.gain);
+    const GainName &gain = kGains[static_cast<std::size_t>(clamp.gain)];
     char text[320];
     const int written = std::snprintf(
-        text, sizeof text, "%s %d: %s %g brought down to %g %s: ", name_of(clamp.request),
+        text, sizeof text,
+        "%s %d: %s %g brought down to %g %s: ", kRequests[static_cast<std::size_t>(clamp.request)],
         static_cast<int>(clamp.index), gain.name, clamp.asked, clamp.given, gain.unit);
     std::string sentence(text, static_cast<std::size_t>(written));
     if (clamp.from_latency) {

@@ -51,6 +51,26 @@ inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_
     return std::copysign(cap, value);
 }
 
+// The cap of a gain in one DOF (0-2: x, y, z; 3-5: turns; 6: grasp), and the gain's name there.
+struct DofCap {
+    double most = 0.0;
+    GainClamp::Gain gain = GainClamp::Gain::none;
+};
+[[nodiscard]] inline DofCap stiffness_cap(const GainCaps &caps, std::size_t dof) noexcept {
+    if (dof < 3) {
+        return {caps.stiffness_n_m, GainClamp::Gain::stiffness};
+    }
+    return dof < 6 ? DofCap{caps.turn_stiffness_nm_rad, GainClamp::Gain::turn_stiffness}
+                   : DofCap{caps.grasp_stiffness_nm_rad, GainClamp::Gain::grasp_stiffness};
+}
+[[nodiscard]] inline DofCap damping_cap(const GainCaps &caps, std::size_t dof) noexcept {
+    if (dof < 3) {
+        return {caps.damping_n_s_m, GainClamp::Gain::damping};
+    }
+    return dof < 6 ? DofCap{caps.turn_damping_nm_s_rad, GainClamp::Gain::turn_damping}
+                   : DofCap{caps.grasp_damping_nm_s_rad, GainClamp::Gain::grasp_damping};
+}
+
 // One sentence: what was asked, what is given, why, and the remedy. Empty when nothing was clamped. Allocates.
 [[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
                                    double rate_hz);

@@ -1,8 +1,8 @@
 #include "device/settings/render_settings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+
+#include "core/base/describe_value.h"
 
 namespace spidar {
 
@@ -15,14 +15,6 @@ constexpr double kCurrentLag_s = 0.0005;
 constexpr double kStableProduct_n_s_m = 2.4;
 constexpr double kStableTurnProduct_nm_s_rad = 4.8e-3;
 constexpr double kStableGraspProduct_nm_s_rad = 1.2e-3;
-
-struct Range {
-    const char *field;
-    double value;
-    const char *unit;
-    double least;
-    double most;
-};
 
 } // namespace
 
@@ -49,7 +41,7 @@ GainCaps gain_caps(const RenderSettings &settings, double rate_hz) noexcept {
 
 std::string validate(const RenderSettings &settings) {
     const RenderSettings &s = settings;
-    const Range ranges[] = {
+    const ValueRange ranges[] = {
         {"render.string_resonance_hz", s.string_resonance_hz, "Hz", 0.0, 2000.0},
         {"render.velocity_cutoff_hz", s.velocity_cutoff_hz, "Hz", 1.0, 2000.0},
         {"render.delay_compensation_s", s.delay_compensation_s, "s", 0.0, 0.02},
@@ -68,16 +60,7 @@ std::string validate(const RenderSettings &settings) {
         {"render.compensated_friction_n", s.compensated_friction_n, "N", 0.0, 0.5},
         {"render.compensated_viscous_n_s_m", s.compensated_viscous_n_s_m, "N s/m", 0.0, 1.0},
     };
-    for (const Range &range : ranges) {
-        if (!(range.value >= range.least && range.value <= range.most)) { // NaN fails too
-            char text[256];
-            std::snprintf(text, sizeof text, "%s is %g %s; set it between %g and %g %s.",
-                          range.field, range.value, range.unit, range.least, range.most,
-                          range.unit);
-            return text;
-        }
-    }
-    return {};
+    return first_out_of_range(ranges);
 }
 
 } // namespace spidar

@@ -4,31 +4,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/describe_value.h"
+
 namespace spidar {
 
 namespace {
 
-struct Range {
-    const char *field;
-    double value;
-    const char *unit;
-    double least;
-    double most;
-};
-
-std::string complaint(const Range &range) {
-    if (range.value >= range.least && range.value <= range.most) {
-        return {};
-    }
-    char text[256];
-    std::snprintf(text, sizeof text, "%s is %g %s; set it between %g and %g %s.", range.field,
-                  range.value, range.unit, range.least, range.most, range.unit);
-    return text;
-}
-
 std::string validate_safety(const SafetySettings &safety) {
     // Upper ends: what still protects a hand; lower ends: what still works.
-    const Range ranges[] = {
+    const ValueRange ranges[] = {
         {"safety.arming_time_s", safety.arming_time_s, "s", 0.001, 60.0},
         {"safety.tension_slew_n_per_ms", safety.tension_slew_n_per_ms, "N/ms", 0.001, 100.0},
         {"safety.max_force_n", safety.max_force_n, "N", 0.0, 100.0},
@@ -54,86 +38,62 @@ std::string validate_safety(const SafetySettings &safety) {
         {"safety.contacts_full_s", safety.contacts_full_s, "s", 0.001, 1.0},
         {"safety.contacts_gone_s", safety.contacts_gone_s, "s", 0.002, 2.0},
     };
-    for (const Range &range : ranges) {
-        std::string problem = complaint(range);
-        if (!problem.empty()) {
-            return problem;
-        }
+    std::string problem = first_out_of_range(ranges);
+    if (!problem.empty()) {
+        return problem;
     }
     if (!(safety.read_timeout_fault_s >= safety.read_timeout_fade_s)) {
-        return complaint({"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s",
-                          safety.read_timeout_fade_s, 1.0});
+        return range_sentence({"safety.read_timeout_fault_s", safety.read_timeout_fault_s, "s",
+                               safety.read_timeout_fade_s, 1.0});
     }
     constexpr double kLeastFade_s = 0.001;
-    return complaint({"safety.contacts_gone_s", safety.contacts_gone_s, "s",
-                      safety.contacts_full_s + kLeastFade_s, 2.0});
+    return range_sentence({"safety.contacts_gone_s", safety.contacts_gone_s, "s",
+                           safety.contacts_full_s + kLeastFade_s, 2.0});
+}
+
+// What single parts cannot know of each other.
+std::string validate_together(const ServoSettings &settings) {
+    if (settings.grip.kind == GripKind::rigid && (settings.tension.dof_mask & kNoGrasp) == 0) {
+        return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "
+               "bit k for DOF k of the wrench.";
+    }
+    const StringArray strongest_n = max_tensions(settings.motors);
+    const double weakest_n = *std::min_element(strongest_n.begin(), strongest_n.end());
+    const double pretension_n =
+        std::max(settings.tension.reference_tension_n, settings.tension.min_tension_n);
+    if (!(weakest_n > pretension_n)) {
+        char text[256];
+        std::snprintf(
+            text, sizeof text,
+            "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
+            "pretension of %g N; raise max_current_a or lower reference_tension_n.",
+            weakest_n, pretension_n);
+        return text;
+    }
+    return {};
 }
 
 } // namespace
 
 std::string validate(const ServoSettings &settings) {
-    const Range ranges[] = {
+    const ValueRange ranges[] = {
         {"rate_hz", settings.rate_hz, "Hz", 100.0, 4000.0},
         {"velocity_cutoff_hz", settings.velocity_cutoff_hz, "Hz", 1.0, 1000.0},
         {"reopen_interval_s", settings.reopen_interval_s, "s", 0.0, 60.0},
+        {"corrections.pulley_radius_m (frame.pulley_radius_m is the one used)",
+         settings.corrections.pulley_radius_m, "m", 0.0, 0.0},
     };
-    for (const Range &range : ranges) {
-        std::string own = complaint(range);
-        if (!own.empty()) {
-            return own;
+    for (const std::string &problem :
+         {first_out_of_range(ranges), validate(settings.frame),
+          validate(settings.grip, settings.frame), validate(settings.strings),
+          validate(settings.corrections), validate(settings.motors), validate(settings.tension),
+          validate(settings.grasp), validate_safety(settings.safety), validate(settings.render),
+          validate_together(settings)}) {
+        if (!problem.empty()) {
+            return problem;
         }
     }
-    std::string problem = validate(settings.frame);
-    if (problem.empty()) {
-        problem = validate(settings.grip, settings.frame);
-    }
-    if (problem.empty()) {
-        problem = validate(settings.strings);
-    }
-    if (problem.empty()) {
-        problem = validate(settings.corrections);
-    }
-    if (problem.empty() && settings.corrections.pulley_radius_m != 0.0) {
-        problem = complaint({"corrections.pulley_radius_m (frame.pulley_radius_m is the one used)",
-                             settings.corrections.pulley_radius_m, "m", 0.0, 0.0});
-    }
-    if (problem.empty()) {
-        problem = validate(settings.motors);
-    }
-    if (problem.empty()) {
-        problem = validate(settings.tension);
-    }
-    if (problem.empty() && settings.grip.kind == GripKind::rigid &&
-        (settings.tension.dof_mask & kNoGrasp) == 0) {
-        return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "
-               "bit k "
-               "for DOF k of the wrench.";
-    }
-    if (problem.empty()) {
-        problem = validate(settings.grasp);
-    }
-    if (problem.empty()) {
-        problem = validate_safety(settings.safety);
-    }
-    if (problem.empty()) {
-        problem = validate(settings.render);
-    }
-    if (problem.empty()) {
-        const StringArray strongest_n = max_tensions(settings.motors);
-        const double weakest_n = *std::min_element(strongest_n.begin(), strongest_n.end());
-        if (!(weakest_n > settings.tension.reference_tension_n) ||
-            !(weakest_n > settings.tension.min_tension_n)) {
-            char text[256];
-            std::snprintf(
-                text, sizeof text,
-                "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
-                "pretension of %g N; raise max_current_a or lower reference_tension_n.",
-                weakest_n,
-                std::max(settings.tension.reference_tension_n, settings.tension.min_tension_n));
-            problem = text;
-        }
-    }
-    return problem;
+    return {};
 }
 
 } // namespace spidar

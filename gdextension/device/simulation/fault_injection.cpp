@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/types.h"
+#include "core/base/finite.h"
 
 namespace spidar {
 
@@ -16,9 +16,9 @@ constexpr double kTimeTolerance_s = 5e-7;
 } // namespace
 
 bool is_usable(const FaultInjection &fault) noexcept {
-    return fault.fault <= SimulatedFault::blocked_output && fault.string >= 0 &&
-           fault.string < kStringCount && std::isfinite(fault.start_s) && fault.start_s >= 0.0 &&
-           std::isfinite(fault.duration_s);
+    return static_cast<int>(fault.fault) < kSimulatedFaultCount && fault.string >= 0 &&
+           fault.string < kStringCount && fault.start_s >= 0.0 &&
+           all_finite(fault.start_s, fault.duration_s);
 }
 
 void FaultSchedule::set(const FaultList &faults, double now_s) noexcept {
@@ -43,63 +43,12 @@ ActiveFaults FaultSchedule::at(double now_s) const noexcept {
         if (faults_[i].number == 0 || now < begin_s_[i] || now >= end_s(i)) {
             continue;
         }
-        const auto bit = static_cast<std::uint8_t>(1U << faults_[i].injection.string);
-        switch (faults_[i].injection.fault) {
-        case SimulatedFault::output_cut:
-            active.output_cut = true;
-            break;
-        case SimulatedFault::frozen_counts:
-            active.frozen_counts = true;
-            break;
-        case SimulatedFault::count_jump:
-            active.jumped_mask |= bit;
-            break;
-        case SimulatedFault::read_timeout:
-            active.read_timeout = true;
-            break;
-        case SimulatedFault::unplugged:
-            active.unplugged = true;
-            break;
-        case SimulatedFault::stuck_encoder:
-            active.stuck_mask |= bit;
-            break;
-        case SimulatedFault::broken_string:
-            active.broken_mask |= bit;
-            break;
-        case SimulatedFault::hand_released:
-            active.hand_released = true;
-            break;
-        case SimulatedFault::jammed_drum:
-            active.jammed_mask |= bit;
-            break;
-        case SimulatedFault::slipped_string:
-            active.slip_m[static_cast<std::size_t>(faults_[i].injection.string)] =
-                std::min(kSlip_m, kSlipSpeed_m_s * (now - begin_s_[i]));
-            break;
-        case SimulatedFault::counts_reset:
-            active.counts_reset = true;
-            break;
-        case SimulatedFault::reversed_encoder:
-            active.reversed_mask |= bit;
-            break;
-        case SimulatedFault::swapped_encoders:
-            active.swapped_mask |= bit;
-            break;
-        case SimulatedFault::reports_lost:
-            active.reports_lost = true;
-            break;
-        case SimulatedFault::reports_repeated:
-            active.reports_repeated = true;
-            break;
-        case SimulatedFault::reports_swapped:
-            active.reports_swapped = true;
-            break;
-        case SimulatedFault::late_output:
-            active.late_output = true;
-            break;
-        case SimulatedFault::blocked_output:
-            active.blocked_output = true;
-            break;
+        const FaultInjection &injection = faults_[i].injection;
+        const auto string = static_cast<std::size_t>(injection.string);
+        active.strings[static_cast<std::size_t>(injection.fault)] |=
+            static_cast<std::uint8_t>(1U << string);
+        if (injection.fault == SimulatedFault::slipped_string) {
+            active.slip_m[string] = std::min(kSlip_m, kSlipSpeed_m_s * (now - begin_s_[i]));
         }
     }
     return active;

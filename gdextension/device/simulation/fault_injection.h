@@ -26,6 +26,7 @@ enum class SimulatedFault : std::uint8_t {
     late_output = 16,      // currents act 4 ms later
     blocked_output = 17,   // currents do not arrive; the last ones go on
 };
+inline constexpr int kSimulatedFaultCount = 18;
 
 inline constexpr double kSlip_m = 0.020;
 inline constexpr double kSlipSpeed_m_s = 0.2;
@@ -52,24 +53,17 @@ struct NumberedFault {
 using FaultList = std::array<NumberedFault, kMaxFaults>;
 
 struct ActiveFaults {
-    bool output_cut = false;
-    bool frozen_counts = false;
-    bool read_timeout = false;
-    bool unplugged = false;
-    std::uint8_t jumped_mask = 0; // bit i: string i
-    std::uint8_t stuck_mask = 0;
-    std::uint8_t broken_mask = 0;
-    std::uint8_t jammed_mask = 0;
-    std::uint8_t reversed_mask = 0;
-    std::uint8_t swapped_mask = 0;
-    std::array<double, 8> slip_m{}; // of each string
-    bool hand_released = false;
-    bool counts_reset = false;
-    bool reports_lost = false;
-    bool reports_repeated = false;
-    bool reports_swapped = false;
-    bool late_output = false;
-    bool blocked_output = false;
+    std::array<std::uint8_t, kSimulatedFaultCount> strings{}; // of each fault; bit i: string i
+    std::array<double, 8> slip_m{};                           // of each string
+
+    // Bit i: string i has it. A fault without a string has any bit.
+    [[nodiscard]] std::uint8_t mask(SimulatedFault fault) const noexcept {
+        return strings[static_cast<std::size_t>(fault)];
+    }
+    [[nodiscard]] bool has(SimulatedFault fault) const noexcept { return mask(fault) != 0; }
+    [[nodiscard]] bool has(SimulatedFault fault, std::size_t string) const noexcept {
+        return ((mask(fault) >> string) & 1U) != 0;
+    }
 };
 
 // Runs faults on the simulated clock.

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/base/finite.h"
+
 namespace spidar {
 
 namespace {
@@ -19,10 +21,6 @@ constexpr double kArrivedSpeed = 1e-9;     // m/s, rad/s
 
 // A gram keeps a grip without mass of its own from dividing by zero.
 constexpr HandImpedance kNoHand{1e-3, 0.0, 0.0, 1e-6, 0.0, 0.0, 2.5e-7, 0.0, 0.0};
-
-bool is_finite(const Vec3 &v) noexcept {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     const double squared = glm::dot(v, v);
@@ -44,7 +42,7 @@ bool below(const Vec3 &v, double limit) noexcept {
 } // namespace
 
 bool is_usable(const HandTarget &target) noexcept {
-    if (!is_finite(target.position_m) || !std::isfinite(target.grasp_angle_rad)) {
+    if (!all_finite(target.position_m, target.grasp_angle_rad)) {
         return false;
     }
     const Mat3 gram = glm::transpose(target.rotation) * target.rotation;

@@ -72,14 +72,14 @@ bool SimulatedLink::deliver(DeviceReading &report, const ActiveFaults &faults) n
     if (loss_ > 0.0 && random() < loss_) {
         return false;
     }
-    if (faults.reports_lost && made_ % kLostEvery == 0) {
+    if (faults.has(SimulatedFault::reports_lost) && made_ % kLostEvery == 0) {
         return false;
     }
-    if (faults.reports_repeated && made_ % kRepeatedEvery == 0) {
+    if (faults.has(SimulatedFault::reports_repeated) && made_ % kRepeatedEvery == 0) {
         report = before_;
         return true;
     }
-    if (faults.reports_swapped && made_ % kSwappedEvery == 0) {
+    if (faults.has(SimulatedFault::reports_swapped) && made_ % kSwappedEvery == 0) {
         held_ = report;
         held_for_ = 2;
         return false;

@@ -17,6 +17,7 @@
 namespace spidar {
 
 inline constexpr double kPlantRate_hz = 40000.0; // stable to EA = 30 kN
+inline constexpr double kPlantStep_s = 1.0 / kPlantRate_hz;
 
 struct PlantSettings {
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
@@ -127,6 +128,9 @@ private:
     [[nodiscard]] StringForces string_forces() const noexcept;
     void step_rotors(const StringForces &forces) noexcept;
     void creep(const StringForces &forces) noexcept;
+    [[nodiscard]] static bool has_bit(std::uint8_t mask, std::size_t string) noexcept {
+        return ((mask >> string) & 1U) != 0;
+    }
     // String i without tension.
     [[nodiscard]] double slack_length_m(std::size_t i) const noexcept {
         return rotors_m_[i] * (1.0 + crept_[i]);

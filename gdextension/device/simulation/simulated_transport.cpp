@@ -46,6 +46,12 @@ struct SimulatedTransport::Impl {
         news.truth = plant.truth();
     }
 
+    // Nothing pulls, and what was on its way is lost.
+    void lose_power() noexcept {
+        commanded_a = {};
+        written = false;
+        link.cut();
+    }
     void take_orders() noexcept;
     void move_on(double dt_s, const ActiveFaults &faults) noexcept;
     void make_report() noexcept;
@@ -65,9 +71,9 @@ struct SimulatedTransport::Impl {
     StringArray commanded_a{}; // arrived at the device
     bool written = false;      // something was sent since the last advance()
     StringArray sent_a{};
-    CountArray turned_at{};  // counts at which encoders began to run the wrong way
-    std::uint8_t turned = 0; // which of them do
-    CountArray count_base{}; // counts begin here since the device restarted
+    CountArray turned_at{};                  // counts at which encoders began to run the wrong way
+    std::array<bool, kStringCount> turned{}; // which of them do
+    CountArray count_base{};                 // counts begin here since the device restarted
     double clock_base_s = 0.0;
     bool was_reset = false;
     DeviceReading made;     // the report as the device made it
@@ -103,27 +109,30 @@ void SimulatedTransport::Impl::take_orders() noexcept {
 void SimulatedTransport::Impl::make_report() noexcept {
     const ActiveFaults faults = schedule.at(plant.time_s());
     const CountArray counts = plant.counts();
-    const auto has = [](std::uint8_t mask, std::size_t i) { return ((mask >> i) & 1U) != 0; };
-    if (faults.counts_reset && !was_reset) {
+    const bool restarts = faults.has(SimulatedFault::counts_reset);
+    if (restarts && !was_reset) {
         count_base = counts;
         clock_base_s = plant.time_s();
         made.sequence = 0;
     }
-    was_reset = faults.counts_reset;
+    was_reset = restarts;
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        if (has(faults.reversed_mask, i) && !has(turned, i)) {
+        const bool reversed = faults.has(SimulatedFault::reversed_encoder, i);
+        if (reversed && !turned[i]) {
             turned_at[i] = counts[i];
         }
-        const bool stuck = faults.frozen_counts || has(faults.stuck_mask, i);
+        turned[i] = reversed;
+        const bool stuck = faults.has(SimulatedFault::frozen_counts) ||
+                           faults.has(SimulatedFault::stuck_encoder, i);
         held_counts[i] = stuck ? held_counts[i] : counts[i];
         std::int32_t count = held_counts[i];
-        count = has(faults.reversed_mask, i) ? 2 * turned_at[i] - count : count;
+        count = reversed ? 2 * turned_at[i] - count : count;
         count += static_cast<std::int32_t>(std::lround(faults.slip_m[i] / metres_per_count));
-        made.counts[i] = count - count_base[i] + (has(faults.jumped_mask, i) ? kCountJump : 0);
+        made.counts[i] =
+            count - count_base[i] + (faults.has(SimulatedFault::count_jump, i) ? kCountJump : 0);
     }
-    turned = faults.reversed_mask;
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        if (has(faults.swapped_mask, i)) {
+        if (faults.has(SimulatedFault::swapped_encoders, i)) {
             std::swap(made.counts[i], made.counts[(i + 1) % kStringCount]);
         }
     }
@@ -140,7 +149,8 @@ void SimulatedTransport::Impl::move_on(double dt_s, const ActiveFaults &faults) 
     double left_s = dt_s;
     const double end_s = plant.time_s() + dt_s;
     if (written) {
-        link.send(sent_a, plant.time_s(), faults.late_output ? kLateOutput_s : 0.0);
+        link.send(sent_a, plant.time_s(),
+                  faults.has(SimulatedFault::late_output) ? kLateOutput_s : 0.0);
         written = false;
     }
     // A bound: what is on its way at all.
@@ -151,8 +161,8 @@ void SimulatedTransport::Impl::move_on(double dt_s, const ActiveFaults &faults) 
             plant.advance(wait_s);
             left_s -= wait_s;
         }
-        commanded_a = faults.blocked_output ? commanded_a : arrived_a;
-        plant.set_currents(faults.output_cut ? StringArray{} : commanded_a);
+        commanded_a = faults.has(SimulatedFault::blocked_output) ? commanded_a : arrived_a;
+        plant.set_currents(faults.has(SimulatedFault::output_cut) ? StringArray{} : commanded_a);
     }
     plant.advance(left_s);
 }
@@ -170,7 +180,7 @@ Status SimulatedTransport::open() noexcept {
         return Status::invalid_settings;
     }
     m.take_orders();
-    if (m.schedule.at(m.plant.time_s()).unplugged) {
+    if (m.schedule.at(m.plant.time_s()).has(SimulatedFault::unplugged)) {
         return Status::open_failed;
     }
     m.is_open = true;
@@ -180,9 +190,7 @@ Status SimulatedTransport::open() noexcept {
 }
 
 void SimulatedTransport::close() noexcept {
-    impl_->commanded_a = {};
-    impl_->written = false;
-    impl_->link.cut();
+    impl_->lose_power();
     impl_->plant.set_currents({});
     impl_->report_is_new = false;
     impl_->is_open = false;
@@ -195,10 +203,10 @@ Status SimulatedTransport::read(DeviceReading &reading) noexcept {
     }
     m.take_orders();
     const ActiveFaults faults = m.schedule.at(m.plant.time_s());
-    if (faults.unplugged) {
+    if (faults.has(SimulatedFault::unplugged)) {
         return Status::read_failed;
     }
-    if (faults.read_timeout || !m.report_is_new) {
+    if (faults.has(SimulatedFault::read_timeout) || !m.report_is_new) {
         return Status::read_timeout;
     }
     m.report_is_new = false;
@@ -211,10 +219,8 @@ Status SimulatedTransport::write(const DriveCommand &command) noexcept {
     if (!m.is_open) {
         return Status::not_open;
     }
-    if (m.schedule.at(m.plant.time_s()).unplugged) {
-        m.commanded_a = {};
-        m.written = false;
-        m.link.cut();
+    if (m.schedule.at(m.plant.time_s()).has(SimulatedFault::unplugged)) {
+        m.lose_power();
         return Status::write_failed;
     }
     m.sent_a = command.motors_on ? command.currents_a : StringArray{};
@@ -226,15 +232,13 @@ void SimulatedTransport::advance(double dt_s) noexcept {
     Impl &m = *impl_;
     m.take_orders();
     const ActiveFaults faults = m.schedule.at(m.plant.time_s());
-    m.plant.set_broken_strings(faults.broken_mask);
-    m.plant.set_jammed_strings(faults.jammed_mask);
-    m.plant.set_hand_released(faults.hand_released);
-    if (faults.unplugged) {
-        m.commanded_a = {}; // power does not come back with the plug: the next write brings it
-        m.written = false;
-        m.link.cut();
+    m.plant.set_broken_strings(faults.mask(SimulatedFault::broken_string));
+    m.plant.set_jammed_strings(faults.mask(SimulatedFault::jammed_drum));
+    m.plant.set_hand_released(faults.has(SimulatedFault::hand_released));
+    if (faults.has(SimulatedFault::unplugged)) {
+        m.lose_power(); // it does not come back with the plug: the next write brings it
     }
-    m.plant.set_currents(faults.output_cut ? StringArray{} : m.commanded_a);
+    m.plant.set_currents(faults.has(SimulatedFault::output_cut) ? StringArray{} : m.commanded_a);
     m.move_on(dt_s, faults);
     m.make_report();
     m.publish();

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "device/contract/cycle_input.h"
 #include "device/contract/device_event.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/servo_snapshot.h"
+#include "device/contract/transport.h"
 
 namespace spidar {
 

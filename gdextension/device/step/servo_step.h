@@ -2,19 +2,20 @@
 // (state, reading, command, time step). Same input, same bits: threaded, stepped, tests and replay all call it.
 #pragma once
 
-#include "core/tension/tension_solver.h"
 #include "device/contract/device_event.h"
 #include "device/contract/haptic_command.h"
+#include "device/contract/rest.h"
 #include "device/contract/servo_snapshot.h"
 #include "device/contract/transport.h"
 #include "device/rendering/haptic_renderer.h"
 #include "device/safety/device_state_machine.h"
-#include "device/safety/safety_gate.h"
 #include "device/safety/safety_monitor.h"
 #include "device/safety/zero_check.h"
 #include "device/settings/servo_settings.h"
+#include "device/step/game_watch.h"
+#include "device/step/tension_drive.h"
 #include "device/tracking/grip_tracker.h"
-#include "device/tracking/report_order.h"
+#include "device/tracking/report_link.h"
 #include "device/tracking/sample_guard.h"
 
 namespace spidar {
@@ -23,9 +24,6 @@ namespace spidar {
 inline constexpr double kLongestStep_s = 0.05;
 // Shorter ones than any servo has would make speeds without bound out of one encoder count.
 inline constexpr double kShortestStep_s = 1e-6;
-
-// A device clock that went back by more than this is not a late report but a new start.
-inline constexpr std::uint64_t kClockBack_us = 50'000;
 
 // Everything that evolves from tick to tick lives in here.
 class ServoStep {
@@ -47,24 +45,28 @@ public:
     // The next step skips nothing but kinematics. It changes no output, only the counters tension_skipped and
     // steps_skipped.
     void forget_settled() noexcept {
-        solver_.forget_settled();
+        parts_.drive.forget_settled();
         resting_ = false;
     }
 
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
     // What happened in the last step.
-    [[nodiscard]] std::span<const DeviceEvent> events() const noexcept { return events_.events(); }
+    [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
+        return parts_.events.events();
+    }
+
+    // For whoever asks why a step is not skipped: the parts that are not at rest (awake_mask in contract/rest.h).
+    struct Awake {
+        std::uint32_t step = 0;
+        std::uint32_t renderer = 0;
+        std::uint32_t monitor = 0;
+    };
+    [[nodiscard]] Awake awake_parts() const noexcept {
+        return {awake_mask(parts_), parts_.renderer.awake_parts(), parts_.monitor.awake_parts()};
+    }
 
 private:
-    struct Edges {
-        bool arm = false;
-        bool disarm = false;
-        bool clear_fault = false;
-        bool zero = false;
-        bool heartbeat = false;
-        bool stop = false;
-    };
-    Edges take_edges(const HapticCommand &command) noexcept;
+    using Edges = GameWatch::Edges;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
     // False: an old report, or none of this device's.
@@ -77,7 +79,6 @@ private:
     void advance_state(const HapticCommand &command, const Edges &edges,
                        const DeviceReading &reading, double dt_s) noexcept;
     void tell_state() noexcept;
-    void tell_fault(Status why, int string) noexcept;
     void raise(Status why, int string) noexcept;
     void lose(Status why) noexcept;
     // servo_step_rest.cpp: would the next step give what the last one gave?
@@ -87,56 +88,45 @@ private:
                                 bool may_arm_itself) const noexcept;
     void rest(const DeviceReading &reading, const HapticCommand &command, double dt_s) noexcept;
     DriveCommand drive(double dt_s) noexcept;
-    DriveCommand hold_pretension(double dt_s) noexcept;
-    [[nodiscard]] DriveCommand command_for(const StringArray &tensions_n) const noexcept;
-    void clear_reports() noexcept;
-    void clear_outputs() noexcept;
+    DriveCommand let_go() noexcept;
     void publish_state() noexcept;
-    void add_rotor_compensation(StringArray &tensions_n) const noexcept;
 
     ServoSettings settings_{};
     double nominal_dt_s_ = 0.001;
-    double max_tension_n_ = 0.0;
-    MotorScale motors_;
-    SampleGuard guard_;
-    GripTracker tracker_;
-    GraspDetector grasp_;
-    HapticRenderer renderer_;
-    DeviceStateMachine machine_;
-    TensionSolver solver_;
-    SafetyGate gate_;
-    SafetyMonitor monitor_;
-    ReportOrder order_;
-    ZeroCheck zero_check_;
-    EventLog events_;
-    WrenchMatrix matrix_{};
-    bool matrix_valid_ = false; // of the present pose
-    bool motors_were_on_ = false;
-    bool limiting_ = false;  // the sum of all requests is being brought down
-    bool tracking_ = false;  // the newest sample gave a pose
-    bool answered_ = false;  // any reading yet
-    bool fresh_ = false;     // a good sample in this cycle
-    bool moved_ = false;     // with another pose
-    bool rendering_ = false; // a wrench was asked for in the last cycle
-    bool resting_ = false;   // all that evolves in time stands still
-    bool settled_ = false;   // the last tensions were the ones before, unlimited
-    bool saturated_ = false; // and limited by strings at a bound
+    // Everything that evolves from cycle to cycle, beside what commands and readings bring.
+    struct Parts {
+        EventLog events; // first what is seldom at rest: the question ends there
+        TensionDrive drive;
+        DeviceStateMachine machine;
+        GripTracker tracker;
+        ReportLink link;
+        SampleGuard guard;
+        GraspDetector grasp;
+        ZeroCheck zero_check;
+        SafetyMonitor monitor;
+        HapticRenderer renderer;
+        template <typename Combine>
+        auto with_all(Combine &&combine) const noexcept {
+            const auto &[a, b, c, d, e, f, g, h, i, j] = *this;
+            return combine(a, b, c, d, e, f, g, h, i, j);
+        }
+    };
+    Parts parts_;
+    // What commands and readings brought last.
+    GameWatch game_;
     bool forces_enabled_ = false;
-    DriveCommand last_drive_; // valid while resting_
     bool simulated_ = false;
-    bool device_zeroed_ = true; // as the device said last
-    DeviceState told_state_ = DeviceState::closed;
-    double since_beat_s_ = 0.0; // of the game
-    std::uint64_t device_time_us_ = 0;
-    double since_report_s_ = 0.0;
+    bool device_zeroed_ = true;
+    // Of the last cycle.
+    bool limiting_ = false;   // the sum of all requests was brought down
+    bool tracking_ = false;   // the newest sample gave a pose
+    bool fresh_ = false;      // a good sample came in
+    bool moved_ = false;      // with another pose
+    bool rendering_ = false;  // a wrench was asked for
     int unsolved_in_row_ = 0; // samples without a pose
-    double link_scale_ = 1.0; // of the wrench, while reports fail to come
-    std::uint32_t arm_count_ = 0;
-    std::uint32_t disarm_count_ = 0;
-    std::uint32_t clear_fault_count_ = 0;
-    std::uint32_t zero_count_ = 0;
-    std::uint32_t heartbeat_ = 0;
-    std::uint32_t stop_count_ = 0;
+    DeviceState told_state_ = DeviceState::closed;
+    bool resting_ = false;    // the next step may be skipped
+    DriveCommand last_drive_; // valid while resting_
     ServoSnapshot snapshot_{};
 };
 

@@ -53,8 +53,11 @@ public:
         return std::min(std::exp2(0.5 * index + 0.25) * 1e-3, max_us());
     }
 
-    [[nodiscard]] std::uint32_t count(int bucket) const noexcept {
-        return buckets_[static_cast<std::size_t>(bucket)].load(std::memory_order_relaxed);
+    // Samples in each bucket.
+    [[nodiscard]] std::array<std::uint32_t, kBuckets> counts() const noexcept {
+        std::array<std::uint32_t, kBuckets> counts{};
+        std::copy(buckets_.begin(), buckets_.end(), counts.begin());
+        return counts;
     }
     // Where a bucket begins; the next one ends it.
     [[nodiscard]] static double begin_us(int bucket) noexcept {

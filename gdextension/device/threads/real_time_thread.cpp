@@ -1,7 +1,6 @@
 #include "device/threads/real_time_thread.h"
 
 #include <chrono>
-#include <thread>
 
 #if defined(__linux__)
 #include <cerrno>
@@ -51,20 +50,7 @@ void name_thread(const char *name) noexcept {
     prctl(PR_SET_NAME, name, 0UL, 0UL, 0UL);
 }
 
-#elif !defined(_WIN32) && !defined(__APPLE__) // those have files of their own
-
-void sleep_until_ns(std::int64_t deadline_ns) noexcept {
-    std::this_thread::sleep_until(
-        std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns)));
-}
-
-bool request_real_time() noexcept {
-    return false;
-}
-
-void name_thread(const char * /*name*/) noexcept {}
-
-#endif
+#endif // Windows: real_time_thread_windows.cpp
 
 #if defined(__SSE2__) || defined(_M_X64)
 

@@ -47,6 +47,26 @@ public:
         head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 
+    // The same for elements that are small. False: the queue is full, and the element is dropped; or it is empty.
+    bool offer(const T &element) noexcept {
+        T *const slot = free_slot();
+        if (slot == nullptr) {
+            return false;
+        }
+        *slot = element;
+        commit();
+        return true;
+    }
+    bool take(T &element) noexcept {
+        const T *const waiting = oldest();
+        if (waiting == nullptr) {
+            return false;
+        }
+        element = *waiting;
+        pop();
+        return true;
+    }
+
     // From either thread: how many elements wait. The other side may be changing it.
     [[nodiscard]] std::size_t size() const noexcept {
         const std::size_t head = head_.load(std::memory_order_acquire);

@@ -64,7 +64,6 @@ void WriterThread::write(const DriveCommand &command) noexcept {
     const Status status = transport_.write(command);
     writing_since_ns_.store(0, std::memory_order_release);
     motors_are_on_ = usable(status) && command.motors_on;
-    writes_.fetch_add(1, std::memory_order_relaxed);
     if (!usable(status)) {
         result_.store(static_cast<std::int32_t>(status), std::memory_order_release);
     }

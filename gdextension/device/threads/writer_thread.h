@@ -40,9 +40,6 @@ public:
     [[nodiscard]] std::int64_t blocked_ns(std::int64_t now_ns) const noexcept;
     // The loop stood still and the motors were switched off, since the last call.
     bool take_stalled() noexcept { return stalled_.exchange(false, std::memory_order_acq_rel); }
-    [[nodiscard]] std::uint64_t writes() const noexcept {
-        return writes_.load(std::memory_order_relaxed);
-    }
 
 private:
     void run() noexcept;
@@ -58,7 +55,6 @@ private:
     std::atomic<std::int64_t> last_post_ns_{0};
     std::atomic<std::int64_t> writing_since_ns_{0};
     std::atomic<std::int32_t> result_{0};
-    std::atomic<std::uint64_t> writes_{0};
     bool motors_are_on_ = false; // as last written
 };
 

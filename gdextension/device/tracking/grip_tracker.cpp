@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -28,7 +27,7 @@ Status GripTracker::configure(const ServoSettings &settings) noexcept {
     *this = GripTracker();
     kinematics_ = kinematics;
     lengths_of_.configure(settings.strings, settings.corrections);
-    cutoff_rad_s_ = 2.0 * std::numbers::pi * settings.velocity_cutoff_hz;
+    twist_filter_ = OnePole(settings.velocity_cutoff_hz);
     grip_.pose = rest_pose(settings.grip);
     grip_.frame = frame_of(grip_.pose, Mat3(1.0));
     return Status::ok;
@@ -50,11 +49,7 @@ void GripTracker::set_zero(const CountArray &counts) noexcept {
 }
 
 void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
-    if (dt_s != filtered_dt_s_) {
-        filtered_dt_s_ = dt_s;
-        filter_share_ = -std::expm1(-cutoff_rad_s_ * dt_s);
-    }
-    const double alpha = filter_share_;
+    const double alpha = twist_filter_.share(dt_s);
     Twist &twist = grip_.twist;
     twist.linear_m_s += alpha * (raw.linear_m_s - twist.linear_m_s);
     twist.angular_rad_s += alpha * (raw.angular_rad_s - twist.angular_rad_s);

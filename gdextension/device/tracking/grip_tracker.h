@@ -1,6 +1,7 @@
 // Counts of each cycle -> GripState: pose by forward kinematics, twist by the difference of poses, filtered.
 #pragma once
 
+#include "core/base/one_pole.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "device/contract/motion.h"
 #include "device/settings/servo_settings.h"
@@ -46,9 +47,7 @@ private:
 
     ForwardKinematics kinematics_;
     LengthCorrection lengths_of_;
-    double cutoff_rad_s_ = 0.0;
-    double filter_share_ = 0.0; // of a time step of filtered_dt_s_
-    double filtered_dt_s_ = 0.0;
+    OnePole twist_filter_;
     GripState grip_{};
     Displacement moved_{};
     StringArray lengths_m_{};

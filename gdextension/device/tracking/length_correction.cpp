@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace spidar {
 
 namespace {
 
-// A wall of 2000 N/m on strings of 12 kN/m in series would become 1.2 times as
-// stiff at once; below this it does.
-constexpr double kFollow_hz = 5.0;
 // Nearer than this the tension counts as reached: 0.01 um of stretch.
 constexpr double kReached_n = 1e-4;
 
@@ -33,7 +29,7 @@ bool LengthCorrection::follow(const StringArray &tensions_n, double dt_s) noexce
     if (!stretched_) {
         return false;
     }
-    const double gain = -std::expm1(-2.0 * std::numbers::pi * kFollow_hz * dt_s);
+    const double gain = follow_.share(dt_s);
     bool changed = false;
     for (std::size_t i = 0; i < tensions_n.size(); ++i) {
         const double off_n = tensions_n[i] - tensions_n_[i];

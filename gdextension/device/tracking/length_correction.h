@@ -4,6 +4,7 @@
 // wall still.
 #pragma once
 
+#include "core/base/one_pole.h"
 #include "core/calibration/length_corrections.h"
 
 namespace spidar {
@@ -19,10 +20,14 @@ public:
     [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
 
 private:
+    // A wall of 2000 N/m on strings of 12 kN/m in series would become 1.2 times as stiff at once; below this it does.
+    static constexpr double kFollow_hz = 5.0;
+
     StringCalibration strings_{};
     LengthCorrections corrections_{};
     bool wound_ = false;
     bool stretched_ = false;
+    OnePole follow_{kFollow_hz};
     StringArray tensions_n_{}; // followed
 };
 

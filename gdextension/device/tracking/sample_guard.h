@@ -21,10 +21,11 @@ public:
     // The next sample becomes the reference, whatever it is.
     void reset() noexcept;
 
-    // dt_s: time since the last call to check() or wait(). Counts wrap at 32 bits.
+    // dt_s: time since the last call to check() or advance_without_reading(). Counts wrap at 32 bits.
     Verdict check(const CountArray &counts, double dt_s) noexcept;
     // No sample came in this tick.
-    void wait(double dt_s) noexcept { elapsed_s_ += dt_s; }
+    void advance_without_reading(double dt_s) noexcept { elapsed_s_ += dt_s; }
+    [[nodiscard]] bool at_rest() const noexcept { return has_reference_ && bad_in_row_ == 0; }
 
     // The string that moved too fast in the last bad sample (0-7), -1 before any.
     [[nodiscard]] int bad_string() const noexcept { return bad_string_; }

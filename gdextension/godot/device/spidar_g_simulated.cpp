@@ -1,10 +1,10 @@
 // The simulated device: where its hand goes, what really happens, what is made to fail.
 #include "godot/device/spidar_g.h"
 
-#include <cmath>
 #include <memory>
 #include <string>
 
+#include "core/base/finite.h"
 #include "godot/base/type_conversions.h"
 
 std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &status,
@@ -30,8 +30,7 @@ bool SpidarG::simulated_hand_target(const godot::Transform3D &target, double gra
     const spidar::WorldFrame frame = world();
     const spidar::Vec3 origin = spidar::to_core(target.origin);
     const spidar::Mat3 turn = spidar::to_core(target.basis.orthonormalized());
-    const double sum = origin.x + origin.y + origin.z + turn[0].x + turn[1].y + turn[2].z;
-    if (!std::isfinite(sum) || !std::isfinite(grasp_angle)) {
+    if (!spidar::all_finite(origin, turn, grasp_angle)) {
         return reject(
             "simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
             " rad is not finite: give finite numbers; the hand stays where it was.");

@@ -9,6 +9,7 @@
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "core/analysis/wrench_closure.h"
+#include "core/base/finite.h"
 #include "core/geometry/grip_geometry.h"
 #include "device/contract/dof_lanes.h"
 #include "device/safety/monitors/workspace_guard.h"
@@ -29,18 +30,14 @@ constexpr double kRotationTolerance = 1e-4;
 // Shorter directions than this have none.
 constexpr double kLeastDirection = 1e-9;
 
-bool is_finite(const Vec3 &v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool is_rotation(const spidar::Mat3 &m) {
     const spidar::Mat3 rest = glm::transpose(m) * m - spidar::Mat3(1.0);
+    if (!spidar::all_finite(rest)) {
+        return false;
+    }
     double largest = 0.0;
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
-            if (!std::isfinite(rest[column][row])) {
-                return false;
-            }
             largest = std::max(largest, std::abs(rest[column][row]));
         }
     }
@@ -60,13 +57,12 @@ double largest_factor(const spidar::WrenchMatrix &matrix, const PaperWrench &wre
 }
 
 PaperWrench paper_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
-                         double grasp_torque) {
+                      double grasp_torque) {
     return spidar::to_paper({spidar::to_core(force), spidar::to_core(moment), grasp_torque});
 }
 
 bool is_finite(const char *method, const PaperWrench &wrench) {
-    const bool good = std::all_of(wrench.begin(), wrench.end(),
-                                  [](double value) { return std::isfinite(value); });
+    const bool good = spidar::all_finite(wrench);
     if (!good) {
         complain(method, "force (N), moment (N m) and grasp_torque (N m) must be finite.");
     }
@@ -117,8 +113,8 @@ PackedVector3Array SpidarGWorkspace::get_box() const {
     spidar::WorkspaceGuard guard;
     guard.configure(config_or_default().servo_settings());
     PackedVector3Array corners;
-    corners.push_back(spidar::to_godot(guard.low_m()));
-    corners.push_back(spidar::to_godot(guard.high_m()));
+    corners.push_back(spidar::to_godot(guard.free_box().low_m));
+    corners.push_back(spidar::to_godot(guard.free_box().high_m));
     return corners;
 }
 
@@ -136,7 +132,7 @@ SpidarGWorkspace::place(const char *method, const Transform3D &pose, double gras
     }
     const Vec3 position = spidar::to_core(pose.origin);
     const spidar::Mat3 turn = spidar::to_core(pose.basis);
-    if (!is_finite(position) || !is_rotation(turn)) {
+    if (!spidar::all_finite(position) || !is_rotation(turn)) {
         complain(method, "the pose of the grip (m) must be finite and its basis a pure rotation; "
                          "use Basis.orthonormalized().");
         return std::nullopt;
@@ -173,7 +169,7 @@ PackedFloat64Array SpidarGWorkspace::get_closure_margins(const PackedVector3Arra
     spidar::GripPose pose = first->pose;
     for (std::int64_t i = 0; i < positions.size(); ++i) {
         pose.position_m = spidar::to_core(positions[i]);
-        if (!is_finite(pose.position_m)) {
+        if (!spidar::all_finite(pose.position_m)) {
             complain("get_closure_margins",
                      "position " + std::to_string(i) + " (m) must be finite.");
             return {};
@@ -197,7 +193,7 @@ PackedFloat64Array SpidarGWorkspace::capacity(const char *method, std::size_t fi
     for (std::int64_t i = 0; i < along.size(); ++i) {
         const Vec3 direction = spidar::to_core(along[i]);
         const double length = glm::length(direction);
-        if (!(length > kLeastDirection) || !is_finite(direction)) {
+        if (!(length > kLeastDirection) || !spidar::all_finite(direction)) {
             complain(method, "direction " + std::to_string(i) +
                                  " has no length or is not finite; its length does not matter, "
                                  "but give some.");

@@ -170,7 +170,7 @@ TEST_CASE("coupling: begins gradually, fades when forgotten, goes when withdrawn
     for (int ms = 1; ms <= 20; ++ms) {
         CHECK_FALSE(rig.request.age(kTick_s)); // withdrawn: not an expiry
     }
-    CHECK_FALSE(rig.request.live());
+    CHECK(rig.request.at_rest());
     CHECK(rig.request.render(rig.motion).force_n.x == 0.0);
 }
 

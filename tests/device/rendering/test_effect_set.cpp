@@ -152,7 +152,7 @@ TEST_CASE("effects: begin, change and end over one game period; the same id carr
     smooth(-1.6);
     rig.give({});
     smooth(0.0);
-    CHECK(rig.set.empty());
+    CHECK(rig.set.at_rest());
 }
 
 TEST_CASE("effects: last as long as asked, then fade; the end is counted once") {
@@ -170,7 +170,7 @@ TEST_CASE("effects: last as long as asked, then fade; the end is counted once") 
         }
     }
     CHECK(ended == 1);
-    CHECK(rig.set.empty());
+    CHECK(rig.set.at_rest());
     // Sent again with others it stays over; renewed it begins again.
     rig.give({force});
     CHECK(rig.play(kFaded).force_n.x == 0.0);

@@ -73,11 +73,11 @@ TEST_CASE("motion filter: of a steady motion it knows the speed, and where the g
 TEST_CASE("motion filter: at rest it is exactly at rest") {
     MotionFilter filter;
     filter.configure(RenderSettings(), 1.0 / kTick_s);
-    CHECK(filter.settled());
+    CHECK(filter.at_rest());
     filter.update(along_x(1e-3), kTick_s);
-    CHECK_FALSE(filter.settled());
+    CHECK_FALSE(filter.at_rest());
     int ticks = 0;
-    while (!filter.settled() && ticks < 1000) {
+    while (!filter.at_rest() && ticks < 1000) {
         filter.update(Displacement(), kTick_s);
         ++ticks;
     }

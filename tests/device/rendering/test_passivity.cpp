@@ -102,9 +102,9 @@ TEST_CASE("passivity: settles to exactly nothing") {
     Wrench push;
     push.force_n.x = 1.0;
     controller.correct(push, Displacement(), Twist(), kTick_s);
-    CHECK_FALSE(controller.settled());
+    CHECK_FALSE(controller.at_rest());
     int ticks = 0;
-    while (!controller.settled() && ticks < 5000) {
+    while (!controller.at_rest() && ticks < 5000) {
         controller.correct(Wrench(), Displacement(), Twist(), kTick_s);
         ++ticks;
     }

@@ -13,7 +13,6 @@
 #include "device/safety/monitors/bounce_monitor.h"
 #include "device/safety/safety_monitor.h"
 #include "device/safety/zero_check.h"
-#include "device/threads/event_queue.h"
 #include "device/tracking/report_order.h"
 #include "support/servo_fixture.h"
 
@@ -288,43 +287,6 @@ TEST_CASE("events: a kind is told once a second, faults always; the rest is coun
         log.tell(static_cast<DeviceEventKind>(i));
     }
     CHECK(log.events().size() == EventLog::kMostAtOnce);
-}
-
-TEST_CASE("event queue: in order across threads, a full one drops the newest and counts them") {
-    EventQueue queue;
-    DeviceEvent event;
-    for (int i = 0; i < 300; ++i) {
-        event.value = i;
-        queue.push(event);
-    }
-    CHECK(queue.dropped() == 300 - EventQueue::kPlaces);
-    for (std::uint32_t i = 0; i < EventQueue::kPlaces; ++i) {
-        REQUIRE(queue.pop(event));
-        CHECK(event.value == i);
-    }
-    CHECK_FALSE(queue.pop(event));
-
-    EventQueue busy;
-    constexpr int kMany = 100000;
-    std::thread writer([&] {
-        DeviceEvent sent;
-        for (int i = 1; i <= kMany; ++i) {
-            sent.value = i;
-            busy.push(sent);
-        }
-    });
-    double last = 0.0;
-    int got = 0;
-    bool ordered = true;
-    while (last < kMany && got + static_cast<int>(busy.dropped()) < kMany) {
-        if (busy.pop(event)) {
-            ordered = ordered && event.value > last;
-            last = event.value;
-            ++got;
-        }
-    }
-    writer.join();
-    CHECK(ordered);
 }
 
 TEST_CASE("bounce monitor: bounces that leave faster than they came, three in a row, are found") {

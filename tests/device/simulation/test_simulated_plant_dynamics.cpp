@@ -384,7 +384,7 @@ TEST_CASE("plant: validate names the field, the value, the unit and the range") 
     refused([](PlantSettings &s) { s.rotor_mass_kg = 0.0; }, "rotor_mass_kg is 0 kg");
     refused([](PlantSettings &s) { s.metres_per_count = kNan; }, "metres_per_count");
     refused([](PlantSettings &s) { s.string_stiffness_ea_n = -1.0; },
-            "string_stiffness_ea_n is -1 N: set it between 10 and 30000 N");
+            "string_stiffness_ea_n is -1 N; set it between 10 and 30000 N");
     refused([](PlantSettings &s) { s.coulomb_friction_n = -0.1; }, "coulomb_friction_n");
     refused([](PlantSettings &s) { s.current_lag_s = kInfinity; }, "current_lag_s");
     refused([](PlantSettings &s) { s.length_gain_error[2] = kNan; }, "length_gain_error[2]");

@@ -1,6 +1,7 @@
 // The queue between the servo loop and the recorder.
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <thread>
 
@@ -65,4 +66,41 @@ TEST_CASE("spsc ring: two threads hand over every element, in order and whole") 
     writer.join();
     CHECK(wrong == 0);
     CHECK(ring.oldest() == nullptr);
+}
+
+TEST_CASE("spsc ring: offered and taken in order across threads; a full one drops the newest") {
+    constexpr int kPlaces = 256;
+    SpscRing<double> queue(kPlaces);
+    int dropped = 0;
+    for (int i = 0; i < 300; ++i) {
+        dropped += queue.offer(i) ? 0 : 1;
+    }
+    CHECK(dropped == 300 - kPlaces);
+    double value = 0.0;
+    for (int i = 0; i < kPlaces; ++i) {
+        REQUIRE(queue.take(value));
+        CHECK(value == i);
+    }
+    CHECK_FALSE(queue.take(value));
+
+    SpscRing<double> busy(kPlaces);
+    std::atomic<int> lost{0};
+    constexpr int kMany = 100000;
+    std::thread writer([&] {
+        for (int i = 1; i <= kMany; ++i) {
+            lost += busy.offer(i) ? 0 : 1;
+        }
+    });
+    double last = 0.0;
+    int got = 0;
+    bool ordered = true;
+    while (last < kMany && got + lost < kMany) {
+        if (busy.take(value)) {
+            ordered = ordered && value > last;
+            last = value;
+            ++got;
+        }
+    }
+    writer.join();
+    CHECK(ordered);
 }

@@ -1,6 +1,8 @@
 #include "device/hid/protocol/hid_codec.h"
 
 #include <algorithm>
+#include <concepts>
+#include <type_traits>
 
 #include "device/hid/protocol/crc16.h"
 #include "device/hid/protocol/report_sequence.h"
@@ -23,6 +25,26 @@ class Writer {
 public:
     explicit Writer(HidReportId id) noexcept { put(static_cast<std::uint8_t>(id)); }
 
+    template <typename... Fields>
+    void all(const Fields &...fields) noexcept {
+        (put(fields), ...);
+    }
+    // What every report of this kind holds here.
+    template <typename Integer>
+    void constant(Integer value) noexcept {
+        put(value);
+    }
+    void reserved() noexcept { put(std::uint8_t{0}); }
+
+    [[nodiscard]] std::array<std::uint8_t, size>
+    seal(std::uint16_t seed = kHidProtocolVersion) noexcept {
+        const std::uint16_t crc = crc16(ReportBytes(bytes_).first(size - kCrcSize), seed);
+        bytes_[size - 2] = static_cast<std::uint8_t>(crc >> 8U);
+        bytes_[size - 1] = static_cast<std::uint8_t>(crc);
+        return bytes_;
+    }
+
+private:
     template <typename Integer>
     void put(Integer value) noexcept {
         const auto bits = static_cast<std::uint32_t>(value);
@@ -37,15 +59,6 @@ public:
         }
     }
 
-    [[nodiscard]] std::array<std::uint8_t, size>
-    seal(std::uint16_t seed = kHidProtocolVersion) noexcept {
-        const std::uint16_t crc = crc16(ReportBytes(bytes_).first(size - kCrcSize), seed);
-        bytes_[size - 2] = static_cast<std::uint8_t>(crc >> 8U);
-        bytes_[size - 1] = static_cast<std::uint8_t>(crc);
-        return bytes_;
-    }
-
-private:
     std::array<std::uint8_t, size> bytes_{};
     std::size_t at_ = 0;
 };
@@ -55,6 +68,27 @@ class Reader {
 public:
     explicit Reader(ReportBytes bytes) noexcept : bytes_(bytes) {}
 
+    template <typename... Fields>
+    void all(Fields &...fields) noexcept {
+        (get(fields), ...);
+    }
+    template <typename Integer>
+    void constant(Integer expected) noexcept {
+        Integer value{};
+        get(value);
+        good_ = good_ && value == expected;
+    }
+    void reserved() noexcept { ++at_; }
+
+    // Every constant was as expected.
+    [[nodiscard]] bool good() const noexcept { return good_; }
+    // True when all up to the CRC is zero.
+    [[nodiscard]] bool rest_is_zero() const noexcept {
+        const ReportBytes rest = bytes_.subspan(at_, bytes_.size() - kCrcSize - at_);
+        return std::all_of(rest.begin(), rest.end(), [](std::uint8_t byte) { return byte == 0; });
+    }
+
+private:
     template <typename Integer>
     void get(Integer &value) noexcept {
         std::uint32_t bits = 0;
@@ -69,15 +103,10 @@ public:
             get(value);
         }
     }
-    // True when all up to the CRC is zero.
-    [[nodiscard]] bool rest_is_zero() const noexcept {
-        const ReportBytes rest = bytes_.subspan(at_, bytes_.size() - kCrcSize - at_);
-        return std::all_of(rest.begin(), rest.end(), [](std::uint8_t byte) { return byte == 0; });
-    }
 
-private:
     ReportBytes bytes_;
     std::size_t at_ = 1; // behind the report id
+    bool good_ = true;
 };
 
 [[nodiscard]] Decoded check(ReportBytes bytes, std::size_t size, HidReportId id,
@@ -92,212 +121,146 @@ private:
     return crc16(bytes.first(size - kCrcSize), seed) == sent ? Decoded::ok : Decoded::bad_crc;
 }
 
+template <typename T, typename Report>
+concept Either = std::same_as<std::remove_const_t<T>, Report>;
+
+// The fields of each report in their order on the wire, once for a Writer and for a Reader.
+template <typename Wire, Either<StateReport> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.all(report.flags, report.sequence, report.accepted_command, report.device_time_us,
+             report.counts, report.tensions_mn, report.buttons, report.fault_strings,
+             report.supply_mv);
+}
+
+template <typename Wire, Either<CommandReport> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.all(report.flags, report.sequence, report.valid_for_ms, report.tensions_mn,
+             report.answers_state, report.host_time_us);
+}
+
+template <typename Wire, Either<HidCapabilities> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.all(report.protocol_version, report.motor_count);
+    wire.reserved();
+    wire.all(report.capabilities, report.firmware_version, report.unique_id, report.counts_per_turn,
+             report.max_tension_mn, report.max_tension_rate_mn_ms, report.watchdog_limit_ms,
+             report.report_rate_hz, report.max_force_mn, report.max_moment_mnm,
+             report.max_grasp_torque_mnm, report.max_stiffness_n_m, report.workspace_mm,
+             report.max_string_speed_mm_s);
+    wire.constant(kCapabilitiesMagic);
+}
+
+template <typename Wire, Either<HidLimits> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.constant(std::uint8_t{0});
+    wire.all(report.max_tension_mn, report.tension_rate_mn_ms, report.string_speed_mm_s,
+             report.ramp_in_ms, report.min_tension_mn);
+}
+
+template <typename Wire, Either<HidZero> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.constant(std::uint8_t{0});
+    wire.constant(kZeroMagic);
+    wire.all(report.counts);
+}
+
+template <typename Wire, Either<DeviceControl> Report>
+void fields(Wire &wire, Report &report) noexcept {
+    wire.all(report);
+}
+
+template <std::size_t size, typename Report>
+[[nodiscard]] std::array<std::uint8_t, size>
+encoded(HidReportId id, const Report &report, std::uint16_t seed = kHidProtocolVersion) noexcept {
+    Writer<size> writer(id);
+    fields(writer, report);
+    return writer.seal(seed);
+}
+
+// good(report, reader): what must hold of the values.
+template <typename Report, typename Good>
+[[nodiscard]] Decoded decoded(ReportBytes bytes, std::size_t size, HidReportId id, Report &report,
+                              Good good, std::uint16_t seed = kHidProtocolVersion) noexcept {
+    const Decoded checked = check(bytes, size, id, seed);
+    if (checked != Decoded::ok) {
+        return checked;
+    }
+    Report read{};
+    Reader reader(bytes);
+    fields(reader, read);
+    if (!reader.good() || !good(read, reader)) {
+        return Decoded::bad_value;
+    }
+    report = read;
+    return Decoded::ok;
+}
+
 } // namespace
 
 std::array<std::uint8_t, kStateSize> encode(const StateReport &report) noexcept {
-    Writer<kStateSize> writer(HidReportId::state);
-    writer.put(report.flags);
-    writer.put(report.sequence);
-    writer.put(report.accepted_command);
-    writer.put(report.device_time_us);
-    writer.put(report.counts);
-    writer.put(report.tensions_mn);
-    writer.put(report.buttons);
-    writer.put(report.fault_strings);
-    writer.put(report.supply_mv);
-    return writer.seal();
+    return encoded<kStateSize>(HidReportId::state, report);
 }
 
 Decoded decode(ReportBytes bytes, StateReport &report) noexcept {
-    const Decoded checked = check(bytes, kStateSize, HidReportId::state);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    StateReport read;
-    Reader reader(bytes);
-    reader.get(read.flags);
-    reader.get(read.sequence);
-    reader.get(read.accepted_command);
-    reader.get(read.device_time_us);
-    reader.get(read.counts);
-    reader.get(read.tensions_mn);
-    reader.get(read.buttons);
-    reader.get(read.fault_strings);
-    reader.get(read.supply_mv);
-    if (read.sequence == kNoSequence) {
-        return Decoded::bad_value;
-    }
-    report = read;
-    return Decoded::ok;
+    return decoded(bytes, kStateSize, HidReportId::state, report,
+                   [](const StateReport &read, const Reader & /*reader*/) {
+                       return read.sequence != kNoSequence;
+                   });
 }
 
 std::array<std::uint8_t, kCommandSize> encode(const CommandReport &report) noexcept {
-    Writer<kCommandSize> writer(HidReportId::command);
-    writer.put(report.flags);
-    writer.put(report.sequence);
-    writer.put(report.valid_for_ms);
-    writer.put(report.tensions_mn);
-    writer.put(report.answers_state);
-    writer.put(report.host_time_us);
-    return writer.seal();
+    return encoded<kCommandSize>(HidReportId::command, report);
 }
 
 Decoded decode(ReportBytes bytes, CommandReport &report) noexcept {
-    const Decoded checked = check(bytes, kCommandSize, HidReportId::command);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    CommandReport read;
-    Reader reader(bytes);
-    reader.get(read.flags);
-    reader.get(read.sequence);
-    reader.get(read.valid_for_ms);
-    reader.get(read.tensions_mn);
-    reader.get(read.answers_state);
-    reader.get(read.host_time_us);
-    const bool known_flags = (read.flags & ~command_flag::kAll) == 0;
-    if (!known_flags || read.sequence == kNoSequence || read.valid_for_ms == 0 ||
-        !reader.rest_is_zero()) {
-        return Decoded::bad_value;
-    }
-    report = read;
-    return Decoded::ok;
+    return decoded(bytes, kCommandSize, HidReportId::command, report,
+                   [](const CommandReport &read, const Reader &reader) {
+                       const bool known_flags = (read.flags & ~command_flag::kAll) == 0;
+                       return known_flags && read.sequence != kNoSequence &&
+                              read.valid_for_ms != 0 && reader.rest_is_zero();
+                   });
 }
 
 std::array<std::uint8_t, kCapabilitiesSize> encode(const HidCapabilities &report) noexcept {
-    Writer<kCapabilitiesSize> writer(HidReportId::capabilities);
-    writer.put(report.protocol_version);
-    writer.put(report.motor_count);
-    writer.put(std::uint8_t{0});
-    writer.put(report.capabilities);
-    writer.put(report.firmware_version);
-    writer.put(report.unique_id);
-    writer.put(report.counts_per_turn);
-    writer.put(report.max_tension_mn);
-    writer.put(report.max_tension_rate_mn_ms);
-    writer.put(report.watchdog_limit_ms);
-    writer.put(report.report_rate_hz);
-    writer.put(report.max_force_mn);
-    writer.put(report.max_moment_mnm);
-    writer.put(report.max_grasp_torque_mnm);
-    writer.put(report.max_stiffness_n_m);
-    writer.put(report.workspace_mm);
-    writer.put(report.max_string_speed_mm_s);
-    writer.put(kCapabilitiesMagic);
-    return writer.seal(kCapabilitiesSeed);
+    return encoded<kCapabilitiesSize>(HidReportId::capabilities, report, kCapabilitiesSeed);
 }
 
 Decoded decode(ReportBytes bytes, HidCapabilities &report) noexcept {
-    const Decoded checked =
-        check(bytes, kCapabilitiesSize, HidReportId::capabilities, kCapabilitiesSeed);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    HidCapabilities read;
-    std::uint8_t reserved = 0;
-    std::uint32_t magic = 0;
-    Reader reader(bytes);
-    reader.get(read.protocol_version);
-    reader.get(read.motor_count);
-    reader.get(reserved);
-    reader.get(read.capabilities);
-    reader.get(read.firmware_version);
-    reader.get(read.unique_id);
-    reader.get(read.counts_per_turn);
-    reader.get(read.max_tension_mn);
-    reader.get(read.max_tension_rate_mn_ms);
-    reader.get(read.watchdog_limit_ms);
-    reader.get(read.report_rate_hz);
-    reader.get(read.max_force_mn);
-    reader.get(read.max_moment_mnm);
-    reader.get(read.max_grasp_torque_mnm);
-    reader.get(read.max_stiffness_n_m);
-    reader.get(read.workspace_mm);
-    reader.get(read.max_string_speed_mm_s);
-    reader.get(magic);
-    if (magic != kCapabilitiesMagic) {
-        return Decoded::bad_value;
-    }
-    report = read;
-    return Decoded::ok;
+    return decoded(
+        bytes, kCapabilitiesSize, HidReportId::capabilities, report,
+        [](const HidCapabilities & /*read*/, const Reader & /*reader*/) { return true; },
+        kCapabilitiesSeed);
 }
 
 std::array<std::uint8_t, kLimitsSize> encode(const HidLimits &report) noexcept {
-    Writer<kLimitsSize> writer(HidReportId::limits);
-    writer.put(std::uint8_t{0});
-    writer.put(report.max_tension_mn);
-    writer.put(report.tension_rate_mn_ms);
-    writer.put(report.string_speed_mm_s);
-    writer.put(report.ramp_in_ms);
-    writer.put(report.min_tension_mn);
-    return writer.seal();
+    return encoded<kLimitsSize>(HidReportId::limits, report);
 }
 
 Decoded decode(ReportBytes bytes, HidLimits &report) noexcept {
-    const Decoded checked = check(bytes, kLimitsSize, HidReportId::limits);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    HidLimits read;
-    std::uint8_t reserved = 0;
-    Reader reader(bytes);
-    reader.get(reserved);
-    reader.get(read.max_tension_mn);
-    reader.get(read.tension_rate_mn_ms);
-    reader.get(read.string_speed_mm_s);
-    reader.get(read.ramp_in_ms);
-    reader.get(read.min_tension_mn);
-    if (reserved != 0 || !reader.rest_is_zero() || read.min_tension_mn > read.max_tension_mn) {
-        return Decoded::bad_value;
-    }
-    report = read;
-    return Decoded::ok;
+    return decoded(bytes, kLimitsSize, HidReportId::limits, report,
+                   [](const HidLimits &read, const Reader &reader) {
+                       return reader.rest_is_zero() && read.min_tension_mn <= read.max_tension_mn;
+                   });
 }
 
 std::array<std::uint8_t, kZeroSize> encode(const HidZero &report) noexcept {
-    Writer<kZeroSize> writer(HidReportId::zero);
-    writer.put(std::uint8_t{0});
-    writer.put(kZeroMagic);
-    writer.put(report.counts);
-    return writer.seal();
+    return encoded<kZeroSize>(HidReportId::zero, report);
 }
 
 Decoded decode(ReportBytes bytes, HidZero &report) noexcept {
-    const Decoded checked = check(bytes, kZeroSize, HidReportId::zero);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    HidZero read;
-    std::uint8_t reserved = 0;
-    std::uint32_t magic = 0;
-    Reader reader(bytes);
-    reader.get(reserved);
-    reader.get(magic);
-    reader.get(read.counts);
-    if (reserved != 0 || magic != kZeroMagic) {
-        return Decoded::bad_value;
-    }
-    report = read;
-    return Decoded::ok;
+    return decoded(bytes, kZeroSize, HidReportId::zero, report,
+                   [](const HidZero & /*read*/, const Reader & /*reader*/) { return true; });
 }
 
 std::array<std::uint8_t, kDeviceControlSize> encode(DeviceControl report) noexcept {
-    Writer<kDeviceControlSize> writer(HidReportId::device_control);
-    writer.put(static_cast<std::uint8_t>(report));
-    return writer.seal();
+    return encoded<kDeviceControlSize>(HidReportId::device_control, report);
 }
 
 Decoded decode(ReportBytes bytes, DeviceControl &report) noexcept {
-    const Decoded checked = check(bytes, kDeviceControlSize, HidReportId::device_control);
-    if (checked != Decoded::ok) {
-        return checked;
-    }
-    if (bytes[1] < static_cast<std::uint8_t>(DeviceControl::enable) ||
-        bytes[1] > static_cast<std::uint8_t>(DeviceControl::proceed)) {
-        return Decoded::bad_value;
-    }
-    report = static_cast<DeviceControl>(bytes[1]);
-    return Decoded::ok;
+    return decoded(bytes, kDeviceControlSize, HidReportId::device_control, report,
+                   [](DeviceControl read, const Reader & /*reader*/) {
+                       return read >= DeviceControl::enable && read <= DeviceControl::proceed;
+                   });
 }
 
 } // namespace spidar

@@ -11,7 +11,6 @@ namespace spidar {
 
 inline constexpr std::uint8_t kHidProtocolVersion = 1;
 inline constexpr std::uint16_t kHidUsagePage = 0xFF00; // vendor defined
-inline constexpr std::uint16_t kHidUsage = 0x0001;
 
 enum class HidReportId : std::uint8_t {
     state = 0x01,          // IN, each device tick

@@ -73,14 +73,6 @@ DeviceReading expected_after(const DeviceReading &before, std::uint64_t clock_st
     return expected;
 }
 
-// State, phase, fault and statuses: they change rarely, and together.
-template <typename Output>
-bool same_state(const Output &a, const Output &b) noexcept {
-    return a.state == b.state && a.grasp == b.grasp && a.fault_string == b.fault_string &&
-           a.motors_on == b.motors_on && a.fault == b.fault && a.pose_status == b.pose_status &&
-           a.tension_status == b.tension_status;
-}
-
 } // namespace
 
 CycleEncoder::CycleEncoder()
@@ -111,6 +103,7 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
     }
     const CycleInput &now = record.input;
     const CycleInput &before = last_.input;
+    const CycleState &state = record.output;
     store_words(expected_after(before.reading, last_clock_step_us_), expected_);
     store_words(now.reading, reading_);
     const MillinewtonArray tensions_mn = millinewtons_of(record.output);
@@ -124,7 +117,7 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
                  ? kTimeStep
                  : 0;
     flags |= whole_command ? kCommand : 0;
-    flags |= same_state(record.output, last_.output) ? 0 : kState;
+    flags |= state == last_.output ? 0 : kState;
     flags |= now.read_status != before.read_status ? kReadStatus : 0;
     flags |= now.write_status != before.write_status ? kWriteStatus : 0;
     flags |= now.may_arm_itself ? kMayArm : 0;
@@ -162,13 +155,12 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
         }
     }
     if ((flags & kState) != 0) {
-        const CycleOutput &output = record.output;
-        to.fixed(static_cast<std::uint64_t>(output.state), 1);
-        to.fixed(static_cast<std::uint64_t>(output.grasp) | (output.motors_on ? 0x80U : 0U), 1);
-        to.signed_varint(output.fault_string);
-        to.signed_varint(static_cast<std::int32_t>(output.fault));
-        to.signed_varint(static_cast<std::int32_t>(output.pose_status));
-        to.signed_varint(static_cast<std::int32_t>(output.tension_status));
+        to.fixed(static_cast<std::uint64_t>(state.state), 1);
+        to.fixed(static_cast<std::uint64_t>(state.grasp) | (state.motors_on ? 0x80U : 0U), 1);
+        to.signed_varint(state.fault_string);
+        to.signed_varint(static_cast<std::int32_t>(state.fault));
+        to.signed_varint(static_cast<std::int32_t>(state.pose_status));
+        to.signed_varint(static_cast<std::int32_t>(state.tension_status));
     }
     to.fixed(digest_of(record.output), kDigestBytes);
     last_clock_step_us_ = now.reading.device_time_us - before.reading.device_time_us;

@@ -10,7 +10,7 @@
 namespace spidar {
 
 // What a file says about one cycle.
-struct RecordedCycle {
+struct RecordedCycle : CycleState {
     CycleInput input;
     std::uint64_t tick = 0;
     bool segment_start = false;
@@ -18,13 +18,6 @@ struct RecordedCycle {
     // As last recorded, word by word (command_fields.h).
     std::vector<std::uint64_t> command_words;
     MillinewtonArray tensions_mn{};
-    DeviceState state = DeviceState::closed;
-    GraspPhase grasp = GraspPhase::open;
-    std::int8_t fault_string = -1;
-    bool motors_on = false;
-    Status fault = Status::ok;
-    Status pose_status = Status::ok;
-    Status tension_status = Status::ok;
     std::uint32_t digest = 0; // of the whole output
 };
 

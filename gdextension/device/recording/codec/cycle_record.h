@@ -6,16 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "device/contract/cycle_input.h"
 #include "device/contract/servo_snapshot.h"
+#include "device/contract/transport.h"
 
 namespace spidar {
 
-// What a replay must reproduce to the bit: what went to the motors, and what the game was told.
-struct CycleOutput {
-    static constexpr std::size_t kValues = 42;
-    // currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force scale, time_s
-    std::array<double, kValues> values{};
+// What changes rarely in an output, and together.
+struct CycleState {
     DeviceState state = DeviceState::closed;
     GraspPhase grasp = GraspPhase::open;
     std::int8_t fault_string = -1;
@@ -23,6 +20,14 @@ struct CycleOutput {
     Status fault = Status::ok;
     Status pose_status = Status::ok;
     Status tension_status = Status::ok;
+    bool operator==(const CycleState &) const = default;
+};
+
+// What a replay must reproduce to the bit: what went to the motors, and what the game was told.
+struct CycleOutput : CycleState {
+    static constexpr std::size_t kValues = 42;
+    // currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force scale, time_s
+    std::array<double, kValues> values{};
 };
 
 inline constexpr std::size_t kOutputTensions = 8; // where tensions_n begin in CycleOutput::values

@@ -13,7 +13,7 @@ public:
     // One cycle. push: of all contacts on the grip, in the last cycle. True when a row of such bounces is complete.
     bool update(const Twist &twist, const Wrench &push, double dt_s) noexcept;
     // Nothing touches and no row is begun: time alone changes nothing that matters.
-    [[nodiscard]] bool settled() const noexcept { return !touching_ && row_ == 0; }
+    [[nodiscard]] bool at_rest() const noexcept { return !touching_ && row_ == 0; }
     // With which the last bounce of the row left (unit: m/s at the pole ends).
     [[nodiscard]] double speed_m_s() const noexcept { return speed_m_s_; }
 

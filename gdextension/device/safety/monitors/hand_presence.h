@@ -26,15 +26,17 @@ public:
         moved_ = false;
         still_s_ = 0.0;
     }
-    // The pose is that of the last update().
-    void wait(double dt_s) noexcept { still_s_ += dt_s; }
+    // A pose that stays changes nothing but for how long it has.
+    [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
+    void advance_at_rest(double dt_s) noexcept { still_s_ += dt_s; }
     void update(const GripPose &pose, double dt_s) noexcept {
         const auto square = [](const Vec3 &apart) { return glm::dot(apart, apart); };
         const double moved_m2 =
             std::max({square(pose.position_m - anchor_.position_m),
                       square(pose.r1_m - anchor_.r1_m), square(pose.r2_m - anchor_.r2_m)});
         still_s_ += dt_s;
-        if (known_ && !(moved_m2 > kMove_m * kMove_m)) {
+        moving_ = !known_ || moved_m2 > kMove_m * kMove_m;
+        if (!moving_) {
             return;
         }
         moved_ = known_;
@@ -52,6 +54,7 @@ private:
     double still_s_ = 0.0;
     bool known_ = false;
     bool moved_ = false;
+    bool moving_ = false; // in the last update()
     GripPose anchor_{};
 };
 

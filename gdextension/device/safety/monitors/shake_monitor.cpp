@@ -65,7 +65,7 @@ bool ShakeMonitor::Channel::update(double value, const Kind &kind, double dt_s) 
     return true;
 }
 
-bool ShakeMonitor::Channel::settled() const noexcept {
+bool ShakeMonitor::Channel::at_rest() const noexcept {
     return slow == 0.0 && since_s >= kLongAgo_s;
 }
 
@@ -80,7 +80,7 @@ void ShakeMonitor::update(const Twist &twist, const Wrench &push, bool rendering
         }
     }
     const double push_n = glm::length(push.force_n);
-    if ((push_n > 0.0 || !push_.settled()) && push_.update(push_n, kPush, dt_s)) {
+    if ((push_n > 0.0 || !push_.at_rest()) && push_.update(push_n, kPush, dt_s)) {
         shaking = true;
         swing_m_s_ = glm::length(twist.linear_m_s);
     }
@@ -95,10 +95,10 @@ void ShakeMonitor::update(const Twist &twist, const Wrench &push, bool rendering
     }
 }
 
-bool ShakeMonitor::settled() const noexcept {
-    bool still = scale_ >= 1.0 && !unstable_ && push_.settled();
+bool ShakeMonitor::at_rest() const noexcept {
+    bool still = scale_ >= 1.0 && !unstable_ && push_.at_rest();
     for (const Channel &channel : speeds_) {
-        still = still && channel.settled();
+        still = still && channel.at_rest();
     }
     return still;
 }

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] double swing_m_s() const noexcept { return swing_m_s_; }
 
     // Full scale, and nothing changes any more while the grip rests.
-    [[nodiscard]] bool settled() const noexcept;
+    [[nodiscard]] bool at_rest() const noexcept;
 
     static constexpr double kCalm_s = 2.0;
 
@@ -39,7 +39,7 @@ private:
     struct Channel {
         // One cycle: true when a row of swings about the slow part is complete.
         bool update(double value, const Kind &kind, double dt_s) noexcept;
-        [[nodiscard]] bool settled() const noexcept;
+        [[nodiscard]] bool at_rest() const noexcept;
 
         double slow = 0.0;    // what the hand does, slowly
         double since_s = 0.0; // since the last swing

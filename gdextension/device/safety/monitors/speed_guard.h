@@ -31,6 +31,7 @@ public:
         fast_s_ = fast ? std::min(1.0, fast_s_ + dt_s) : 0.0;
     }
 
+    [[nodiscard]] bool at_rest() const noexcept { return fast_s_ == 0.0; }
     // Half a step of slack: sums of time steps carry rounding.
     [[nodiscard]] bool fast(double dt_s) const noexcept {
         return fast_s_ > 0.0 && fast_s_ + 0.5 * dt_s >= kHold_s;

@@ -132,7 +132,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         faulty_ || above_s_ >= kAbove_s || suspicious_s_ >= kSuspicion_s || large_s_ >= kLarge_s;
 }
 
-bool StringMonitor::settled() const noexcept {
+bool StringMonitor::at_rest() const noexcept {
     const bool calm = started_ && !faulty_ && named_.fault == StringFault::none &&
                       suspicious_s_ == 0.0 && large_s_ == 0.0 && above_s_ == 0.0 &&
                       usual_m_ == parity_m_;

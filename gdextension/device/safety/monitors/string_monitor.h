@@ -27,7 +27,7 @@ public:
     // What the observer found; fault none while it is not sure or the error is small.
     [[nodiscard]] const FaultEvidence &named() const noexcept { return named_; }
     // No suspicion, and nothing changes any more while the counts stay.
-    [[nodiscard]] bool settled() const noexcept;
+    [[nodiscard]] bool at_rest() const noexcept;
     // 0-7: the string that stands still or that the observer names; -1 when not known.
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double parity_m() const noexcept { return parity_m_; }

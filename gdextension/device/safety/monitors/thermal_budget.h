@@ -13,6 +13,8 @@ public:
     // One cycle at these tensions (unit: N). What is not finite heats nothing.
     void spend(const StringArray &tensions_n, double dt_s) noexcept;
 
+    // The same tensions change nothing but the heat: spend() goes on at rest, too.
+    [[nodiscard]] bool at_rest() const noexcept { return spent() < kDerateFrom; }
     // Share of the warmest motor's budget that is spent: 1 = as warm as it may be.
     [[nodiscard]] double spent() const noexcept { return warmest_; }
     [[nodiscard]] int warmest_string() const noexcept;

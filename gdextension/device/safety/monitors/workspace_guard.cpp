@@ -17,22 +17,9 @@ constexpr double kFadedPivot = 0.001;
 } // namespace
 
 void WorkspaceGuard::configure(const ServoSettings &settings) noexcept {
-    low_m_ = settings.frame.motors_m[0];
-    high_m_ = low_m_;
-    for (const Vec3 &motor : settings.frame.motors_m) {
-        for (int axis = 0; axis < 3; ++axis) {
-            low_m_[axis] = std::min(low_m_[axis], motor[axis]);
-            high_m_[axis] = std::max(high_m_[axis], motor[axis]);
-        }
-    }
     const double border_m = settings.grip.pole_half_length_m + settings.safety.workspace_margin_m;
+    free_ = reach_box(settings.frame, border_m);
     on_ = settings.safety.workspace_margin_m > 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double middle = 0.5 * (low_m_[axis] + high_m_[axis]);
-        const double half = std::max(0.0, 0.5 * (high_m_[axis] - low_m_[axis]) - border_m);
-        low_m_[axis] = middle - half;
-        high_m_[axis] = middle + half;
-    }
 }
 
 Wrench WorkspaceGuard::wall(const GripState &grip) const noexcept {
@@ -42,7 +29,7 @@ Wrench WorkspaceGuard::wall(const GripState &grip) const noexcept {
     }
     const Vec3 &p = grip.pose.position_m;
     for (int axis = 0; axis < 3; ++axis) {
-        const double inside = std::clamp(p[axis], low_m_[axis], high_m_[axis]);
+        const double inside = std::clamp(p[axis], free_.low_m[axis], free_.high_m[axis]);
         result.force_n[axis] =
             std::clamp(kWallStiffness_n_m * (inside - p[axis]), -kWallMost_n, kWallMost_n);
     }
@@ -61,7 +48,7 @@ double WorkspaceGuard::beyond_m(const GripState &grip) const noexcept {
     double most_m = 0.0;
     const Vec3 &p = grip.pose.position_m;
     for (int axis = 0; on_ && axis < 3; ++axis) {
-        most_m = std::max({most_m, low_m_[axis] - p[axis], p[axis] - high_m_[axis]});
+        most_m = std::max({most_m, free_.low_m[axis] - p[axis], p[axis] - free_.high_m[axis]});
     }
     return most_m;
 }

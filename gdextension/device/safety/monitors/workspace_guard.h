@@ -2,6 +2,7 @@
 // hardly tell or turn it.
 #pragma once
 
+#include "core/geometry/reach_box.h"
 #include "device/contract/grip_state.h"
 #include "device/settings/servo_settings.h"
 
@@ -18,13 +19,11 @@ public:
     [[nodiscard]] static double scale(const GripState &grip) noexcept;
     // How far P0 is beyond the start of the wall (unit: m); 0 inside.
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
-    // Opposite corners of the box in which there is no wall (device frame).
-    [[nodiscard]] const Vec3 &low_m() const noexcept { return low_m_; }
-    [[nodiscard]] const Vec3 &high_m() const noexcept { return high_m_; }
+    // In which there is no wall (device frame).
+    [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
 
 private:
-    Vec3 low_m_{0.0};
-    Vec3 high_m_{0.0};
+    ReachBox free_;
     bool on_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "device/faults/fault_table.h"
+#include "support/fault_table.h"
 
 using namespace spidar;
 using namespace spidar::test;

@@ -1,4 +1,4 @@
-#include "device/faults/fault_table.h"
+#include "support/fault_table.h"
 
 #include <algorithm>
 #include <numbers>

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "device/faults/fault_table.h"
+#include "support/fault_table.h"
 
 namespace spidar::test {
 

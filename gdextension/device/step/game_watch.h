@@ -1,0 +1,76 @@
+// What a game says by changing a number: each change of a count acts once, and a heartbeat that changes each frame is its
+// sign of life. A game that never promised one (0) is not missed.
+#pragma once
+
+#include <algorithm>
+
+#include "device/contract/haptic_command.h"
+
+namespace spidar {
+
+class GameWatch {
+public:
+    struct Edges {
+        bool arm = false;
+        bool disarm = false;
+        bool clear_fault = false;
+        bool zero = false;
+        bool stop = false;
+        bool operator==(const Edges &) const = default;
+    };
+
+    void configure(double timeout_s) noexcept {
+        *this = GameWatch();
+        timeout_s_ = timeout_s;
+    }
+    // Counts and beat of this command are old ones.
+    void acknowledge(const HapticCommand &command) noexcept {
+        (void)take_edges(command);
+        heartbeat_ = command.heartbeat;
+    }
+    Edges take_edges(const HapticCommand &command) noexcept {
+        const Edges edges = edges_of(command);
+        arm_count_ = command.arm_count;
+        disarm_count_ = command.disarm_count;
+        clear_fault_count_ = command.clear_fault_count;
+        zero_count_ = command.zero_count;
+        stop_count_ = command.stop_count;
+        return edges;
+    }
+    [[nodiscard]] Edges edges_of(const HapticCommand &command) const noexcept {
+        return {command.arm_count != arm_count_, command.disarm_count != disarm_count_,
+                command.clear_fault_count != clear_fault_count_, command.zero_count != zero_count_,
+                command.stop_count != stop_count_};
+    }
+
+    // Once a cycle, also at rest.
+    void listen(const HapticCommand &command, double dt_s) noexcept {
+        silent_s_ = beats(command) ? 0.0 : std::min(kLongest_s, silent_s_ + dt_s);
+        heartbeat_ = command.heartbeat;
+    }
+    [[nodiscard]] bool alive() const noexcept { return silent_s_ < timeout_s_; }
+    // Would it be alive after listen()?
+    [[nodiscard]] bool lives_through(const HapticCommand &command, double dt_s) const noexcept {
+        return beats(command) || silent_s_ + dt_s < timeout_s_;
+    }
+    // Since the last beat.
+    [[nodiscard]] double silent_s() const noexcept { return silent_s_; }
+
+private:
+    static constexpr double kLongest_s = 1e6; // longer silences are all alike
+
+    [[nodiscard]] bool beats(const HapticCommand &command) const noexcept {
+        return command.heartbeat != heartbeat_ || command.heartbeat == 0;
+    }
+
+    double timeout_s_ = 0.0;
+    double silent_s_ = 0.0;
+    std::uint32_t heartbeat_ = 0;
+    std::uint32_t arm_count_ = 0;
+    std::uint32_t disarm_count_ = 0;
+    std::uint32_t clear_fault_count_ = 0;
+    std::uint32_t zero_count_ = 0;
+    std::uint32_t stop_count_ = 0;
+};
+
+} // namespace spidar

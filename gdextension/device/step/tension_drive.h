@@ -1,0 +1,60 @@
+// The wrench that is asked for -> tensions -> motor currents, each cycle: solver, ramp, calibrated compensation, safety gate.
+#pragma once
+
+#include "core/calibration/motor_calibration.h"
+#include "core/geometry/frame_geometry.h"
+#include "core/tension/tension_solver.h"
+#include "device/contract/device_event.h"
+#include "device/contract/servo_snapshot.h"
+#include "device/contract/transport.h"
+#include "device/safety/safety_gate.h"
+#include "device/settings/servo_settings.h"
+
+namespace spidar {
+
+class TensionDrive {
+public:
+    // Of settings that are valid (validate).
+    Status configure(const ServoSettings &settings) noexcept;
+    // The grip has another pose: its wrench matrix is made anew.
+    void forget_pose() noexcept { matrix_valid_ = false; }
+    // The next pull() solves even when nothing has changed. It changes no answer.
+    void forget_settled() noexcept { solver_.forget_settled(); }
+
+    // One of these three a cycle; each fills in the tensions of `snapshot` and what belongs to them.
+    // wrench: before the ramp (0..1), which scales the tensions: pretension and wrench rise together, and A (ramp tau) is
+    // ramp times the wrench, exactly.
+    DriveCommand pull(const GripState &grip, const Wrench &wrench, double ramp, double dt_s,
+                      ServoSnapshot &snapshot, EventLog &events) noexcept;
+    // Every string at this part (0..1) of the pretension: no pose is needed.
+    DriveCommand hold_pretension(double part, double dt_s, ServoSnapshot &snapshot) noexcept;
+    // Motors off, in this very cycle.
+    DriveCommand let_go(ServoSnapshot &snapshot) noexcept;
+
+    // The last tensions are those of the cycle before, to the bit, and no limit of time changed them.
+    [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
+    // Strings at a bound changed the wrench of the last pull().
+    [[nodiscard]] bool saturated() const noexcept { return saturated_; }
+
+private:
+    void add_rotor_compensation(const Twist &twist, double ramp,
+                                StringArray &tensions_n) const noexcept;
+    [[nodiscard]] DriveCommand command_for(const StringArray &tensions_n) const noexcept;
+
+    FrameGeometry frame_;
+    GripGeometry grip_;
+    RenderSettings render_;
+    MotorScale motors_;
+    StringArray tension_gain_{};
+    double pretension_n_ = 0.0;
+    double max_tension_n_ = 0.0;
+    TensionSolver solver_;
+    SafetyGate gate_;
+    WrenchMatrix matrix_{};
+    bool matrix_valid_ = false; // of the present pose
+    bool solver_warm_ = false;  // pull() was called in the last cycle
+    bool at_rest_ = false;
+    bool saturated_ = false;
+};
+
+} // namespace spidar

@@ -1,0 +1,92 @@
+// The reports of a device as they come in: their order, the device's own clock, and how the wrench fades while none come.
+#pragma once
+
+#include <algorithm>
+
+#include "device/contract/transport.h"
+#include "device/settings/servo_settings.h"
+#include "device/tracking/report_order.h"
+
+namespace spidar {
+
+class ReportLink {
+public:
+    // A device clock that went back by more than this is not a late report but a new start.
+    static constexpr std::uint64_t kClockBack_us = 50'000;
+
+    void configure(const SafetySettings &safety, double nominal_dt_s) noexcept {
+        *this = ReportLink();
+        stale_s_ = safety.read_timeout_fade_s;
+        lost_s_ = safety.read_timeout_fault_s;
+        slack_s_ = 0.5 * nominal_dt_s;
+    }
+    // The device may count its reports anew.
+    void expect_anew() noexcept { order_.reset(); }
+    // A fault was cleared: what was missed is forgotten.
+    void forgive() noexcept {
+        order_.reset();
+        since_report_s_ = 0.0;
+    }
+
+    // The device's clock began anew, which this report shows.
+    bool restarted(const DeviceReading &reading) noexcept {
+        if (reading.device_time_us + kClockBack_us >= device_time_us_) {
+            return false;
+        }
+        device_time_us_ = reading.device_time_us;
+        order_.reset();
+        return true;
+    }
+    // False: an old report, not to be used.
+    bool accept(const DeviceReading &reading) noexcept {
+        if (!order_.accept(reading.sequence)) {
+            return false;
+        }
+        device_time_us_ = std::max(device_time_us_, reading.device_time_us);
+        return true;
+    }
+    // Would accept() take it with nothing to tell?
+    [[nodiscard]] bool follows(const DeviceReading &reading) const noexcept {
+        return reading.device_time_us + kClockBack_us >= device_time_us_ &&
+               order_.follows(reading.sequence);
+    }
+    // Lost before the report accepted last.
+    [[nodiscard]] int missed() const noexcept { return order_.missed(); }
+
+    // Once a cycle: a report that is used came in, or none did.
+    void arrived(double dt_s) noexcept {
+        answered_ = true;
+        since_report_s_ = 0.0;
+        scale_ = std::min(1.0, scale_ + dt_s / kRecovery_s);
+    }
+    void absent(double dt_s) noexcept {
+        since_report_s_ += dt_s;
+        scale_ = stale() ? std::max(0.0, scale_ - dt_s / kFade_s) : scale_;
+    }
+    [[nodiscard]] double since_report_s() const noexcept { return since_report_s_; }
+    // The newest report is too old to go by. Half a step of slack: sums of time steps carry rounding.
+    [[nodiscard]] bool stale() const noexcept { return since_report_s_ + slack_s_ >= stale_s_; }
+    // A device that answered before does so no more.
+    [[nodiscard]] bool lost() const noexcept {
+        return answered_ && since_report_s_ + slack_s_ >= lost_s_;
+    }
+    // Of the wrench, 0..1.
+    [[nodiscard]] double scale() const noexcept { return scale_; }
+    [[nodiscard]] bool at_rest() const noexcept { return scale_ >= 1.0; }
+
+private:
+    // The wrench falls to zero in this time when reports fail to come, and returns in that.
+    static constexpr double kFade_s = 0.020;
+    static constexpr double kRecovery_s = 0.050;
+
+    double stale_s_ = 0.0;
+    double lost_s_ = 0.0;
+    double slack_s_ = 0.0;
+    ReportOrder order_;
+    std::uint64_t device_time_us_ = 0;
+    bool answered_ = false; // any reading yet
+    double since_report_s_ = 0.0;
+    double scale_ = 1.0;
+};
+
+} // namespace spidar
