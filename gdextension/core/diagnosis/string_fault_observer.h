@@ -58,7 +58,6 @@ public:
     // for these. Lengths that are not finite are skipped.
     const FaultEvidence &update(const CountArray &counts, const StringArray &lengths_m,
                                 const KinematicsResult &solved) noexcept;
-    [[nodiscard]] const FaultEvidence &evidence() const noexcept { return evidence_; }
 
 private:
     static constexpr std::size_t kPairs = 28;

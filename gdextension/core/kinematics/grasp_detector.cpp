@@ -55,12 +55,6 @@ GraspPhase GraspDetector::update(double grasp_angle_rad, double dt_s) noexcept {
     return phase_;
 }
 
-void GraspDetector::reset() noexcept {
-    phase_ = GraspPhase::open;
-    candidate_ = GraspPhase::open;
-    candidate_age_s_ = 0.0;
-}
-
 std::string validate(const GraspSettings &settings) {
     const struct {
         const char *name;

@@ -27,7 +27,6 @@ public:
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
     // No change of phase is waiting for its dwell.
     [[nodiscard]] bool at_rest() const noexcept { return candidate_ == phase_; }
-    void reset() noexcept;
 
 private:
     GraspSettings settings_{};

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 
-#include "core/base/describe_value.h"
 #include "core/calibration/fit/dense_least_squares.h"
 
 namespace spidar {
@@ -89,29 +88,10 @@ StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs) {
     fit.residual_rms_m = std::sqrt(square / count);
     if (pairs.size() > 2) {
         const double variance = square / (count - 2.0);
-        const DenseMatrix inverse = inverse_normal(line);
-        const double t = middle / range;
-        fit.scale_error_m_per_count = std::sqrt(variance * inverse(1, 1)) / range;
-        fit.offset_error_m =
-            std::sqrt(variance * (inverse(0, 0) - 2.0 * t * inverse(0, 1) + t * t * inverse(1, 1)));
+        fit.scale_error_m_per_count = std::sqrt(variance * inverse_normal(line)(1, 1)) / range;
     }
     pool_spread(pairs, fit);
     return fit;
-}
-
-std::string validate(const std::vector<CountLengthPair> &pairs) {
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!std::isfinite(pairs[i].length_m)) {
-            return range_sentence("pairs[" + std::to_string(i) + "].length_m", pairs[i].length_m,
-                                  "m", "give the length read off the ruler.");
-        }
-    }
-    if (pairs.empty() || !counts_differ(pairs)) {
-        return "pairs holds " + std::to_string(pairs.size()) +
-               " pairs and not two different counts; measure the string at two lengths or more, "
-               "far apart.";
-    }
-    return {};
 }
 
 } // namespace spidar

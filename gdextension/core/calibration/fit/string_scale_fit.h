@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "core/base/status.h"
@@ -19,11 +18,10 @@ struct StringScaleFit {
     // ok; too_few_samples (fewer than two different counts); not_finite. Negative: the rest is
     // zero.
     Status status = Status::too_few_samples;
-    double offset_m = 0.0;          // length at count 0
-    double scale_m_per_count = 0.0; // negative: wound the other way
-    double offset_error_m = 0.0;    // expected (standard) errors of both
-    double scale_error_m_per_count = 0.0;
-    double residual_rms_m = 0.0; // of the fit
+    double offset_m = 0.0;                // length at count 0
+    double scale_m_per_count = 0.0;       // negative: wound the other way
+    double scale_error_m_per_count = 0.0; // expected (standard) error of it
+    double residual_rms_m = 0.0;          // of the fit
     double residual_max_m = 0.0;
     // Spread of repeated trials about their own mean, pooled over all points with two or more
     // (unit: m of string). A residual much larger than the spread is the string's own curve
@@ -33,8 +31,5 @@ struct StringScaleFit {
 };
 
 [[nodiscard]] StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs);
-
-// What stands in the way of a fit, in one sentence with the remedy; empty when nothing does.
-[[nodiscard]] std::string validate(const std::vector<CountLengthPair> &pairs);
 
 } // namespace spidar

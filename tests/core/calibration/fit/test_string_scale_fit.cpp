@@ -67,15 +67,11 @@ TEST_CASE("string scale fit: repeated trials give their spread, and errors that 
     CHECK(std::sqrt(square) == doctest::Approx(expected).epsilon(0.2));
 }
 
-TEST_CASE("string scale fit: bad input has a status and a sentence") {
+TEST_CASE("string scale fit: bad input has a status") {
     CHECK(fit_string_scale({}).status == Status::too_few_samples);
     CHECK(fit_string_scale({{5, 0.1}, {5, 0.2}}).status == Status::too_few_samples);
-    CHECK(validate(std::vector<CountLengthPair>{{5, 0.1}, {5, 0.2}}).find("two different counts") !=
-          std::string::npos);
     const std::vector<CountLengthPair> bad{{1, std::numeric_limits<double>::quiet_NaN()}, {2, 0.1}};
     CHECK(fit_string_scale(bad).status == Status::not_finite);
-    CHECK(validate(bad).find("pairs[0].length_m is nan m") == 0);
-    CHECK(validate(std::vector<CountLengthPair>{{1, 0.1}, {2, 0.2}}).empty());
 }
 
 TEST_CASE("home zero: the median of the repeats reads the home pose") {
