@@ -71,11 +71,11 @@ void add_drive(Digest &digest, const DriveCommand &drive) {
 void add_counters(Digest &digest, const ServoCounters &counters) {
     for (const std::uint64_t count :
          {counters.ticks, counters.kinematics_skipped, counters.tension_skipped,
-          counters.steps_skipped, counters.cold_starts, counters.bad_samples, counters.read_timeouts,
-          counters.rejected_requests, counters.clamped_requests, counters.expired_requests,
-          counters.saturated_ticks, counters.slewed_ticks, counters.write_failures,
-          counters.reports_missed, counters.old_reports, counters.faded_ticks,
-          counters.bad_time_steps, counters.gate_clamps}) {
+          counters.steps_skipped, counters.cold_starts, counters.bad_samples,
+          counters.read_timeouts, counters.rejected_requests, counters.clamped_requests,
+          counters.expired_requests, counters.saturated_ticks, counters.slewed_ticks,
+          counters.write_failures, counters.reports_missed, counters.old_reports,
+          counters.faded_ticks, counters.bad_time_steps, counters.gate_clamps}) {
         digest.add(count);
     }
 }

@@ -57,7 +57,7 @@ double largest_factor(const spidar::WrenchMatrix &matrix, const PaperWrench &wre
 }
 
 PaperWrench paper_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
-                      double grasp_torque) {
+                         double grasp_torque) {
     return spidar::to_paper({spidar::to_core(force), spidar::to_core(moment), grasp_torque});
 }
 
