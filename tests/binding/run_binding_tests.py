@@ -123,7 +123,8 @@ def golden_tests(tally, godot, project, home, update):
 def allowed_name_tests(tally):
     """Our sources and the probe reach nothing that real godot-cpp lacks."""
     inside = re.compile(r"\binternal::|GODOT_BINDING_|godot_cpp/internal|\.gen\.")
-    sources = [*(ROOT / "gdextension" / "godot").glob("*"), HERE / "probe.hpp", HERE / "probe.cpp",
+    nodes = [path for path in (ROOT / "gdextension" / "godot").rglob("*") if path.is_file()]
+    sources = [*nodes, HERE / "probe.hpp", HERE / "probe.cpp",
                HERE / "register_types.cpp"]
     readme = (BINDING / "README.md").read_text()
     for path in sources:
