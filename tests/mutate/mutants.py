@@ -2,8 +2,7 @@
 
 Why a generator of our own: universalmutator (PyPI, 1.14.1), the kept tool for this, works by regular expressions on one
 line at a time. It cannot drop a statement of two lines or return early from a function, takes references, pointers and
-templates for operators, and of its mutants of our sources most do not compile; at some seconds a compilation that is
-most of the time of a run. Mull and Dredd, which work on the compiler's own tree, have no package in Debian or PyPI.
+templates for operators, and has no seed for its draw. Mull and Dredd, which work on the compiler's own tree, have no package in Debian or PyPI.
 This generator takes the source as tokens (cpp_tokens.py) and knows statements, conditions and operators.
 
 A mutant is named PATH:LINE:COLUMN:KIND. The same tree and seed give the same order of mutants on every machine.

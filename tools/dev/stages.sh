@@ -37,7 +37,10 @@ stage_boundaries() {
     counted python3 tests/hid/check_protocol_page.py
 }
 
-stage_dev() { counted python3 tests/dev/test_dev.py; }
+stage_dev() {
+    counted python3 tests/dev/test_dev.py
+    counted python3 tests/mutate/test_run_mutants.py
+}
 
 stage_cpp_tests() {
     doctest build/bin/spidar_tests
