@@ -47,7 +47,8 @@ using PaperWeights = SevenDof<struct PaperWeightsMeaning>;
 // Its conjugate: velocity (m/s), angular velocity (rad/s), -dpsi/dt / 2 (rad/s). Power = the sum of the products.
 using PaperTwist = SevenDof<struct PaperTwistMeaning>;
 
-// What a game asks for and what the hand feels.
+// What a game asks for and what the hand feels: the wrench that the device exerts on the hand. The grip is two crossing
+// poles; closing it turns them towards each other.
 struct Wrench {
     Vec3 force_n{0.0};
     Vec3 moment_nm{0.0};          // about the grip centre P0

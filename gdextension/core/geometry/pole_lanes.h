@@ -1,5 +1,6 @@
-// Two doubles side by side, one a pole: lane 0 belongs to pole 1, lane 1 to pole 2. Vector extension of the compiler,
-// so the same code (and, without contraction, the same bits) on every processor with doubles.
+// Two doubles computed side by side, one for each pole of the grip: lane 0 for pole 1, lane 1 for pole 2. The compiler's
+// vector extension makes the same code run on every processor and, as no multiplication and addition are fused
+// (-ffp-contract=off), give the same bits.
 #pragma once
 
 #include <cmath>

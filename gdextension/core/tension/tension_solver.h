@@ -60,10 +60,10 @@ public:
     Status configure(const TensionSettings &settings) noexcept;
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
-    // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
+    // wrench: the paper's q. One that is not finite is taken as zero and flagged not_finite, so that no result holds NaN.
     TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
-    // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
-    // Ignored when not finite.
+    // Tells the solver the tensions that were really sent, where a later stage (slew limit) changed them. The term that
+    // weighs changes from tick to tick counts from these. Ignored when not finite.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
     // The next update() solves even when nothing has changed. It changes no answer.
     void forget_settled() noexcept { settled_ = false; }

@@ -113,7 +113,8 @@ struct HapticCommand {
     std::uint32_t stop_count = 0;
     Status stop_reason = Status::ok;
 
-    // Raw wrench, full for wrench_duration_s after wrench_sequence changes, then faded.
+    // A wrench that the game asks for itself, beside contacts and coupling. Each change of wrench_sequence applies it in
+    // full for wrench_duration_s; then it fades out within SafetySettings::wrench_fade_s.
     std::uint64_t wrench_sequence = 0;
     Wrench wrench;
     double wrench_duration_s = 0.0;

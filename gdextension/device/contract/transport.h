@@ -46,9 +46,10 @@ public:
     Transport &operator=(const Transport &) = delete;
     virtual ~Transport() = default;
 
-    // Not from a servo step: may allocate and wait.
+    // Opens the device. Never called from a servo step: it may allocate and wait.
     virtual Status open() noexcept = 0;
-    // Motors off first, then the handle. Safe when not open.
+    // Switches the motors off, then closes the operating system's handle. Does nothing when not open. Like open(), it may
+    // wait.
     virtual void close() noexcept = 0;
 
     // The newest reading. read_timeout: nothing new (reading untouched); read_failed: device lost.

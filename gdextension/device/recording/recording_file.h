@@ -69,11 +69,12 @@ public:
     // The same for bytes from anywhere; `name` stands in messages.
     [[nodiscard]] std::string open(std::unique_ptr<std::istream> stream, const std::string &name);
 
-    // False at the end, closed() telling whether it is the proper one, or at the damage.
+    // Reads the next cycle. False at the end of the recording, or where the file is damaged: closed() is true only when
+    // the recording was ended properly.
     [[nodiscard]] bool next(RecordedCycle &cycle);
 
     [[nodiscard]] const RecordingInfo &info() const noexcept { return info_; }
-    // The step's memory before the segment that the last cycle started.
+    // The memory of the servo step just before the segment that the last cycle read belongs to.
     [[nodiscard]] std::span<const std::uint8_t> memory() const noexcept { return memory_; }
     [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_; }
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }

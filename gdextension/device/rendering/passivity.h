@@ -17,7 +17,7 @@ public:
     void hold(const Wrench &wrench) noexcept;
     // Without motion no work is done.
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
-    // Work done on the hand since the start (unit: J).
+    // Net work done on the hand in each DOF since the last reset(); positive is energy given to the hand (unit: J).
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
 
 private:

@@ -1,4 +1,5 @@
-// The raw 7-D wrench: full for as long as it was asked for, then faded; and the limits that every wrench keeps.
+// The wrench in seven DOF that a game asks for itself, beside contacts and coupling: in full for the time asked for, then
+// faded. And the limits that every sum of requests is brought within.
 #pragma once
 
 #include "device/settings/gain_clamp.h"

@@ -8,11 +8,13 @@
 namespace spidar {
 
 struct RenderSettings {
-    // Rotors and grip swing against each other on the strings: sqrt(EA / length / rotor mass) / (2 pi) and a
-    // little more. Contacts and coupling see motion without that swing. 0 switches this off.
+    // Resonance of the motors' rotors against the grip on the elastic strings: a little more than
+    // sqrt(EA / (length * rotor mass)) / (2 pi), EA the stiffness of a string (N per unit of strain). This frequency is
+    // taken out of the motion that contacts and coupling see. 0 switches the filter off.
     double string_resonance_hz = 112.0;
     double velocity_cutoff_hz = 300.0; // of the velocity that damping uses
-    // Contacts and coupling act on the pose this far ahead: what link, hold, motors and filter delay.
+    // Contacts and coupling use the pose predicted this far ahead, to make up for the delays of the link, of commands that
+    // are held for a cycle, of the motors and of the filter.
     double delay_compensation_s = 0.003;
 
     // What the caps are made from: from an encoder's edge to the motor's current.

@@ -13,6 +13,9 @@ namespace spidar {
 
 class SimulatedLink {
 public:
+    // Commands on their way at once: 64 ms of them at 4 kHz.
+    static constexpr std::size_t kMostOnTheWay = 256;
+
     void configure(const PlantSettings &settings) noexcept;
 
     // Currents that the host sent now. extra_s: a fault's delay on top.
@@ -28,8 +31,6 @@ public:
     bool deliver(DeviceReading &report, const ActiveFaults &faults) noexcept;
 
 private:
-    static constexpr std::size_t kMostOnTheWay = 256; // 64 ms at 4 kHz
-
     struct Sent {
         double due_s = 0.0;
         StringArray currents_a{};

@@ -153,8 +153,9 @@ void SimulatedTransport::Impl::move_on(double dt_s, const ActiveFaults &faults) 
                   faults.has(SimulatedFault::late_output) ? kLateOutput_s : 0.0);
         written = false;
     }
-    // A bound: what is on its way at all.
-    for (int arrivals = 0; arrivals < 256 && link.next_s() < end_s; ++arrivals) {
+    // The link holds no more commands than this, so the loop ends.
+    for (std::size_t arrivals = 0; arrivals < SimulatedLink::kMostOnTheWay && link.next_s() < end_s;
+         ++arrivals) {
         const double wait_s = link.next_s() - plant.time_s();
         const StringArray arrived_a = link.receive();
         if (wait_s > 0.0) {

@@ -1,5 +1,5 @@
-// What a game says by changing a number: each change of a count acts once, and a heartbeat that changes each frame is its
-// sign of life. A game that never promised one (0) is not missed.
+// What a game says by changing a number. Each change of a count triggers its action once. The heartbeat changes with every
+// frame of the game, which shows that the game is alive; a game that leaves it at 0 is not watched.
 #pragma once
 
 #include <algorithm>

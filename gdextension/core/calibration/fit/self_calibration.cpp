@@ -218,8 +218,8 @@ double rms(const std::vector<double> &values) {
     return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-// Expected error of the grip centre over the poses: motion of it by each unknown, times their
-// covariance.
+// Expected error of the grip centre, root mean square over the poses: sqrt(mean(trace(J C J'))), J the derivative of the
+// grip centre by the unknowns and C their covariance.
 double grip_error(const DeviceModel &model, const System &system, const Unknowns &unknowns,
                   const CalibrationVector &prior, const DenseMatrix &covariance) {
     const std::size_t stride = std::max<std::size_t>(1, system.poses.size() / kErrorPoses);

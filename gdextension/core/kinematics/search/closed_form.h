@@ -15,10 +15,10 @@ namespace spidar {
 // Pair p: bit 0 set takes the flipped root of pole 1, bit 1 that of pole 2. Pair 0 is the upright one.
 inline constexpr int kRootPairCount = 4;
 
-// True when this grip ties its strings as the paper's does: what the closed form assumes.
+// True when the strings are tied to this grip as in Kim, Koike and Sato's paper, which the closed form assumes.
 [[nodiscard]] bool has_paper_attachments(const GripGeometry &grip) noexcept;
 
-// One sample of lengths, solved as far as all four pairs share it. Both poles are computed side by side; in the
+// What the four root pairs of one set of string lengths have in common, computed once. Both poles are computed side by side; in the
 // paper's letters for pole 1 (for pole 2 x and y, a and b change places and z - c becomes z + c):
 struct ClosedForm {
     Lanes along{};    // b (a): half size of the frame along the pole's rest direction

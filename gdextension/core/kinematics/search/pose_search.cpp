@@ -22,21 +22,24 @@ constexpr double kBeyondChance = 0.02;
 // Without memory: how much better another root pair must fit than the upright one, which is right in 98 % of all
 // poses. Of 1 to 0.02 the factor with the fewest wrong choices on the 60/45 set, counts and noise of 0.1 mm.
 constexpr double kUprightPrior = 0.3;
-// A root pair that starts this close to the remembered pose leads to it.
+// The closed form gives four root pairs, each a pose to start from. A start this close to the remembered pose ends there.
 constexpr double kSamePose_m = 1e-3;
-// The largest curvature of the lengths seen, where a search must not stop early.
+// The largest second derivative of the string lengths that was seen, four times the usual one. It is used where a search
+// must not end too early.
 constexpr double kWorstCurvature = 4.0 * kLengthCurvature;
-// A residual bends the steps as a step of this many times its size does.
+// The error that a residual r leaves in a step is that of a step of this many times r.
 constexpr double kResidualCurvature = 4.0;
 // Fast steps before the damped method takes over. Good lengths need 1-5 of them.
 constexpr int kMaxRefineSteps = 10;
-// Steps that shrink by less than this are left to the Newton method.
+// When a step is longer than this share of the one before it, the damped Newton method takes over.
 constexpr double kSlowestRate = 0.3;
-// A factorisation made this near serves the next step as well.
+// The factorised matrix is used again while the pose has moved less than this since it was made.
 constexpr double kRefactorStep_m = 1e-5;
-// A step by it that shrinks by less than this asks for a new one: near a singular pose they may shrink by half only.
+// When a step with a matrix that is used again is longer than this share of the one before it, the matrix is factorised
+// anew. Near a singular pose even good steps only halve.
 constexpr double kOutwornRate = 0.1;
-// How much more than its distance such a factorisation bends the next step: strings near a corner are short.
+// The error that a matrix from a distance s leaves in a step is that of a step of this many times s: strings near a
+// corner of the frame are short, and their directions turn fast.
 constexpr double kNearbyBend = 8.0;
 // A residual settles when a step lowers the sum of squares by less than this part: what is above all that
 // matters then stays there.

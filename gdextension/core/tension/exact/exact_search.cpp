@@ -27,9 +27,10 @@ constexpr double kSureMove_n = 1e-11;
 constexpr int kBareReleases = 16;
 // Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
-// Where that rounding moves a free string by more than this, gradients are taken in double-double.
+// Where that rounding would move a free string (one at neither of its bounds) by more than this, the gradient is computed
+// in double-double.
 constexpr double kRoundingMove_n = 1e-11;
-// Rounds of the guess. 98 % of problems need one or two.
+// At most so many rounds improve the guess of which strings are at a bound. 98 % of problems need one or two.
 constexpr int kGuessRounds = 6;
 // Bound on factorisations, twice: from the guess, then from cold. Eight strings take 18 at most.
 constexpr int kMaxFactorisations = 50;
