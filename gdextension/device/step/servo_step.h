@@ -65,6 +65,7 @@ private:
         bool stop = false;
     };
     Edges take_edges(const HapticCommand &command) noexcept;
+    void take_limits(const HapticCommand &command) noexcept;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
     // False: an old report, or none of this device's.
@@ -137,6 +138,7 @@ private:
     std::uint32_t zero_count_ = 0;
     std::uint32_t heartbeat_ = 0;
     std::uint32_t stop_count_ = 0;
+    std::uint32_t limits_sequence_ = 0;
     ServoSnapshot snapshot_{};
 };
 

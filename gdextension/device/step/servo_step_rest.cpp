@@ -26,7 +26,7 @@ bool ServoStep::may_rest(Status read_status, const DeviceReading &reading,
         command.forces_enabled == forces_enabled_ && command.arm_count == arm_count_ &&
         command.disarm_count == disarm_count_ && command.clear_fault_count == clear_fault_count_ &&
         command.zero_count == zero_count_ && command.stop_count == stop_count_ &&
-        renderer_.has_seen(command);
+        command.limits_sequence == limits_sequence_ && renderer_.has_seen(command);
     const bool beats = command.heartbeat == 0 || command.heartbeat != heartbeat_;
     const bool alive =
         beats || !last_drive_.motors_on || since_beat_s_ + dt_s < settings_.safety.game_timeout_s;
