@@ -94,7 +94,7 @@ def engine_names(files, folder):
 def links(files):
     """Addresses outside the list above, and any address in a script of the build."""
     for path in files:
-        script = path.endswith((".py", "SConstruct", "SConscript")) or path in ("dev", ".ci/run")
+        script = path.endswith((".py", ".sh", "SConstruct", "SConscript")) or path in ("dev", ".ci/run")
         for number, line in lines_of(path):
             for host in re.findall(r"\b(?:https?|ftp|git|ssh)://([\w.-]+)", line):
                 if script or host not in LINKS:

@@ -6,11 +6,14 @@ project: a headless Godot that meets an extension for the first time crashes whe
 """
 
 import os
+import shutil
 import subprocess
 import sys
 
 ADDONS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "addons")
+MANIFEST = os.path.join(ADDONS, "spidar_g", "spidar_g.gdextension")  # written by the build
 EXTENSION = "res://addons/spidar_g/spidar_g.gdextension"
+COPY_MARK = ".copied_by_spidar_g"
 IMPORT_LIMIT_S = 300  # an import takes seconds; a hung Godot must not hold a test for ever
 
 
@@ -19,16 +22,56 @@ class ProjectError(Exception):
 
 
 def link_addons(project):
-    """PROJECT/addons: a link to the repository's addons folder."""
+    """PROJECT/addons: a link to the repository's addons folder. Where links do not exist, a junction (Windows) or a copy."""
     link = os.path.join(project, "addons")
     target = os.path.relpath(ADDONS, project)
     if os.path.islink(link):
         if os.readlink(link) == target:
             return
         os.remove(link)
-    elif os.path.exists(link):
-        raise ProjectError(f"{link} is a folder of its own; move it away, a link belongs there")
-    os.symlink(target, link, target_is_directory=True)
+    elif os.path.isdir(link):
+        if os.path.realpath(link) == os.path.realpath(ADDONS):
+            return  # a junction
+        if not os.path.exists(os.path.join(link, COPY_MARK)):
+            raise ProjectError(f"{link} is a folder of its own; move it away, a link belongs there")
+        shutil.rmtree(link)
+    elif os.path.isfile(link):  # a committed link, checked out as text by a git that makes no links
+        os.remove(link)
+        hide_from_git(link)
+    try:
+        os.symlink(target, link, target_is_directory=True)
+    except OSError:
+        if not make_junction(link):
+            copy_addons(link)
+
+
+def make_junction(link):
+    """What Windows gives everybody, while links need a right of their own."""
+    if os.name != "nt":
+        return False
+    command = ["cmd", "/c", "mklink", "/J", os.path.abspath(link), ADDONS]
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=False).returncode == 0
+
+
+def copy_addons(link):
+    """The last way: it is made anew each time, and knows itself by a mark."""
+    shutil.copytree(ADDONS, link)
+    with open(os.path.join(link, COPY_MARK), "w", encoding="utf-8") as file:
+        file.write("A copy of the repository's addons folder, made by tests/godot_project.py.\n")
+
+
+def hide_from_git(link):
+    """git would call a committed link changed that is a folder now: in this clone alone, it looks away."""
+    folder, name = os.path.split(os.path.abspath(link))
+    git = ["git", "-C", folder]
+    try:
+        subprocess.run([*git, "update-index", "--skip-worktree", name], capture_output=True, check=True)
+        exclude = subprocess.run([*git, "rev-parse", "--git-path", "info/exclude"], capture_output=True, check=True, text=True)
+        prefix = subprocess.run([*git, "rev-parse", "--show-prefix"], capture_output=True, check=True, text=True)
+        with open(os.path.join(folder, exclude.stdout.strip()), "a", encoding="utf-8") as file:
+            file.write(f"/{prefix.stdout.strip()}{name}\n")
+    except (OSError, subprocess.CalledProcessError):
+        pass  # no git, or no clone: nobody asks
 
 
 def list_extensions(project, extensions=(EXTENSION,)):
@@ -78,6 +121,8 @@ def prepare_project(project, godot=None):
     project with no assets and no class_name. Raises ProjectError."""
     if not os.path.isfile(os.path.join(project, "project.godot")):
         raise ProjectError(f"{project} holds no project.godot")
+    if not os.path.isfile(MANIFEST):
+        raise ProjectError("addons/spidar_g holds no manifest yet: run ./dev build first")
     link_addons(project)
     list_extensions(project)
     if godot:

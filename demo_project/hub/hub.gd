@@ -13,20 +13,6 @@ const TOUCH_M := 0.030
 const GRASP_M := 0.016
 const GRASP_NM := 0.010
 const GRASP_S := 0.15
-const PLACES_M: Dictionary[StringName, Vector2] = {
-	&"pick_and_place": Vector2(-0.100, -0.070),
-	&"robot_linking": Vector2(0.0, -0.070),
-	&"match_linking": Vector2(0.100, -0.070),
-	&"level": Vector2(-0.060, 0.075),
-	&"free_play": Vector2(0.060, 0.075),
-}
-const COLOURS: Dictionary[StringName, Color] = {
-	&"pick_and_place": DemoPalette.CORAL,
-	&"robot_linking": DemoPalette.TEAL,
-	&"match_linking": DemoPalette.MUSTARD,
-	&"level": DemoPalette.PLUM,
-	&"free_play": DemoPalette.SAGE,
-}
 
 var _knobs: Array[HubKnob] = []
 var _squeezed_s := 0.0
@@ -37,6 +23,8 @@ var _was_squeezed := true
 
 func _ready() -> void:
 	super()
+	for child in _items.get_children():
+		_knobs.append(child as HubKnob)
 	_hud.show_mode(Hud.Mode.OFF)
 	_menu.setup(settings)
 	_menu.chosen.connect(_on_chosen)
@@ -44,13 +32,9 @@ func _ready() -> void:
 	_show_level()
 
 
-func _lay_out() -> void:
-	for entry in PLACES_M:
-		var at := PLACES_M[entry]
-		var knob := HubKnob.make(entry, COLOURS[entry])
-		knob.position = Vector3(at.x, 0.0, at.y)
-		_items.add_child(knob)
-		_knobs.append(knob)
+## The knobs stay where they are.
+func _clear_away() -> void:
+	pass
 
 
 func _physics_process(delta: float) -> void:
@@ -92,5 +76,5 @@ func _on_applied() -> void:
 func _show_level() -> void:
 	for knob in _knobs:
 		if knob.entry == &"level":
-			knob.show_text("Level %d" % settings.level)
+			knob.text = "Level %d" % settings.level
 	_menu.show_level(settings.level)

@@ -240,7 +240,7 @@ func _pick_pose(body: TaskBody, before: bool) -> Transform3D:
 func _pick_basis(body: TaskBody) -> Basis:
 	var across := body.global_basis.x
 	var yaw := atan2(-across.z, across.x)
-	if body.is_round:
+	if body.is_round():
 		yaw = 0.0
 	elif absf(yaw) > PI * 0.5:
 		yaw -= signf(yaw) * PI

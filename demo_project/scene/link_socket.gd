@@ -1,3 +1,4 @@
+@tool
 extends Node3D
 ## A place on a body, or on a fixed thing, where another one snaps in. Two sockets that fit are linked when they lie on
 ## each other: origin on origin and, unless the link turns freely, axes on axes.
@@ -5,20 +6,12 @@ extends Node3D
 const LinkSocket := preload("res://scene/link_socket.gd")
 
 ## Sockets fit when their keys are equal and one is a plug and the other not.
-var key: StringName = &""
-var is_plug := false
+@export var key: StringName = &""
+@export var is_plug := false
 ## Plugs fit plugs too, and any number of them meet in one place: ends of matches.
-var meets_many := false
+@export var meets_many := false
 ## A ball: only the place counts, not the turn.
-var turns_freely := false
-
-
-static func make(key_: StringName, is_plug_: bool, at: Transform3D) -> LinkSocket:
-	var socket := LinkSocket.new()
-	socket.key = key_
-	socket.is_plug = is_plug_
-	socket.transform = at
-	return socket
+@export var turns_freely := false
 
 
 ## The body or fixed thing that it sits on.

@@ -1,3 +1,4 @@
+@tool
 extends RigidBody3D
 ## A thing of a task that is picked up and belongs somewhere, and its story in this trial.
 
@@ -7,25 +8,24 @@ const TaskBody := preload("res://scene/task_body.gd")
 ## This body struck another one.
 signal struck(other: TaskBody)
 
-const DEFAULT_FRICTION := 0.8
-## Slows a rolling ball so that it comes to rest.
-const ANGULAR_DAMP_1_S := 2.0
 const HELD_ALPHA := 0.62
 ## At rest: slower than this.
 const REST_SPEED_M_S := 0.02
 
-var label := ""
-var kind := ""
-## Between the fingers, along the body's x axis.
-var width_m := 0.0
+## In the results.
+@export var label := ""
+@export var kind := ""
 ## Where the middle of the fingers goes, in the body's frame.
-var grasp_offset_m := Vector3.ZERO
+@export var grasp_offset_m := Vector3.ZERO
 ## From where the fingers come and whereto they leave, beside the height, in the grip's frame.
-var approach_m := Vector3.ZERO
+@export var approach_m := Vector3.ZERO
 ## Height over the table at which it is carried.
-var travel_m := 0.130
-## Looks the same at any turn about its height.
-var is_round := false
+@export var travel_m := 0.130
+
+## Between the fingers, along the body's x axis.
+var width_m: float:
+	get:
+		return _width_m()
 var start := Transform3D.IDENTITY
 var felt := FeltRecord.new()
 var attempts := 0
@@ -33,36 +33,32 @@ var placed := false
 var position_tolerance_m := 0.008
 var rotation_tolerance_rad := deg_to_rad(10.0)
 
+## Copies of what the scene says, so that only this body turns to glass.
 var _materials: Array[StandardMaterial3D] = []
 
 
-func _init() -> void:
-	angular_damp = ANGULAR_DAMP_1_S
-	physics_material_override = PhysicsMaterial.new()
-	physics_material_override.friction = DEFAULT_FRICTION
-	contact_monitor = true
-	max_contacts_reported = 4
+func _ready() -> void:
 	body_entered.connect(_on_body_entered)
 
 
-## Adds a solid piece; a null mesh is not seen, a null shape is not felt.
-func add_piece(shape: Shape3D, mesh: Mesh, at: Transform3D, colour: Color) -> void:
-	if shape != null:
-		var collision := CollisionShape3D.new()
-		collision.shape = shape
-		collision.transform = at
-		add_child(collision)
-	if mesh == null:
-		return
-	var instance := MeshInstance3D.new()
-	var material := StandardMaterial3D.new()
-	material.albedo_color = colour
-	material.roughness = 0.55
-	instance.mesh = mesh
-	instance.material_override = material
-	instance.transform = at
-	_materials.append(material)
-	add_child(instance)
+## Of the node Shape: width, height and depth of a box, a cylinder or a ball.
+func size_m() -> Vector3:
+	var shape := ($Shape as CollisionShape3D).shape
+	if shape is CylinderShape3D:
+		var cylinder := shape as CylinderShape3D
+		return Vector3(2.0 * cylinder.radius, cylinder.height, 2.0 * cylinder.radius)
+	if shape is SphereShape3D:
+		return Vector3.ONE * 2.0 * (shape as SphereShape3D).radius
+	return (shape as BoxShape3D).size
+
+
+func _width_m() -> float:
+	return size_m().x
+
+
+## Whether it looks the same at any turn about its height.
+func is_round() -> bool:
+	return not ($Shape as CollisionShape3D).shape is BoxShape3D
 
 
 ## World pose of the body where it belongs.
@@ -86,11 +82,21 @@ func show_placed(_placed: bool) -> void:
 
 ## Held things are shown as glass, so that the grip's poles stay in sight inside them.
 func show_held(held: bool) -> void:
+	if _materials.is_empty():
+		_copy_materials()
 	for material in _materials:
 		material.transparency = (
 			BaseMaterial3D.TRANSPARENCY_ALPHA if held else BaseMaterial3D.TRANSPARENCY_DISABLED
 		)
 		material.albedo_color.a = HELD_ALPHA if held else 1.0
+
+
+func _copy_materials() -> void:
+	for child in get_children():
+		var piece := child as MeshInstance3D
+		if piece != null and piece.material_override is StandardMaterial3D:
+			piece.material_override = piece.material_override.duplicate()
+			_materials.append(piece.material_override as StandardMaterial3D)
 
 
 func position_error_m() -> float:

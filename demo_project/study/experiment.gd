@@ -37,11 +37,11 @@ var _task: Trial
 var _trace: TraceRecorder
 var _participant := 1
 var _random := RandomNumberGenerator.new()
-var _screen := ExperimentScreen.new()
+
+@onready var _screen: ExperimentScreen = $Screen
 
 
 func _ready() -> void:
-	add_child(_screen)
 	_participant = arguments.participant if arguments.simulates() else settings.participant.to_int()
 	if _participant < 1:
 		_screen.show_text("Participant", "Enter a number of 1 or more as participant in the settings.", "Back", left.emit)

@@ -1,3 +1,4 @@
+@tool
 extends Control
 ## Grasp angle as a dial: 0 at the left, open; the band is where the device counts as grasping.
 

@@ -14,8 +14,8 @@ const KEYS: Dictionary[String, String] = {
 	"{demo_look_round} + drag": "looks round",
 	"{demo_move_away} {demo_move_left} {demo_move_near} {demo_move_right}, {demo_move_down} {demo_move_up}":
 		"move the grip, down and up",
-	"{demo_turn_left} {demo_turn_right} {demo_tilt_back} {demo_tilt_forward}": "turn and tilt the grip",
-	"{demo_roll_left} {demo_roll_right}": "roll it",
+	"{demo_turn_left}, {demo_turn_right}, {demo_tilt_back}, {demo_tilt_forward}": "turn and tilt the grip",
+	"{demo_roll_left}, {demo_roll_right}": "roll it",
 	"{demo_forces}": "forces on and off",
 	"{demo_panic}": "panic stop: forces off at once",
 	"{demo_restart}": "starts again, same layout",

@@ -1,3 +1,4 @@
+@tool
 extends Control
 ## Eight bars, one a string: pull in newtons, coloured as the strings in the scene are.
 

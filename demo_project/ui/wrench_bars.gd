@@ -1,3 +1,4 @@
+@tool
 extends Control
 ## Asked against given wrench, seven axes: the thin bar is what the game asked for, the thick one what the
 ## strings could give.

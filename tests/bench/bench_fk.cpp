@@ -233,7 +233,9 @@ private:
         case 8:
             return entry([&] { return paper_cubic(box, d, lengths); });
         case 9:
-            return entry([&] { return closed_form_pose(box, d, lengths, 0); });
+            return entry([&] {
+                return pose_of(root_pair_pose(solve_closed_form(box, d, lengths), 0).pose);
+            });
         default:
             return entry([&] {
                 const ClosedForm form = solve_closed_form(box, d, lengths);

@@ -193,7 +193,7 @@ void run_computations(const ServoSettings &settings, std::size_t ticks,
             WrenchMatrix matrix;
             matrix_times.time(
                 tick, [&] { matrix = wrench_matrix(settings.frame, settings.grip, result.pose); });
-            const DofArray wrench = {
+            const PaperWrench wrench = {
                 2.0 * std::sin(3.0 * t), std::cos(2.0 * t), 0.5, 0.02, 0.01, 0.0, 0.02};
             tension.time(tick, [&] { solver.update(matrix, wrench); });
             forces_alone.time(tick, [&] { force_solver.update(matrix, wrench); });

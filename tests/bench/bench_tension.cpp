@@ -88,7 +88,7 @@ int bench_tension(std::vector<BenchRow> &rows) {
         std::vector<StringArray> exact;
         for (const TensionProblem &problem : set.problems) {
             const test::Certificate truth =
-                test::certify(problem, solve_tension_problem_safely(problem, nullptr).tensions_n);
+                test::certify(problem, solve_exactly(problem, nullptr).tensions_n);
             failures += truth.certified ? 0 : 1;
             exact.push_back(truth.exact_n);
         }

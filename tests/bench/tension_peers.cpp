@@ -24,8 +24,8 @@ public:
     bool solve(const TensionProblem &problem, bool warm, StringArray &tensions_n) override {
         set_simd_level(level_);
         const ActiveSet *from = warm ? &last_ : nullptr;
-        const TensionSolution solution = safe_only_ ? solve_tension_problem_safely(problem, from)
-                                                    : solve_tension_problem(problem, from);
+        const TensionSolution solution =
+            safe_only_ ? solve_exactly(problem, from) : solve_tension_problem(problem, from);
         last_ = solution.active;
         tensions_n = solution.tensions_n;
         return solution.status == Status::ok;

@@ -43,7 +43,7 @@ WrenchMatrix matrix_at(const Vec3 &position, const Mat3 &rotation, double psi_ra
     return wrench_matrix(frame, grip, pose);
 }
 
-TensionProblem standard(const WrenchMatrix &matrix, const DofArray &wrench) {
+TensionProblem standard(const WrenchMatrix &matrix, const PaperWrench &wrench) {
     TensionProblem problem;
     problem.matrix = matrix;
     problem.wrench = wrench;
@@ -66,7 +66,8 @@ WrenchMatrix random_matrix(test::Random &random, double reach_m, double turn_rad
                      random.uniform(psi_low, psi_high));
 }
 
-DofArray wrench_of(const WrenchMatrix &matrix, test::Random &random, double low_n, double high_n) {
+PaperWrench wrench_of(const WrenchMatrix &matrix, test::Random &random, double low_n,
+                      double high_n) {
     StringArray tensions{};
     for (double &tension : tensions) {
         tension = random.uniform(low_n, high_n);
@@ -91,7 +92,7 @@ TensionProblem on_trajectory(double t) {
                  0.09 * std::sin(2.6 * t + 0.5) + 0.06 * std::sin(5.2 * t + 3));
     const Vec3 axis(std::sin(0.7 * t), std::cos(0.9 * t), 0.5 + std::sin(0.31 * t));
     const double psi_deg = 65.0 + 25.0 * std::sin(2.9 * t);
-    DofArray q{};
+    PaperWrench q{};
     if (p.y < -0.03) {
         const double push = std::fmin(700.0 * (-0.03 - p.y), 8.0);
         q[1] = push;
@@ -115,7 +116,7 @@ TensionProblem saturated(test::Random &random, std::size_t row) {
     const WrenchMatrix matrix =
         far ? random_matrix(random, 0.45, 180 * kDegree, 15 * kDegree, 165 * kDegree)
             : random_matrix(random, 0.2, 45 * kDegree, 30 * kDegree, 120 * kDegree);
-    DofArray q = wrench_of(matrix, random, -30.0, 100.0);
+    PaperWrench q = wrench_of(matrix, random, -30.0, 100.0);
     if (row % 3 == 0) {
         for (std::size_t k = 0; k < q.size(); ++k) {
             q[k] = normal(random) * (k < 3 ? 80.0 : 3.2);
@@ -142,7 +143,7 @@ TensionProblem rank_deficient(test::Random &random, std::size_t row) {
         matrix.columns[1] = matrix.columns[0];
         break;
     case 3: // no lever arm: forces only
-        for (DofArray &column : matrix.columns) {
+        for (PaperWrench &column : matrix.columns) {
             for (std::size_t k = 3; k < column.size(); ++k) {
                 column[k] = 0.0;
             }
@@ -197,7 +198,7 @@ TensionSet at_shipped_settings(const TensionSet &trajectory) {
             p.proximal_target_n[i] =
                 (steady * steady_target + s.change_weight * last[i]) / p.proximal_weight;
         }
-        last = solve_tension_problem_safely(p, nullptr).tensions_n;
+        last = solve_exactly(p, nullptr).tensions_n;
     }
     return set;
 }

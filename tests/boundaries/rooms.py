@@ -14,6 +14,7 @@ ROOTS = {  # where the sources lie -> what their rooms' names begin with
     "addons/spidar_g": "addons/spidar_g", "demo_project": "demo_project",
 }
 SUFFIXES = (".cpp", ".h", ".gd", ".tscn")
+SCENES_ALONE = ("objects", "parts", "shapes")  # folders of scenes: they belong to the room above
 MOST_FILES = 18  # in one room, a source and its header counted as one: more are not found by eye
 
 INCLUDE = re.compile(r'\s*#\s*include\s+"((?:core|device|godot)/[^"]+)"')
@@ -74,7 +75,10 @@ def room_of(path):
     """The room that a file lies in; None for a file that lies in none."""
     for root, name in ROOTS.items():
         if path.startswith(root + "/") and path.endswith(SUFFIXES):
-            return os.path.join(name, os.path.dirname(path)[len(root) + 1:]).rstrip("/")
+            folder = os.path.dirname(path)
+            if path.endswith(".tscn") and os.path.basename(folder) in SCENES_ALONE:
+                folder = os.path.dirname(folder)
+            return os.path.join(name, folder[len(root) + 1:]).rstrip("/")
     return None
 
 
@@ -135,15 +139,16 @@ def sizes(sources):
     return counts
 
 
-def complaints(sources, rules):
-    """(path, line, text) of everything that the list does not allow, and of what in the list is not so."""
+def complaints(sources, rules, uses=None):
+    """(path, line, text) of everything that the list does not allow, and of what in the list is not so. uses: the
+    arrows of these sources, where they are known already."""
     for number, text in rules.faults:
         yield LIST, number, text
     cycle = rules.cycle()
     if cycle:
         yield LIST, 1, f"the rooms use each other in a circle: {' -> '.join(cycle)}"
     used = set()
-    for arrow in arrows(sources):
+    for arrow in arrows(sources) if uses is None else uses:
         used.add((arrow.room, arrow.target))
         if arrow.target not in rules.uses.get(arrow.room, ()):
             yield arrow.path, arrow.line, f"{arrow.room} may not use {arrow.target}"

@@ -33,7 +33,7 @@ struct Row {
     std::string kind;
     TensionProblem problem;
     StringArray tensions_n{};
-    DofArray error{};
+    PaperWrench error{};
     double objective = 0.0;
 };
 
@@ -143,7 +143,7 @@ bool check_solution(const Row &row, const TensionSolution &solution, const char 
         in_bounds =
             in_bounds && tau[i] >= row.problem.lower_n[i] && tau[i] <= row.problem.upper_n[i];
     }
-    const DofArray achieved = spidar::apply(row.problem.matrix, tau);
+    const PaperWrench achieved = spidar::apply(row.problem.matrix, tau);
     double wrench_error = 0.0;
     for (std::size_t k = 0; k < kDofs; ++k) {
         const double error = achieved[k] - row.problem.wrench[k];

@@ -3,7 +3,7 @@
 
 run_vm_tests.py PROGRAM KERNEL_FOLDER GODOT [--log FILE] [--only DOCTEST_FILTER]
 
-KERNEL_FOLDER holds vmlinuz and the modules (dev's fetch_kernel fills it). The machine's clock counts instructions
+KERNEL_FOLDER holds vmlinuz and the modules (tools/dev/kernel.sh fills it). The machine's clock counts instructions
 (QEMU's icount), so that times inside are the same on a busy computer as on an idle one. No root, no KVM.
 Prints the guest's output, then "N passed, N failed".
 """
@@ -71,7 +71,7 @@ def mapped_files(godot):
         finally:
             running.terminate()
             running.wait()
-    return sorted(set(re.findall(r"r-xp .* (/\S+)$", maps, re.MULTILINE)))
+    return sorted(set(re.findall(r"r-xp (?:\S+ ){3} *(/.+)$", maps, re.MULTILINE)))
 
 
 def add_game(root, godot):

@@ -7,16 +7,16 @@ const ExperimentPlan := preload("res://study/experiment_plan.gd")
 const ExperimentStore := preload("res://study/experiment_store.gd")
 const FitLine := preload("res://play/fit_line.gd")
 const LinkSocket := preload("res://scene/link_socket.gd")
+const MatchLayout := preload("res://tasks/match_linking/match_layout.gd")
 const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
 const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
 const ObjectCatalogue := preload("res://tasks/pick_and_place/object_catalogue.gd")
-const ObjectSpec := preload("res://tasks/pick_and_place/object_spec.gd")
+const ObjectLayout := preload("res://tasks/pick_and_place/object_layout.gd")
 const PictureQuality := preload("res://scene/picture_quality.gd")
 const PlayArguments := preload("res://play/play_arguments.gd")
-const RobotDesign := preload("res://tasks/robot_linking/robot_design.gd")
+const RobotLayout := preload("res://tasks/robot_linking/robot_layout.gd")
 const RobotPart := preload("res://tasks/robot_linking/robot_part.gd")
 const ScriptedHand := preload("res://play/scripted_hand.gd")
-const TaskLayout := preload("res://tasks/pick_and_place/task_layout.gd")
 const TaskObject := preload("res://tasks/pick_and_place/task_object.gd")
 const WidthSense := preload("res://play/width_sense.gd")
 
@@ -100,24 +100,26 @@ func _closing(start: float, stop: float, drift_nm_rad: float, stiffness_nm_rad: 
 
 
 func _check_rotation_error() -> void:
-	var square := _spec(ObjectSpec.Shape.BOX, Vector3(0.03, 0.06, 0.03))
-	var slab := _spec(ObjectSpec.Shape.BOX, Vector3(0.02, 0.06, 0.04))
-	var cylinder := _spec(ObjectSpec.Shape.CYLINDER, Vector3(0.03, 0.06, 0.03))
+	var square := _object("blue_box")
+	var slab := _object("coral_slab")
+	var cylinder := _object("teal_cylinder")
 	var quarter := Basis(Vector3.UP, PI * 0.5)
 	var tilt := Basis(Vector3.RIGHT, 0.3)
-	_near(TaskObject.turn_as_shown(square, quarter, Basis()), 0.0, "square, quarter turn")
-	_near(TaskObject.turn_as_shown(slab, quarter, Basis()), PI * 0.5, "slab, quarter turn")
-	_near(TaskObject.turn_as_shown(slab, quarter * quarter, Basis()), 0.0, "slab, half turn")
-	_near(TaskObject.turn_as_shown(slab, tilt, Basis()), 0.3, "slab, tilt")
-	_near(TaskObject.turn_as_shown(cylinder, quarter, Basis()), 0.0, "cylinder, turn")
-	_near(TaskObject.turn_as_shown(cylinder, tilt, Basis()), 0.3, "cylinder, tilt")
+	_near(square.turn_as_shown(quarter, Basis()), 0.0, "square, quarter turn")
+	_near(slab.turn_as_shown(quarter, Basis()), PI * 0.5, "slab, quarter turn")
+	_near(slab.turn_as_shown(quarter * quarter, Basis()), 0.0, "slab, half turn")
+	_near(slab.turn_as_shown(tilt, Basis()), 0.3, "slab, tilt")
+	_near(cylinder.turn_as_shown(quarter, Basis()), 0.0, "cylinder, turn")
+	_near(cylinder.turn_as_shown(tilt, Basis()), 0.3, "cylinder, tilt")
+	for object: TaskObject in [square, slab, cylinder]:
+		object.free()
 
 
 func _check_layout() -> void:
-	var specs := ObjectCatalogue.of_level(2)
+	var objects := ObjectCatalogue.of_level(2)
 	for seed_number in range(0, 50):
-		var one := TaskLayout.make(seed_number, specs, 0.2)
-		var two := TaskLayout.make(seed_number, specs, 0.2)
+		var one := _layout(objects, seed_number)
+		var two := _layout(objects, seed_number)
 		_check(one.starts == two.starts and one.targets == two.targets, "seed %d twice" % seed_number)
 		var places := one.starts + one.targets
 		var nearest := INF
@@ -125,10 +127,17 @@ func _check_layout() -> void:
 			for b in a:
 				var way := places[a].origin - places[b].origin
 				nearest = minf(nearest, Vector2(way.x, way.z).length())
-		var least := TaskLayout.PITCH_M.y - 2.0 * TaskLayout.JITTER_M
+		var least := ObjectLayout.PITCH_M.y - 2.0 * ObjectLayout.JITTER_M
 		_check(nearest >= least - 1e-6, "seed %d: two things %.4f m apart" % [seed_number, nearest])
-	var other := TaskLayout.make(1, specs, 0.2)
-	_check(TaskLayout.make(2, specs, 0.2).starts != other.starts, "seeds 1 and 2 are alike")
+	_check(_layout(objects, 2).starts != _layout(objects, 1).starts, "seeds 1 and 2 are alike")
+	for object in objects:
+		object.free()
+
+
+func _layout(objects: Array[TaskObject], seed_number: int) -> ObjectLayout:
+	var layout := ObjectLayout.new()
+	layout.choose_places(objects, seed_number, 0.2)
+	return layout
 
 
 func _check_fit_line() -> void:
@@ -148,12 +157,13 @@ func _check_catalogue() -> void:
 		var widths: Dictionary[float, bool] = {}
 		var frictions: Dictionary[float, bool] = {}
 		var squeezes: Dictionary[float, bool] = {}
-		for spec in ObjectCatalogue.of_level(level):
-			masses[spec.mass_kg] = true
-			widths[spec.size_m.x] = true
-			frictions[spec.friction] = true
-			squeezes[spec.squeeze_nm_rad] = true
-			_check(spec.size_m.x <= 0.052, "%s is wider than the fingers hold" % spec.label)
+		for object in ObjectCatalogue.of_level(level):
+			masses[object.mass] = true
+			widths[object.width_m] = true
+			frictions[object.physics_material_override.friction] = true
+			squeezes[object.get_meta(&"spidar_squeeze_nm_rad", 0.0)] = true
+			_check(object.width_m <= 0.052, "%s is wider than the fingers hold" % object.label)
+			object.free()
 		_check(masses.size() >= 3 and widths.size() >= 3, "level %d: masses and widths" % level)
 		_check(level < 3 or (frictions.size() >= 3 and squeezes.size() >= 3), "level 3: frictions, softness")
 
@@ -161,7 +171,7 @@ func _check_catalogue() -> void:
 ## Every edge is one match long, no further turned or raised than a hand can follow, and joins others at its ends.
 func _check_match_shapes() -> void:
 	for level in range(1, PlayArguments.LEVELS + 1):
-		var shape := MatchShape.of_level(level)
+		var shape: MatchShape = MatchLayout.SHAPES[level - 1].instantiate()
 		for edge in shape.edges:
 			var way := shape.corners[edge.y] - shape.corners[edge.x]
 			_near(way.length(), MatchStick.LENGTH_M, "level %d: length of an edge" % level)
@@ -175,25 +185,25 @@ func _check_match_shapes() -> void:
 
 ## In the finished robot each plug lies on its cup.
 func _check_robot() -> void:
-	var torso := RobotDesign.torso()
-	var stand := Node3D.new()
-	var bracket := RobotDesign.build_stand(stand)
+	var parts: Array[RobotPart] = [RobotLayout.TORSO.instantiate() as RobotPart]
+	for scene in RobotLayout.LIMBS:
+		parts.append(scene.instantiate() as RobotPart)
+	var stand: Node3D = RobotLayout.STAND.instantiate()
 	var cups: Dictionary[StringName, Vector3] = {}
-	for child in torso.get_children():
+	for bracket in stand.get_children():
+		for child in bracket.get_children():
+			if child is LinkSocket:
+				cups[(child as LinkSocket).key] = (bracket as Node3D).position + (child as LinkSocket).position
+	for child in parts[0].get_children():
 		if child is LinkSocket and not (child as LinkSocket).is_plug:
-			cups[(child as LinkSocket).key] = torso.place * (child as LinkSocket).position
-	for child in bracket.get_children():
-		if child is LinkSocket:
-			cups[(child as LinkSocket).key] = bracket.position + (child as LinkSocket).position
-	var parts: Array[RobotPart] = RobotDesign.limbs()
-	parts.append(torso)
+			cups[(child as LinkSocket).key] = parts[0].place() * (child as LinkSocket).position
 	var plugs := 0
 	for part in parts:
 		for child in part.get_children():
 			var plug := child as LinkSocket
 			if plug != null and plug.is_plug:
 				plugs += 1
-				var off := (part.place * plug.position).distance_to(cups.get(plug.key, Vector3.INF))
+				var off := (part.place() * plug.position).distance_to(cups.get(plug.key, Vector3.INF))
 				_check(off <= 1e-6, "%s: its plug is %.4f m from its cup" % [part.label, off])
 		part.free()
 	_check(plugs == 6 and cups.size() == 6, "%d plugs, %d cups" % [plugs, cups.size()])
@@ -309,8 +319,8 @@ func _check_picture_quality() -> void:
 	_check(PictureQuality.is_plain(PictureQuality.PLAIN, "AMD Radeon RX 6600"), "plain was asked for")
 
 
-func _spec(shape: ObjectSpec.Shape, size: Vector3) -> ObjectSpec:
-	return ObjectSpec.make("thing", shape, size, 0.1, Color.WHITE, ObjectSpec.Stand.TABLE)
+func _object(label: String) -> TaskObject:
+	return (load("res://tasks/pick_and_place/objects/%s.tscn" % label) as PackedScene).instantiate()
 
 
 func _near(value: float, wanted: float, message: String) -> void:

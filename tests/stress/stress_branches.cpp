@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "core/calibration/string_calibration.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_polish.h"
+#include "core/kinematics/search/pose_search.h"
 #include "support/command_line.h"
 #include "support/pose_helpers.h"
 
@@ -68,8 +68,8 @@ void judge(ForwardKinematics &kinematics, const LengthProblem &problem, const Gr
     bool rival = false;
     for (int pair = 0; pair < kRootPairCount; ++pair) {
         const PolishResult other =
-            polish_pose(problem, closed_form_pose(box, problem.grip.pole_half_length_m,
-                                                  problem.lengths_m, pair));
+            polish_pose(problem, test::closed_form_pose(box, problem.grip.pole_half_length_m,
+                                                        problem.lengths_m, pair));
         const bool distinct = test::distance(other.pose, branch.pose) > kDistinctPose_m;
         const bool inside = std::fabs(other.pose.position_m.z) < box.z;
         rates.not_upright += pair == 0 && distinct ? 1 : 0;

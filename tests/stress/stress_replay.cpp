@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "device/loop/servo_loop.h"
-#include "device/recording/replay_transport.h"
+#include "device/recording/replay.h"
 #include "device/simulation/simulated_transport.h"
 #include "support/snapshot_bits.h"
 
@@ -149,8 +149,8 @@ std::string run(std::uint64_t seed, std::uint64_t seconds, const std::string &pa
     }
     totals.record_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
-    auto replay = std::make_unique<ReplayTransport>();
-    ReplayTransport &transport = *replay;
+    auto replay = std::make_unique<Replay>();
+    const Replay &source = *replay;
     std::string problem = replay->load(path);
     if (!problem.empty()) {
         return problem;
@@ -171,12 +171,12 @@ std::string run(std::uint64_t seed, std::uint64_t seconds, const std::string &pa
         }
     }
     loop.advance(1, 1000); // finds the end
-    const ReplayReport report = transport.report();
+    const ReplayReport report = source.report();
     totals.replay_s += seconds_since(start);
     if (!report.finished || report.differing != 0 || report.cycles != bits.size()) {
         return "the replay counts otherwise";
     }
-    return transport.damage();
+    return source.damage();
 }
 
 } // namespace

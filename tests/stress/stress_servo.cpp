@@ -95,7 +95,7 @@ HandTarget random_target(Random &random) {
 }
 
 bool finite(const Wrench &wrench) {
-    const DofArray q = to_paper(wrench);
+    const PaperWrench q = to_paper(wrench);
     return std::all_of(q.begin(), q.end(), [](double value) { return std::isfinite(value); });
 }
 

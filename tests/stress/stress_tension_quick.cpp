@@ -168,7 +168,7 @@ void spoil(Dice &dice, TensionProblem &p) {
             break;
         default: { // scales of the whole problem
             const double scale = std::pow(10.0, dice.uniform(-80, 80));
-            for (DofArray &column : p.matrix.columns) {
+            for (PaperWrench &column : p.matrix.columns) {
                 for (double &value : column) {
                     value *= scale;
                 }

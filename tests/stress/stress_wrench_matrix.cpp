@@ -97,7 +97,7 @@ GripPose pose_of_kind(CaseRandom &random, Kind kind, const Device &device) {
 // The defining equations of one string's column, over their tolerance.
 double column_error(const Device &device, const GripPose &pose, std::size_t i,
                     const WrenchMatrix &matrix) {
-    const DofArray &c = matrix.columns[i];
+    const PaperWrench &c = matrix.columns[i];
     const Vec3 pull(c[0], c[1], c[2]);
     const Vec3 moment(c[3], c[4], c[5]);
     const Vec3 lever = attachment_lever(device.grip, pose, i);
@@ -172,7 +172,7 @@ double solver_error(const WrenchMatrix &matrix, bool finite) {
 double judge(const Device &device, CaseRandom &random, Kind kind, const GripPose &pose) {
     const WrenchMatrix matrix = wrench_matrix(device.frame, device.grip, pose);
     bool finite = true;
-    for (const DofArray &column : matrix.columns) {
+    for (const PaperWrench &column : matrix.columns) {
         for (const double value : column) {
             finite = finite && std::isfinite(value);
         }

@@ -109,10 +109,10 @@ inline HandTarget moved(HandTarget pose, std::size_t dof, double h) {
 }
 
 // Virtual work: the generalised force of tensions on each degree of freedom is -sum T dl/dx.
-inline DofArray virtual_work_forces(const PlantSettings &settings, const HandTarget &pose,
-                                    const StringArray &tensions_n) {
+inline PaperWrench virtual_work_forces(const PlantSettings &settings, const HandTarget &pose,
+                                       const StringArray &tensions_n) {
     constexpr double kH = 1e-6; // error of central differences about 1e-10 relative
-    DofArray result{};
+    PaperWrench result{};
     for (std::size_t dof = 0; dof < kDofCount; ++dof) {
         for (std::size_t i = 0; i < kStringCount; ++i) {
             const double slope = (string_length(settings, moved(pose, dof, kH), i) -

@@ -10,6 +10,7 @@
 
 #include "core/geometry/frame_geometry.h"
 #include "core/geometry/grip_geometry.h"
+#include "core/kinematics/search/closed_form.h"
 
 namespace spidar::test {
 
@@ -56,6 +57,14 @@ inline double distance(const Mat3 &a, const Mat3 &b) {
         }
     }
     return largest;
+}
+
+// The pose of one root pair of the closed form.
+inline GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
+                                 const StringArray &lengths_m, int pair) {
+    return pose_of(
+        root_pair_pose(solve_closed_form(half_extents_m, pole_half_length_m, lengths_m), pair)
+            .pose);
 }
 
 inline FrameGeometry paper_frame() {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "device/recording/recorder.h"
-#include "device/recording/replay_transport.h"
+#include "device/recording/replay.h"
 #include "support/servo_fixture.h"
 #include "support/snapshot_bits.h"
 
@@ -121,8 +121,8 @@ struct Replayed {
 
 inline Replayed replay(const std::string &path) {
     Replayed result;
-    auto made = std::make_unique<ReplayTransport>();
-    ReplayTransport &transport = *made;
+    auto made = std::make_unique<Replay>();
+    const Replay &source = *made;
     result.problem = made->load(path);
     if (!result.problem.empty()) {
         return result;
@@ -133,15 +133,15 @@ inline Replayed replay(const std::string &path) {
         result.problem = "the loop does not start";
         return result;
     }
-    while (!transport.report().finished) {
+    while (!source.report().finished) {
         loop.advance(1, static_cast<std::uint32_t>(settings.rate_hz));
         ServoSnapshot now;
         if (loop.latest(now)) {
             result.bits.push_back(bits_of(now));
         }
     }
-    result.report = transport.report();
-    result.damage = transport.damage();
+    result.report = source.report();
+    result.damage = source.damage();
     return result;
 }
 

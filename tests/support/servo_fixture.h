@@ -6,6 +6,7 @@
 
 #include "device/loop/servo_loop.h"
 #include "device/simulation/simulated_transport.h"
+#include "device/step/servo_step.h"
 
 namespace spidar::test {
 

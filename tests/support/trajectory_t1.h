@@ -28,9 +28,9 @@ inline GripPose t1_pose(const GripGeometry &grip, double t) {
 }
 
 // Without the zeros. The paper's q: fx fy fz mx my mz g.
-inline DofArray t1_wrench(double t) {
+inline PaperWrench t1_wrench(double t) {
     const auto &w = kT1Rates_rad_s;
-    DofArray wrench{};
+    PaperWrench wrench{};
     for (std::size_t i = 0; i < wrench.size(); ++i) {
         const double phase = static_cast<double>(i);
         wrench[i] = i < 3 ? 3.0 * std::sin(1.7 * w[(i + 2) % 7] * t + phase)

@@ -19,7 +19,7 @@ bench() { # bench [publish] [--runs N] [--rows N]: figures and pictures into bui
         python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md
     fi
     python3 tests/godot_project.py "$GODOT" tests/godot/project
-    timeout -k 10 "$bench_limit_s" "$GODOT" --headless --path tests/godot/project --fixed-fps 60 \
+    timeout --foreground -k 10 "$bench_limit_s" "$GODOT" --headless --path tests/godot/project --fixed-fps 60 \
         --script "$root/tests/bench/godot/bench_node.gd"
     python3 tests/editor/run_view_tests.py "$GODOT" --part idle
     bench_demo

@@ -4,6 +4,8 @@ build() {
     need "${build_needs[@]}"
     find_godot
     scons -Q -j"$jobs" "$@"
+    # The demo then opens by a double click: Godot's list of extensions and its import are there.
+    if compgen -G "addons/spidar_g/bin/*spidar_g.*" >/dev/null; then prepare_demo; fi
 }
 
 # The release: libraries for Linux and Windows, against the API in $GODOT_API (an extension_api.json of the lowest Godot

@@ -1,7 +1,8 @@
 # How a stage of the tests notes what it checked: lines "PASSED FAILED" in the file $result, "ended" at its end.
 
 run_stages() { # run_stages NAME_OR_GROUP...
-    python3 tools/dev/run_stages.py check "$@"
+    need python3:python3
+    python3 tools/dev/run_stages.py check "$@" # a wrong name is told before anything is installed
     need "${build_needs[@]}" "${test_needs[@]}"
     find_godot
     echo "Godot: $GODOT"

@@ -19,13 +19,12 @@ play() { # play TASK [--level L] [--seed N] [--out DIR] [more arguments for the 
     out=${out:-$root/build/play/$task-$level-$seed}
     mkdir -p "$out"
     build
-    prepare_demo
     run_demo --headless -- --play "$task" --level "$level" --seed "$seed" --out "$out" "${more[@]}"
 }
 
 run_demo() { # run_demo [Godot arguments] -- [demo arguments]: in simulated time; Godot's exit code
     local code=0
-    timeout -k 10 "$play_limit_s" "$GODOT" --audio-driver Dummy --path demo_project \
+    timeout --foreground -k 10 "$play_limit_s" "$GODOT" --audio-driver Dummy --path demo_project \
         --fixed-fps 60 "$@" || code=$?
     ((code != 124)) || echo "dev: the run did not end within $play_limit_s s" >&2
     return "$code"
@@ -34,7 +33,6 @@ run_demo() { # run_demo [Godot arguments] -- [demo arguments]: in simulated time
 demo() {
     if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
         build
-        prepare_demo
         "$GODOT" --path demo_project "$@"
         return
     fi
@@ -44,7 +42,6 @@ demo() {
     rm -rf "$out"
     mkdir -p "$out"
     build
-    prepare_demo
     start_xvfb
     run_demo --rendering-driver opengl3 --disable-vsync -- \
         --play pick_and_place --seed 1 --out "$out" --pictures "$@" || code=$?

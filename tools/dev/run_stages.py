@@ -10,6 +10,7 @@ check compares the files that git knows or would add with what they were before.
 import collections
 import hashlib
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -25,7 +26,8 @@ END_LIMIT_S = 10  # what a stage may take to end when it is told to
 POLL_S = 0.1
 
 Stage = collections.namedtuple("Stage", "name group limit_s checks")
-Verdict = collections.namedtuple("Verdict", "name passed failed seconds")
+# Of the wall clock, and of the processors: on a busy machine only the latter tells what a stage costs.
+Verdict = collections.namedtuple("Verdict", "name passed failed seconds processor_s")
 
 
 class StageError(Exception):
@@ -136,7 +138,7 @@ def read_result(path):
 def run_stage(stage, command):
     """Runs `command` NAME and prints the verdict."""
     print(f"\n=== {stage.name}", flush=True)
-    started = time.monotonic()
+    clock = Clock()
     result = os.path.join(LOGS, f"{stage.name}.result")
     open(result, "w", encoding="utf-8").close()
     in_time = run_limited([*command, stage.name], stage.limit_s, os.path.join(LOGS, f"{stage.name}.log"))
@@ -149,7 +151,22 @@ def run_stage(stage, command):
         print("dev: the stage checked nothing")
     if failed == 0 and (not in_time or not ended or passed == 0):
         failed = 1
-    return print_verdict(Verdict(stage.name, passed, failed, time.monotonic() - started))
+    return print_verdict(Verdict(stage.name, passed, failed, *clock.times()))
+
+
+class Clock:
+    """Both times since it was made."""
+
+    def __init__(self):
+        self.started = self.now()
+
+    @staticmethod
+    def now():
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return time.monotonic(), used.ru_utime + used.ru_stime
+
+    def times(self):
+        return [now - then for now, then in zip(self.now(), self.started)]
 
 
 def print_verdict(verdict):
@@ -184,7 +201,7 @@ def changed_files():
 def check_files(before):
     """A build or a test leaves no tracked file changed, and no file that git does not ignore."""
     print("\n=== clean_tree", flush=True)
-    started = time.monotonic()
+    clock = Clock()
     after = changed_files()
     touched = sorted(path for path in before.keys() | after.keys() if before.get(path) != after.get(path))
     with open(os.path.join(LOGS, "clean_tree.log"), "w", encoding="utf-8", errors="surrogateescape") as log:
@@ -192,7 +209,7 @@ def check_files(before):
             line = f"FAIL {path}: changed or left by the run ({after.get(path, ('as committed',))[0].strip()})"
             print(line)
             print(line, file=log)
-    return print_verdict(Verdict("clean_tree", 0 if touched else 1, len(touched), time.monotonic() - started))
+    return print_verdict(Verdict("clean_tree", 0 if touched else 1, len(touched), *clock.times()))
 
 
 # --- Entry ---------------------------------------------------------------------------------------
@@ -211,7 +228,7 @@ def run(stages, command):
     for verdict in verdicts:
         word = "FAIL" if verdict.failed else "PASS"
         print(f"{verdict.name:<20} {word} {verdict.passed:6} passed {verdict.failed:4} failed "
-              f"{verdict.seconds:5.0f} s")
+              f"{verdict.seconds:5.0f} s {verdict.processor_s:5.0f} s of processor time")
     failed = sum(verdict.failed for verdict in verdicts)
     print(f"{sum(verdict.passed for verdict in verdicts)} passed, {failed} failed", flush=True)
     return failed == 0

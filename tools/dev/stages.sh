@@ -33,6 +33,7 @@ tidy() { # without its count of what it found in other people's headers
 
 stage_boundaries() {
     counted python3 tests/check_boundaries.py
+    counted python3 tests/boundaries/test_rooms.py
     counted python3 tests/hid/check_protocol_page.py
 }
 
@@ -79,12 +80,14 @@ stage_experiment() {
     counted python3 tests/play/run_experiment_tests.py "$GODOT" "$(plotting_python)" --participants 12
 }
 
-stage_editor() { # the add-on in a real editor; handles and calibration by mouse and keyboard
+stage_editor() { # handles and calibration are worked by mouse and keyboard, games started by keys
     need "${picture_needs[@]}" xdotool:xdotool
     counted python3 tests/editor/run_view_tests.py "$GODOT" --actions 200 --seed 1
+    counted python3 tests/editor/run_demo_project_tests.py "$GODOT"
     start_xvfb
     counted python3 tests/editor/run_view_tests.py "$GODOT" --part mouse
     counted python3 tests/editor/run_calibration_tests.py "$GODOT"
+    counted python3 tests/editor/run_play_from_editor.py "$GODOT"
 }
 
 # The demo as a pack, away from its project.

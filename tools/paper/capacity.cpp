@@ -40,7 +40,7 @@ const char *name_of(Weighting weighting) {
 
 void write(CsvFile &table, const char *figure, Weighting weighting, double max_tension_n,
            double asked, double at, const Capacity &capacity) {
-    const DofArray &u = capacity.unwanted;
+    const PaperWrench &u = capacity.unwanted;
     table.row({figure, name_of(weighting), max_tension_n, asked, at, capacity.ratio,
                std::hypot(u[0], u[1], u[2]), std::hypot(u[3], u[4], u[5]), std::abs(u[6])});
 }
@@ -50,7 +50,7 @@ void run(CsvFile &table, const PaperDevice &device, const Sweep &sweep, double a
     constexpr int kAngles = 73; // 2.5 degrees
     const int count = sweep.rotated ? kAngles : kPoints;
     const double half = sweep.rotated ? 90.0 : 20.0;
-    DofArray wrench{};
+    PaperWrench wrench{};
     wrench[static_cast<std::size_t>(sweep.wrench_dof)] = sweep.sign * asked;
     for (const Weighting weighting : {Weighting::plain, Weighting::pole_ends}) {
         for (const double max_tension_n : kMaxTensions_n) {
@@ -82,7 +82,7 @@ void grasp(CsvFile &table, const PaperDevice &device, Outputs &outputs) {
                         const double at = grid_value(i, kAngles, 45.0);
                         const GripPose pose =
                             make_pose(device.grip, Vec3(0.0), Mat3(1.0), at * kDegree_rad);
-                        DofArray wrench{};
+                        PaperWrench wrench{};
                         wrench[6] = sign * g;
                         const Capacity capacity =
                             capacity_of(wrench_matrix(device.frame, device.grip, pose), wrench,

@@ -21,7 +21,7 @@ constexpr const char *kDofs[] = {"x",          "y",          "z",          "rota
 // Rates of the strings for a unit rate of one DOF. The grasp rate is twice the rate that the paper's g
 // is conjugate to.
 StringArray string_rates(const WrenchMatrix &matrix, std::size_t dof) {
-    DofArray rates{};
+    PaperTwist rates{};
     rates[dof] = dof == 6 ? 0.5 : 1.0;
     return apply_transposed(matrix, rates);
 }
@@ -59,8 +59,8 @@ void inertia_and_wrench(const PaperDevice &device, Outputs &outputs) {
         std::array<double, 3> most{};
         for (std::size_t k = 0; k < most.size(); ++k) {
             const double sum_n = kMaxTensions_n[k] * kStringCount; // no wrench is larger
-            DofArray plus{};
-            DofArray minus{};
+            PaperWrench plus{};
+            PaperWrench minus{};
             plus[dof] = dof == 6 ? 2.0 : 1.0; // g = 2 grasp_torque
             minus[dof] = -plus[dof];
             most[k] = std::fmin(largest_exact(matrix, plus, device.grip.pole_half_length_m,
@@ -84,7 +84,7 @@ void smoothness(const PaperDevice &device, Outputs &outputs) {
     constexpr int kTicks = 4000;
     CsvFile table = outputs.table("smoothness", "x_cm,force_x_n,largest_step_n,closed");
     TensionSolver solver;
-    DofArray wrench{};
+    PaperWrench wrench{};
     wrench[0] = 3.0;
     StringArray last{};
     double inside = 0.0;
@@ -134,8 +134,8 @@ void taut_strings(const PaperDevice &device, Outputs &outputs) {
             const GripPose pose = random.pose(device.grip, one.cube_m, tilt, tilt);
             TensionSolver solver;
             const WrenchMatrix matrix = wrench_matrix(device.frame, device.grip, pose);
-            const TensionResult result = solver.update(matrix, DofArray{});
-            const DofArray q = apply(matrix, result.tensions_n);
+            const TensionResult result = solver.update(matrix, PaperWrench{});
+            const PaperWrench q = apply(matrix, result.tensions_n);
             const double force = std::hypot(q[0], q[1], q[2]);
             const double moment = std::hypot(q[3], q[4], q[5]);
             least = std::min(least,

@@ -94,7 +94,7 @@ void felt_everywhere(const PaperDevice &device, Outputs &outputs) {
                             {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, sign * kGrasp_nm}, Weighting::pole_ends,
                             device.grip.pole_half_length_m, kMaxTension_n);
             here = std::fmin(here, capacity.ratio);
-            const DofArray &u = capacity.unwanted;
+            const PaperWrench &u = capacity.unwanted;
             largest_force_n = std::fmax(largest_force_n, std::hypot(u[0], u[1], u[2]));
         }
         ++points;

@@ -93,7 +93,7 @@ void measure(CsvFile &table, const char *sweep, double half_extent_m, double pol
     double share_percent = 0.0;
     closure(device, half_extent_m, reach, share_percent);
     const auto most = [&](std::size_t dof, double end) {
-        DofArray wrench{};
+        PaperWrench wrench{};
         wrench[dof] = 1.0;
         return largest_exact(matrix, wrench, pole_half_length_m, kMaxTension_n, end);
     };

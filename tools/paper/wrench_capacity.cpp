@@ -10,8 +10,8 @@ namespace {
 // Only makes the optimum unique: costs a wrench of 10 N a billionth.
 constexpr double kRidge = 1e-9;
 
-TensionProblem problem_of(const WrenchMatrix &matrix, const DofArray &wrench, double moment_weight,
-                          double max_tension_n) {
+TensionProblem problem_of(const WrenchMatrix &matrix, const PaperWrench &wrench,
+                          double moment_weight, double max_tension_n) {
     TensionProblem problem;
     problem.matrix = matrix;
     problem.wrench = wrench;
@@ -31,7 +31,7 @@ StringArray solved(const TensionProblem &problem) {
 
 } // namespace
 
-Capacity capacity_of(const WrenchMatrix &matrix, const DofArray &wrench, Weighting weighting,
+Capacity capacity_of(const WrenchMatrix &matrix, const PaperWrench &wrench, Weighting weighting,
                      double pole_half_length_m, double max_tension_n) {
     const double weight = weighting == Weighting::plain ? 1.0 : 1.0 / pole_half_length_m;
     Capacity result;
@@ -50,8 +50,8 @@ Capacity capacity_of(const WrenchMatrix &matrix, const DofArray &wrench, Weighti
     return result;
 }
 
-double largest_exact(const WrenchMatrix &matrix, const DofArray &wrench, double pole_half_length_m,
-                     double max_tension_n, double end) {
+double largest_exact(const WrenchMatrix &matrix, const PaperWrench &wrench,
+                     double pole_half_length_m, double max_tension_n, double end) {
     constexpr int kBisections = 40;
     constexpr double kExact = 1e-6;
     const double weight = 1.0 / pole_half_length_m;
@@ -59,12 +59,12 @@ double largest_exact(const WrenchMatrix &matrix, const DofArray &wrench, double 
     double outside = end;
     for (int i = 0; i < kBisections; ++i) {
         const double middle = 0.5 * (inside + outside);
-        DofArray wanted = wrench;
+        PaperWrench wanted = wrench;
         for (double &value : wanted) {
             value *= middle;
         }
         const TensionProblem problem = problem_of(matrix, wanted, weight, max_tension_n);
-        const DofArray given = apply(matrix, solved(problem));
+        const PaperWrench given = apply(matrix, solved(problem));
         double miss = 0.0;
         double size = 0.0;
         for (std::size_t k = 0; k < wanted.size(); ++k) {

@@ -9,18 +9,18 @@ enum class Weighting { plain, pole_ends }; // W = 1 as printed, or moments and g
 
 struct Capacity {
     double ratio = 0.0; // (A tau) . q / |q|^2: 1 when all of it is given
-    DofArray achieved{};
-    DofArray unwanted{}; // A tau - ratio q
+    PaperWrench achieved{};
+    PaperWrench unwanted{}; // A tau - ratio q
     StringArray tensions_n{};
 };
 
 // The paper's problem (section V): min |W (A tau - q)|^2, 0 <= tau <= max_tension_n.
-[[nodiscard]] Capacity capacity_of(const WrenchMatrix &matrix, const DofArray &wrench,
+[[nodiscard]] Capacity capacity_of(const WrenchMatrix &matrix, const PaperWrench &wrench,
                                    Weighting weighting, double pole_half_length_m,
                                    double max_tension_n);
 
 // Largest multiple of `wrench` that is given exactly (to a millionth), between 0 and `end`.
-[[nodiscard]] double largest_exact(const WrenchMatrix &matrix, const DofArray &wrench,
+[[nodiscard]] double largest_exact(const WrenchMatrix &matrix, const PaperWrench &wrench,
                                    double pole_half_length_m, double max_tension_n, double end);
 
 } // namespace spidar::paper

@@ -10,7 +10,7 @@
 #include "core/calibration/string_calibration.h"
 #include "device/contract/dof_lanes.h"
 #include "device/loop/servo_loop.h"
-#include "device/recording/replay_transport.h"
+#include "device/recording/replay.h"
 
 using namespace spidar;
 
@@ -139,11 +139,11 @@ void print_replayed(const ServoSnapshot &now) {
     print_lanes(lanes(now.achieved));
 }
 
-// Runs a recording through a servo loop; show(transport, snapshot) after each cycle.
+// Runs a recording through a servo loop; show(source, snapshot) after each cycle.
 template <typename Show>
 int replay(const std::string &path, Show &&show) {
-    auto made = std::make_unique<ReplayTransport>();
-    ReplayTransport &transport = *made;
+    auto made = std::make_unique<Replay>();
+    const Replay &source = *made;
     std::string problem = made->load(path);
     if (!problem.empty()) {
         return complain(problem);
@@ -157,15 +157,15 @@ int replay(const std::string &path, Show &&show) {
     // One cycle a call: exact, since the carry of the loop counts in thousandths of a hertz.
     const double millihertz = 1000.0 * settings.rate_hz;
     const auto denominator = static_cast<std::uint32_t>(millihertz + 0.5);
-    while (!transport.report().finished) {
+    while (!source.report().finished) {
         loop.advance(1000, denominator);
         ServoSnapshot now;
         if (loop.latest(now)) {
-            show(transport, now);
+            show(source, now);
         }
     }
-    const ReplayReport report = transport.report();
-    const std::string damage = transport.damage();
+    const ReplayReport report = source.report();
+    const std::string damage = source.damage();
     loop.stop();
     std::fprintf(stderr, "%llu cycles replayed, %llu with other bits", whole(report.cycles),
                  whole(report.differing));
@@ -189,8 +189,8 @@ int csv(const std::string &path) {
     const std::string no_replay = why_no_replay(reader.info());
     print_head();
     if (no_replay.empty()) {
-        return replay(path, [&](const ReplayTransport &transport, const ServoSnapshot &now) {
-            print_recorded(transport.cycle(), strings);
+        return replay(path, [&](const Replay &source, const ServoSnapshot &now) {
+            print_recorded(source.cycle(), strings);
             print_replayed(now);
             std::printf("\n");
         });
@@ -220,7 +220,7 @@ int main(int argc, char **argv) {
         return csv(path);
     }
     if (std::strcmp(argv[1], "verify") == 0) {
-        return replay(path, [](const ReplayTransport &, const ServoSnapshot &) {});
+        return replay(path, [](const Replay &, const ServoSnapshot &) {});
     }
     return usage();
 }

@@ -23,9 +23,9 @@ const ContactPlane := preload("contact_plane.gd")
 const ContactSet := preload("contact_set.gd")
 const GraspJudge := preload("grasp_judge.gd")
 const GraspStop := preload("grasp_stop.gd")
-const HandPlace := preload("hand_place.gd")
-const HandRanges := preload("hand_ranges.gd")
-const HandRequests := preload("hand_requests.gd")
+const HandPlace := preload("hand/place.gd")
+const HandRanges := preload("hand/ranges.gd")
+const HandRequests := preload("hand/requests.gd")
 const HeldLoad := preload("held_load.gd")
 const HoldJoint := preload("hold_joint.gd")
 const JawSensor := preload("jaw_sensor.gd")
@@ -128,7 +128,6 @@ func _exit_tree() -> void:
 		release()
 		_withdraw()
 	spidar = null
-	_requests.device = null
 
 
 func _get_configuration_warnings() -> PackedStringArray:
@@ -232,9 +231,13 @@ func _physics_process(delta: float) -> void:
 		_carry(grip, exclude, delta, found)
 	_find_tool_planes(grip, delta, exclude, found)
 	_contacts.replace(found)
-	_requests.publish(
-		_contacts if render_contacts else null, _stop if render_width else null, grip.origin
-	)
+	var rows: PackedFloat64Array = PackedFloat64Array()
+	if render_contacts:
+		_contacts.keep_nearest(_requests.free_planes())
+		_contacts.pack_into(rows, grip.origin)
+	if render_width:
+		_stop.pack_into(rows)
+	_requests.publish(rows)
 	_request_load(grip, delta)
 
 
@@ -355,8 +358,7 @@ func _request_load(grip: Transform3D, delta: float) -> void:
 		return
 	_load.gain = weight_scale
 	_load.max_force_n = _settings().max_force
-	# What has snapped in is carried by its socket.
-	_load.with_weight = render_weight and not _hold.detained
+	_load.with_weight = render_weight and not _hold.detained  # What has snapped in is carried by its socket.
 	_load.with_inertia = render_inertia and not _hold.detained
 	_load.advance(delta, _hold.body, grip.origin, spidar.workspace_scale)
 	_requests.ask(_load.force_n, _load.moment_nm)

@@ -12,6 +12,7 @@ const PictureTaker := preload("res://play/picture_taker.gd")
 const ScriptedHand := preload("res://play/scripted_hand.gd")
 const ScriptedRun := preload("res://tasks/base/scripted_run.gd")
 const TaskFeedback := preload("res://tasks/base/task_feedback.gd")
+const TaskLayout := preload("res://tasks/base/task_layout.gd")
 const TaskPlayer := preload("res://play/task_player.gd")
 
 const HOME_ABOVE_TABLE_M := 0.12
@@ -35,6 +36,12 @@ var player: TaskPlayer
 ## Builds the things of arguments.level from arguments.seed_number under _items, and fills `bodies`.
 func _lay_out() -> void:
 	pass
+
+
+## Lays the things out and takes over those that have to be placed.
+func _use_layout(layout: TaskLayout) -> void:
+	layout.lay_out(_items, arguments.level, arguments.seed_number)
+	bodies.assign(layout.bodies)
 
 
 ## Takes away what _lay_out built.

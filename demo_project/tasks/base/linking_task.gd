@@ -13,6 +13,13 @@ func _ready() -> void:
 	linker.sound_with(_feedback.sound)
 
 
+func _use_layout(layout: TaskLayout) -> void:
+	linker.clear()
+	super(layout)
+	for carrier in layout.carriers:
+		linker.add_carrier(carrier)
+
+
 ## Only what falls is a drop: a linked thing stays where it is.
 func _note_release(body: TaskBody) -> void:
 	if linker.links.any(func(link: Link) -> bool: return link.socket_on(body) != null):

@@ -1,8 +1,8 @@
+@tool
 extends Node3D
 ## A block of air in which the device gives one kind of force by itself, renewed while the grip's middle is inside.
 
 const DemoPalette := preload("res://scene/demo_palette.gd")
-const FieldZone := preload("res://tasks/free_play/field_zone.gd")
 
 ## From left to right: where strings give the finest forces, in the middle, is what is felt in motion.
 enum Kind { VIBRATION, SPRING, VISCOUS, DETENTS, FORCE, WRENCH }
@@ -27,24 +27,17 @@ const ALPHA_INSIDE := 0.40
 ## In the order of Kind.
 const TEXTS: PackedStringArray = ["buzz", "spring", "thick air", "notches", "wind", "lift"]
 
-var kind := Kind.VISCOUS
+@export var kind := Kind.VISCOUS
+@export var colour := Color.WHITE:
+	set(value):
+		colour = value
+		_show()
 
 var _material: StandardMaterial3D
 
 
-static func make(kind_: Kind, colour: Color) -> FieldZone:
-	var zone := FieldZone.new()
-	zone.kind = kind_
-	zone.name = TEXTS[kind_].to_pascal_case()
-	zone._material = DemoPalette.flat(Color(colour, ALPHA))
-	var mesh := BoxMesh.new()
-	mesh.size = SIZE_M
-	mesh.material = zone._material
-	var block := MeshInstance3D.new()
-	block.mesh = mesh
-	block.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
-	zone.add_child(block)
-	return zone
+func _ready() -> void:
+	_show()
 
 
 func holds(point: Vector3) -> bool:
@@ -74,3 +67,15 @@ func act(spidar: SpidarG, holding: bool) -> void:
 			spidar.set_force_effect(kind, FORCE_N, Vector3.ZERO, 0.0, RENEWED_FOR_S)
 		Kind.WRENCH when not holding:
 			spidar.request_wrench(WRENCH_N, Vector3.ZERO, 0.0)
+
+
+## Does nothing while the scene is still being put together.
+func _show() -> void:
+	var block := get_node_or_null(^"Block") as MeshInstance3D
+	if block == null:
+		return
+	_material = DemoPalette.flat(Color(colour, ALPHA))
+	var mesh := BoxMesh.new()
+	mesh.size = SIZE_M
+	mesh.material = _material
+	block.mesh = mesh

@@ -1,3 +1,4 @@
+@tool
 extends Node3D
 ## Where a part of the robot belongs: a faint copy that goes when the part is there.
 
@@ -10,7 +11,7 @@ const ALPHA := 0.14
 
 static func make(part: RobotPart) -> PartGhost:
 	var ghost := PartGhost.new()
-	ghost.transform = part.robot.transform * part.place
+	ghost.transform = part.robot.transform * part.place()
 	for child in part.get_children():
 		var piece := child as MeshInstance3D
 		if piece == null:

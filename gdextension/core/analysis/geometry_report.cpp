@@ -8,7 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/base/describe_value.h"
+#include "core/analysis/wrench_closure.h"
+#include "core/geometry/pose_tangents.h"
 #include "core/geometry/wrench_matrix.h"
 #include "core/tension/tension_solver.h"
 
@@ -26,7 +27,6 @@ constexpr double kRidge = 1e-12;
 constexpr double kLostPivot = 1e-9; // of the largest: the direction is lost
 constexpr double kSamePlace_m = 1e-6;
 constexpr double kLowShare = 0.5; // of the poses tried
-constexpr int kHalvings = 50;
 
 constexpr const char *kMotions[] = {"motion along x",   "motion along y",   "motion along z",
                                     "the turn about x", "the turn about y", "the turn about z",
@@ -89,53 +89,25 @@ int rank_of(const TensionProblem &problem) noexcept {
 }
 
 // W (A tau - q)
-DofArray weighted_error(const TensionProblem &problem, const StringArray &tensions) noexcept {
-    DofArray error = apply(problem.matrix, tensions);
+PaperWrench weighted_error(const TensionProblem &problem, const StringArray &tensions) noexcept {
+    PaperWrench error = apply(problem.matrix, tensions);
     for (std::size_t k = 0; k < error.size(); ++k) {
         error[k] = problem.weights[k] * (error[k] - problem.wrench[k]);
     }
     return error;
 }
 
-double length_of(const DofArray &v) noexcept {
-    double sum = 0.0;
-    for (const double x : v) {
-        sum += x * x;
-    }
-    return std::sqrt(sum);
-}
-
-// Largest multiple of `wrench` that tensions within the bounds of `problem` give, by halving: what can be given is convex
-// and, at rest, contains no wrench at all.
-double capacity(TensionProblem problem, const DofArray &wrench, double most) noexcept {
-    const auto can = [&](double scale) {
-        for (std::size_t k = 0; k < wrench.size(); ++k) {
-            problem.wrench[k] = scale * wrench[k];
-        }
-        const TensionSolution solution = solve_tension_problem(problem, nullptr);
-        return length_of(weighted_error(problem, solution.tensions_n)) < kNoWrench * most;
-    };
-    if (!can(0.0)) {
-        return 0.0;
-    }
-    double low = 0.0;
-    double high = kStringCount * most;
-    for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (can(middle) ? low : high) = middle;
-    }
-    return low;
-}
-
-// Least over both signs of three degrees of freedom.
-double capacity_of_three(const TensionProblem &problem, std::size_t first, double unit,
-                         double most) noexcept {
+// What can be given of three degrees of freedom in both directions: the least of them.
+double capacity_of_three(const WrenchMatrix &matrix, const TensionSettings &settings,
+                         std::size_t first) noexcept {
     double least = HUGE_VAL;
     for (std::size_t k = first; k < first + 3; ++k) {
         for (const double sign : {1.0, -1.0}) {
-            DofArray wrench{};
-            wrench[k] = sign * unit;
-            least = std::min(least, unit * capacity(problem, wrench, most));
+            PaperWrench wrench{};
+            wrench[k] = sign;
+            const FeasibleScale scale = feasible_scale(matrix, wrench, settings);
+            // What can be given is convex: where no wrench at all cannot, the grip is not held.
+            least = std::min(least, scale.any && scale.least == 0.0 ? scale.largest : 0.0);
         }
     }
     return least;
@@ -181,7 +153,7 @@ void complain_about_exchange(const FrameGeometry &frame, const GripGeometry &gri
     }
 }
 
-std::string unopposed_sentence(const DofArray &unopposed) {
+std::string unopposed_sentence(const PaperWrench &unopposed) {
     std::size_t most = 0;
     for (std::size_t k = 1; k < unopposed.size(); ++k) {
         most = std::fabs(unopposed[k]) > std::fabs(unopposed[most]) ? k : most;
@@ -202,8 +174,8 @@ PoseStatics pose_statics(const FrameGeometry &frame, const GripGeometry &grip,
     problem.upper_n.fill(kTensionRange);
     problem.proximal_target_n.fill(1.0);
     const StringArray tensions = solve_tension_problem(problem, nullptr).tensions_n;
-    const DofArray left = weighted_error(problem, tensions);
-    const double size = length_of(left);
+    const PaperWrench left = weighted_error(problem, tensions);
+    const double size = norm(left.values);
     const int full = grip.kind == GripKind::rigid ? 6 : kDofCount;
     const double most = *std::max_element(tensions.begin(), tensions.end());
     // By its optimality no string works against what the strings leave over.
@@ -235,14 +207,9 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
         complain_about_exchange(frame, grip, report.complaints);
     }
 
-    Vec3 low = frame.motors_m[0];
-    Vec3 high = low;
-    for (const Vec3 &motor : frame.motors_m) {
-        low = glm::min(low, motor);
-        high = glm::max(high, motor);
-    }
-    const Vec3 middle = 0.5 * (low + high);
-    const Vec3 reach = 0.125 * (high - low);
+    const MotorBox box = box_around_motors(frame);
+    const Vec3 middle = 0.5 * (box.low_m + box.high_m);
+    const Vec3 reach = 0.125 * (box.high_m - box.low_m);
     std::mt19937_64 engine(1);
     const auto draw = [&engine](double size) {
         return size * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0);
@@ -267,13 +234,15 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
             " % of the poses around the centre; check the positions of motors and joints.");
     }
 
-    TensionProblem problem = problem_of(wrench_matrix(frame, grip, rest), grip);
-    problem.lower_n.fill(min_tension_n);
-    problem.upper_n.fill(max_tension_n);
-    problem.proximal_target_n.fill(min_tension_n);
-    report.force_capacity_n = capacity_of_three(problem, 0, 1.0, max_tension_n);
-    report.moment_capacity_nm =
-        capacity_of_three(problem, 3, grip.pole_half_length_m, max_tension_n);
+    TensionSettings settings;
+    settings.min_tension_n = min_tension_n;
+    settings.max_tension_n = max_tension_n;
+    settings.weight_moment_per_m = 1.0 / grip.pole_half_length_m;
+    settings.weight_grasp_per_m = settings.weight_moment_per_m;
+    settings.dof_mask = grip.kind == GripKind::rigid ? kNoGrasp : kAllDofs;
+    const WrenchMatrix matrix = wrench_matrix(frame, grip, rest);
+    report.force_capacity_n = capacity_of_three(matrix, settings, 0);
+    report.moment_capacity_nm = capacity_of_three(matrix, settings, 3);
     return report;
 }
 

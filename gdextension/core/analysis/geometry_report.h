@@ -19,7 +19,7 @@ struct PoseStatics {
     double margin = 0.0; // smallest over largest of them, 0..1
     // Where not closed: a motion (v, omega d, -psi_rate/2 d; length 1) that every string helps or leaves alone and no
     // string hinders. Zero where closed.
-    DofArray unopposed{};
+    PaperWrench unopposed{};
 };
 
 [[nodiscard]] PoseStatics pose_statics(const FrameGeometry &frame, const GripGeometry &grip,

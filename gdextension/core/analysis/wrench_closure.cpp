@@ -6,14 +6,11 @@
 #include <utility>
 
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
 
 namespace {
-
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
 
 // A pivot below this share of the largest element: the direction is lost to rounding.
 constexpr double kLostPivot = 1e-12;
@@ -27,30 +24,27 @@ struct Solutions {
     StringArray null{}; // largest element +1
 };
 
-Solutions solve_all(const WrenchMatrix &matrix, const DofArray &wrench,
+Solutions solve_all(const WrenchMatrix &matrix, const PaperWrench &wrench,
                     const TensionSettings &settings) noexcept {
-    const DofArray weights = {settings.weight_force,        settings.weight_force,
-                              settings.weight_force,        settings.weight_moment_per_m,
-                              settings.weight_moment_per_m, settings.weight_moment_per_m,
-                              settings.weight_grasp_per_m};
-    std::array<std::array<double, kStrings + 1>, kDofs> m{}; // last column: q
-    std::array<std::size_t, kStrings> order{};
+    const PaperWeights weights = tension_weights(settings);
+    std::array<std::array<double, kStringCount + 1>, kDofCount> m{}; // last column: q
+    std::array<std::size_t, kStringCount> order{};
     double largest = 0.0;
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         order[i] = i;
-        const bool broken = ((static_cast<unsigned>(settings.broken_mask) >> i) & 1U) != 0U;
-        for (std::size_t k = 0; k < kDofs; ++k) {
+        const bool broken = has_string(settings.broken_mask, i);
+        for (std::size_t k = 0; k < kDofCount; ++k) {
             m[k][i] = broken ? 0.0 : weights[k] * matrix.columns[i][k];
-            m[k][kStrings] = weights[k] * wrench[k];
+            m[k][kStringCount] = weights[k] * wrench[k];
             largest = std::max(largest, std::abs(m[k][i]));
         }
     }
     // Gauss-Jordan with complete pivoting; columns swap, `order` remembers.
-    for (std::size_t step = 0; step < kDofs; ++step) {
+    for (std::size_t step = 0; step < kDofCount; ++step) {
         std::size_t row = step;
         std::size_t column = step;
-        for (std::size_t k = step; k < kDofs; ++k) {
-            for (std::size_t c = step; c < kStrings; ++c) {
+        for (std::size_t k = step; k < kDofCount; ++k) {
+            for (std::size_t c = step; c < kStringCount; ++c) {
                 if (std::abs(m[k][c]) > std::abs(m[row][column])) {
                     row = k;
                     column = c;
@@ -69,23 +63,23 @@ Solutions solve_all(const WrenchMatrix &matrix, const DofArray &wrench,
         for (double &value : m[step]) {
             value /= pivot;
         }
-        for (std::size_t k = 0; k < kDofs; ++k) {
+        for (std::size_t k = 0; k < kDofCount; ++k) {
             const double factor = m[k][step];
             if (k == step) {
                 continue;
             }
-            for (std::size_t c = step; c <= kStrings; ++c) {
+            for (std::size_t c = step; c <= kStringCount; ++c) {
                 m[k][c] -= factor * m[step][c];
             }
         }
     }
     Solutions result;
     result.full_rank = true;
-    const std::size_t last = order[kStrings - 1];
+    const std::size_t last = order[kStringCount - 1];
     result.null[last] = 1.0;
-    for (std::size_t k = 0; k < kDofs; ++k) {
-        result.null[order[k]] = -m[k][kStrings - 1];
-        result.particular[order[k]] = m[k][kStrings];
+    for (std::size_t k = 0; k < kDofCount; ++k) {
+        result.null[order[k]] = -m[k][kStringCount - 1];
+        result.particular[order[k]] = m[k][kStringCount];
     }
     double peak = 0.0;
     for (const double value : result.null) {
@@ -99,7 +93,7 @@ Solutions solve_all(const WrenchMatrix &matrix, const DofArray &wrench,
 
 // lower <= s particular + t null <= upper, for each string, with some slack.
 bool feasible(const Solutions &all, const TensionSettings &settings, double s, double t) noexcept {
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const double tension = s * all.particular[i] + t * all.null[i];
         const double slack = kSlack_n * (1.0 + std::abs(s * all.particular[i]));
         if (!(tension >= settings.min_tension_n - slack &&
@@ -126,7 +120,7 @@ TensionProblem masked_problem(const WrenchMatrix &matrix, const TensionSettings 
     problem.matrix = matrix;
     problem.weights = tension_weights(settings);
     problem.proximal_weight = kVanishingWeight;
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = !has_string(settings.broken_mask, i);
         problem.lower_n[i] = works ? least_n : 0.0;
         problem.upper_n[i] = works ? most_n : 0.0;
@@ -156,16 +150,16 @@ WrenchClosure masked_closure(const WrenchMatrix &matrix, const TensionSettings &
     return closure;
 }
 
-FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+FeasibleScale masked_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,
                            const TensionSettings &settings) noexcept {
     TensionProblem problem =
         masked_problem(matrix, settings, settings.min_tension_n, settings.max_tension_n);
     double request = 0.0; // |W q| squared
     double reach_n = 0.0; // no weighted wrench is larger
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         const double weighted = problem.weights[k] * wrench[k];
         request += weighted * weighted;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             reach_n += std::abs(problem.weights[k] * matrix.columns[i][k]) * settings.max_tension_n;
         }
     }
@@ -174,13 +168,13 @@ FeasibleScale masked_scale(const WrenchMatrix &matrix, const DofArray &wrench,
         bool too_small = false; // a larger scale comes nearer
     };
     const auto look_at = [&](double scale) {
-        for (std::size_t k = 0; k < kDofs; ++k) {
+        for (std::size_t k = 0; k < kDofCount; ++k) {
             problem.wrench[k] = scale * wrench[k];
         }
         const TensionSolution solution = solve_tension_problem(problem, nullptr);
-        const DofArray achieved = spidar::apply(matrix, solution.tensions_n);
+        const PaperWrench achieved = spidar::apply(matrix, solution.tensions_n);
         double along = 0.0;
-        for (std::size_t k = 0; k < kDofs; ++k) {
+        for (std::size_t k = 0; k < kDofCount; ++k) {
             const double square = problem.weights[k] * problem.weights[k];
             along += square * (achieved[k] - problem.wrench[k]) * wrench[k];
         }
@@ -229,7 +223,7 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
         return masked_closure(matrix, settings);
     }
     WrenchClosure closure;
-    const Solutions all = solve_all(matrix, DofArray{}, settings);
+    const Solutions all = solve_all(matrix, PaperWrench{}, settings);
     if (!all.full_rank) {
         return closure;
     }
@@ -240,7 +234,7 @@ WrenchClosure wrench_closure(const WrenchMatrix &matrix, const TensionSettings &
     return closure;
 }
 
-FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,
                              const TensionSettings &settings) noexcept {
     FeasibleScale scale;
     if (!all_finite(wrench)) {
@@ -261,7 +255,7 @@ FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
     };
     // A zero request: any t that keeps the null tensions within the limits will do.
     if (std::all_of(wrench.begin(), wrench.end(), [](double q) { return q == 0.0; })) {
-        for (std::size_t i = 0; i < kStrings && !scale.any; ++i) {
+        for (std::size_t i = 0; i < kStringCount && !scale.any; ++i) {
             for (const double limit : limits) {
                 if (all.null[i] != 0.0 && feasible(all, settings, 0.0, limit / all.null[i])) {
                     scale = {true, 0.0, std::numeric_limits<double>::infinity()};
@@ -272,7 +266,7 @@ FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
     }
     // The region is a polygon in (s, t): its extremes in s lie on corners, where two strings are at a limit; or on s = 0,
     // below which the request would change its sign.
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         for (const double limit : limits) {
             if (all.null[i] != 0.0 && feasible(all, settings, 0.0, limit / all.null[i])) {
                 include(0.0);

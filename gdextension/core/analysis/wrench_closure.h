@@ -29,7 +29,7 @@ struct FeasibleScale {
     double largest = 0.0; // infinity for a zero q that can be given
 };
 
-[[nodiscard]] FeasibleScale feasible_scale(const WrenchMatrix &matrix, const DofArray &wrench,
+[[nodiscard]] FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,
                                            const TensionSettings &settings) noexcept;
 
 } // namespace spidar

@@ -42,6 +42,11 @@ template <class T, std::size_t kCount>
     return true;
 }
 
+template <class Meaning>
+[[nodiscard]] bool all_finite(const SevenDof<Meaning> &row) noexcept {
+    return all_finite(row.values);
+}
+
 // Several values at once.
 template <class First, class Second, class... Rest>
 [[nodiscard]] bool all_finite(const First &first, const Second &second,

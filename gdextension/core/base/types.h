@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/mat3x3.hpp>
@@ -23,9 +24,28 @@ using StringArray = std::array<double, kStringCount>;
 using CountArray = std::array<std::int32_t, kStringCount>;
 using StringVectors = std::array<Vec3, kStringCount>;
 
-// One value a degree of freedom, in the order of the paper's wrench q:
-// fx fy fz (N), mx my mz (N m), g (N m). The paper's g is conjugate to -psi/2, so g = 2 grasp_torque.
-using DofArray = std::array<double, kDofCount>;
+// Seven numbers, one a degree of freedom. `Meaning` keeps apart what must not be mixed: a row of one meaning does not
+// become one of another.
+template <class Meaning>
+struct SevenDof {
+    std::array<double, kDofCount> values{};
+
+    constexpr double &operator[](std::size_t dof) noexcept { return values[dof]; }
+    constexpr const double &operator[](std::size_t dof) const noexcept { return values[dof]; }
+    constexpr auto begin() noexcept { return values.begin(); }
+    constexpr auto end() noexcept { return values.end(); }
+    [[nodiscard]] constexpr auto begin() const noexcept { return values.begin(); }
+    [[nodiscard]] constexpr auto end() const noexcept { return values.end(); }
+    [[nodiscard]] static constexpr std::size_t size() noexcept { return kDofCount; }
+    friend constexpr bool operator==(const SevenDof &, const SevenDof &) = default;
+};
+
+// The paper's wrench q: fx fy fz (N), mx my mz (N m) about P0, g (N m). g is conjugate to -psi/2, so g = 2 grasp_torque.
+using PaperWrench = SevenDof<struct PaperWrenchMeaning>;
+// One weight for each of its components: the diagonal of W.
+using PaperWeights = SevenDof<struct PaperWeightsMeaning>;
+// Its conjugate: velocity (m/s), angular velocity (rad/s), -dpsi/dt / 2 (rad/s). Power = the sum of the products.
+using PaperTwist = SevenDof<struct PaperTwistMeaning>;
 
 // What a game asks for and what the hand feels.
 struct Wrench {
@@ -42,7 +62,7 @@ struct Twist {
 };
 
 // Game-level wrench -> the paper's q (g = 2 grasp_torque), and back.
-[[nodiscard]] inline DofArray to_paper(const Wrench &wrench) noexcept {
+[[nodiscard]] inline PaperWrench to_paper(const Wrench &wrench) noexcept {
     return {wrench.force_n.x,
             wrench.force_n.y,
             wrench.force_n.z,
@@ -52,7 +72,7 @@ struct Twist {
             2.0 * wrench.grasp_torque_nm};
 }
 
-[[nodiscard]] inline Wrench from_paper(const DofArray &q) noexcept {
+[[nodiscard]] inline Wrench from_paper(const PaperWrench &q) noexcept {
     return {Vec3(q[0], q[1], q[2]), Vec3(q[3], q[4], q[5]), 0.5 * q[6]};
 }
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
-#include "core/kinematics/constants.h"
+#include "core/geometry/frame_geometry.h"
 
 namespace spidar {
 

@@ -75,17 +75,6 @@ MotorCommand currents_from_tensions(const MotorScale &scale,
     return command;
 }
 
-StringArray tensions_from_currents(const MotorCalibration &calibration,
-                                   const StringArray &currents_a) noexcept {
-    StringArray tensions{};
-    for (std::size_t i = 0; i < kStringCount; ++i) {
-        tensions[i] = currents_a[i] >= 0.0 && std::isfinite(currents_a[i])
-                          ? currents_a[i] * tension_per_ampere(calibration, i)
-                          : 0.0;
-    }
-    return tensions;
-}
-
 StringArray max_tensions(const MotorCalibration &calibration) noexcept {
     StringArray tensions{};
     for (std::size_t i = 0; i < kStringCount; ++i) {

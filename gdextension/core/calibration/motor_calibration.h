@@ -37,9 +37,6 @@ struct MotorScale {
                                                   const StringArray &tensions_n) noexcept;
 [[nodiscard]] MotorCommand currents_from_tensions(const MotorScale &scale,
                                                   const StringArray &tensions_n) noexcept;
-// Inverse, for a device model that is handed currents.
-[[nodiscard]] StringArray tensions_from_currents(const MotorCalibration &calibration,
-                                                 const StringArray &currents_a) noexcept;
 // Largest tension each motor can pull (unit: N).
 [[nodiscard]] StringArray max_tensions(const MotorCalibration &calibration) noexcept;
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/describe_value.h"
-#include "core/kinematics/constants.h"
+#include "core/geometry/frame_geometry.h"
 
 namespace spidar {
 

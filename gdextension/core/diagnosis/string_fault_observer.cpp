@@ -5,7 +5,7 @@
 
 #include "core/base/finite.h"
 #include "core/calibration/fit/length_jacobian.h"
-#include "core/kinematics/constants.h"
+#include "core/kinematics/forward_kinematics.h"
 
 namespace spidar {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 
@@ -15,6 +15,9 @@ constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),   Vec3(-1, 1, 1),  Vec3(1, -
                                      Vec3(-1, -1, 1), Vec3(1, 1, -1),  Vec3(-1, 1, -1),
                                      Vec3(1, -1, -1), Vec3(-1, -1, -1)};
 
+// A motor this close to the corner of a box counts as on it: a hundredth of an encoder count, so that
+// a frame typed in with rounded numbers still gets the closed form, and no measurable error follows.
+constexpr double kBoxTolerance_m = 2.5e-7;
 // Motors that lie in one plane or line leave a direction to which no string pulls. Smallest
 // thickness accepted, against the largest extent of the frame.
 constexpr double kMinRelativeThickness = 1e-3;
@@ -71,6 +74,15 @@ FrameGeometry make_box_frame(const Vec3 &half_extents_m) noexcept {
         frame.motors_m[i] = kCornerSigns[i] * half_extents_m;
     }
     return frame;
+}
+
+MotorBox box_around_motors(const FrameGeometry &frame) noexcept {
+    MotorBox box{frame.motors_m[0], frame.motors_m[0]};
+    for (const Vec3 &motor : frame.motors_m) {
+        box.low_m = glm::min(box.low_m, motor);
+        box.high_m = glm::max(box.high_m, motor);
+    }
+    return box;
 }
 
 std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept {

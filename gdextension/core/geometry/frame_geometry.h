@@ -10,6 +10,8 @@ namespace spidar {
 
 // Half the paper's 48 cm frame (section VI.1): a = b = c.
 inline constexpr double kPaperHalfExtent_m = 0.24;
+// Furthest motor from the centre, along an axis, that validate() accepts; catches millimetres typed as metres.
+inline constexpr double kMaxFrameExtent_m = 10.0;
 
 struct FrameGeometry {
     // String exit points Q1..Q8, device frame (unit: m). Eyelets: the string leaves from the point.
@@ -24,7 +26,14 @@ struct FrameGeometry {
 // (+++)(-++)(+-+)(--+)(++-)(-+-)(+--)(---).
 [[nodiscard]] FrameGeometry make_box_frame(const Vec3 &half_extents_m) noexcept;
 
-// (a, b, c) when the motors are the corners of such a box (to kBoxTolerance_m), else nothing. The
+// The smallest box around all motors, edges along the axes (unit: m).
+struct MotorBox {
+    Vec3 low_m{0.0};
+    Vec3 high_m{0.0};
+};
+[[nodiscard]] MotorBox box_around_motors(const FrameGeometry &frame) noexcept;
+
+// (a, b, c) when the motors are the corners of such a box (to 0.25 um), else nothing. The
 // closed-form kinematics exist for boxes only; Gauss-Newton serves every frame.
 [[nodiscard]] std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept;
 

@@ -2,12 +2,10 @@
 
 #include <cmath>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/describe_value.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 
@@ -16,18 +14,15 @@ namespace {
 constexpr double kHalfPi = 1.5707963267948966;
 constexpr double kPi = 3.1415926535897932;
 constexpr double kInvSqrt2 = 0.70710678118654752;
+// Shortest pole that validate() accepts: a shorter one is a unit mistake.
+constexpr double kMinPoleHalfLength_m = 1e-3;
 // Joints count as on one line when the largest triangle of them is smaller than this part of its longest side squared.
 constexpr double kMinTriangle = 1e-3;
 
 // Half the longest side of the box around the motors (unit: m).
 double room_of(const FrameGeometry &frame) noexcept {
-    Vec3 low = frame.motors_m[0];
-    Vec3 high = frame.motors_m[0];
-    for (const Vec3 &motor : frame.motors_m) {
-        low = glm::min(low, motor);
-        high = glm::max(high, motor);
-    }
-    const Vec3 size = high - low;
+    const MotorBox box = box_around_motors(frame);
+    const Vec3 size = box.high_m - box.low_m;
     return 0.5 * std::fmax(size.x, std::fmax(size.y, size.z));
 }
 

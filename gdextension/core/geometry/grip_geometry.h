@@ -13,6 +13,10 @@ namespace spidar {
 // Half length of a pole in the paper's device: 4 cm.
 inline constexpr double kPaperPoleHalfLength_m = 0.04;
 
+// Poles nearer to parallel than this have no grip plane: their ends are 4 um apart, a sixth of an
+// encoder count, so the rotation about them is noise. The rotation is held there.
+inline constexpr double kParallelAngle_rad = 1e-4;
+
 // String i is tied to P0 + sign * r[pole].
 struct Attachment {
     int pole = 0;      // 0: r1, 1: r2

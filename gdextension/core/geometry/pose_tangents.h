@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-using PoseStep = DofArray; // x y z, u1 v1, u2 v2 (unit: m)
+using PoseStep = std::array<double, kDofCount>; // x y z, u1 v1, u2 v2 (unit: m)
 
 // Two unit tangents of a pole, orthogonal to it and to each other.
 struct Tangents {

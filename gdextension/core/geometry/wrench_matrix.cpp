@@ -4,7 +4,6 @@
 
 #include "core/geometry/pole_lanes.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 
 namespace spidar {
 
@@ -86,13 +85,13 @@ void set_wrench_matrix(WrenchMatrix &matrix, const FrameGeometry &frame, const G
     }
 }
 
-DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept {
+PaperWrench apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept {
     Lanes x = both(0.0);
     Lanes y = both(0.0);
     Lanes z = both(0.0);
     double last = 0.0;
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
-        const DofArray &column = matrix.columns[i];
+        const PaperWrench &column = matrix.columns[i];
         const Lanes tension = both(tensions_n[i]);
         x += Lanes{column[0], column[1]} * tension;
         y += Lanes{column[2], column[3]} * tension;
@@ -102,7 +101,7 @@ DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexce
     return {x[0], x[1], y[0], y[1], z[0], z[1], last};
 }
 
-StringArray apply_transposed(const WrenchMatrix &matrix, const DofArray &rates) noexcept {
+StringArray apply_transposed(const WrenchMatrix &matrix, const PaperTwist &rates) noexcept {
     StringArray shortening{};
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
         for (std::size_t k = 0; k < rates.size(); ++k) {

@@ -13,7 +13,7 @@ namespace spidar {
 
 struct WrenchMatrix {
     // columns[i][k]: k-th DOF of string i.
-    std::array<DofArray, kStringCount> columns{};
+    std::array<PaperWrench, kStringCount> columns{};
     // Poles parallel: n is undefined and the seventh row is zero. So it is for a rigid grip: 6 x 8.
     bool grasp_row_vanishes = false;
 };
@@ -26,10 +26,10 @@ void set_wrench_matrix(WrenchMatrix &matrix, const FrameGeometry &frame, const G
                        const GripPose &pose) noexcept;
 
 // A * tensions, in the paper's order (g, not grasp_torque).
-[[nodiscard]] DofArray apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept;
+[[nodiscard]] PaperWrench apply(const WrenchMatrix &matrix, const StringArray &tensions_n) noexcept;
 
 // A^T * twist_like: string shortening rates (unit: m/s) for (v, omega, -psi_rate/2).
 [[nodiscard]] StringArray apply_transposed(const WrenchMatrix &matrix,
-                                           const DofArray &rates) noexcept;
+                                           const PaperTwist &rates) noexcept;
 
 } // namespace spidar

@@ -6,11 +6,9 @@
 
 #include "core/base/finite.h"
 #include "core/geometry/string_exit.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_search.h"
 #include "core/kinematics/steps/gauss_newton.h"
-#include "core/kinematics/steps/rigid_step.h"
 
 namespace spidar {
 
@@ -18,6 +16,32 @@ namespace {
 
 // Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
 constexpr double kFaceMargin_m = 1e-6;
+// No string is longer: the diagonal of the largest frame is 35 m.
+constexpr double kLongestString_m = 40.0;
+// After the steps of a warm tick a residual above this asks for a cold start. Calibrated strings
+// err by less, and the redundant eighth length shows only a third of the error of one string.
+constexpr double kWarmResidualGate_m = 1e-3;
+// A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
+// looked at too, and must fit 50 times better: next to it a wrong branch may fit to a millimetre.
+constexpr double kContentResidual_m = 2e-5;
+// Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
+constexpr double kMaxWarmStep_m = 5e-3;
+// Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
+// millimetres move the pole ends so far in a tick. Beyond, it competes with the closed form.
+constexpr double kTrustedStep_m = 0.02;
+// The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
+constexpr double kMaxSecondStep_m = 5e-4;
+// Above this it leaves more than 10 nm, and a third is taken: movements of more than a millimetre within a tick that were
+// not foreseen, or samples lost.
+constexpr double kThirdStep_m = 2e-5;
+// Motion within one tick after which the last pose says nothing (device restarted, samples lost).
+constexpr double kForgetStep_m = 0.05;
+// Below this smallest scaled pivot the lengths leave a direction open to the square root of rounding: the pose is refused.
+constexpr double kRankDeficientPivot = 1e-12;
+// A warm tick is done when the error it leaves is below this or below kTrackingShare of the residual.
+constexpr double kTrackingFloor_m = 1e-12;
+// A higher order of extrapolation is used when its squared miss was this much smaller.
+constexpr double kForeseenShare = 0.25;
 
 bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
@@ -62,8 +86,7 @@ Status ForwardKinematics::configure(const FrameGeometry &frame, const GripGeomet
     const std::optional<Vec3> box = box_half_extents(frame);
     is_box_ = box.has_value();
     half_extents_m_ = box.value_or(Vec3(0.0));
-    has_layout_ = make_layout(frame, grip, layout_);
-    crossed_ = has_layout_ && !(frame.pulley_radius_m > 0.0);
+    crossed_ = make_layout(frame, grip, layout_) && !(frame.pulley_radius_m > 0.0);
     closed_form_ = is_box_ && has_paper_attachments(grip);
     last_pose_ = rest_pose(grip);
     reset();
@@ -244,65 +267,6 @@ KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noe
         return refuse(lengths_m, result);
     }
     return search(lengths_m, nullptr, 0.0);
-}
-
-std::optional<Twist> ForwardKinematics::rigid_twist(const StringArray &rates_m_s) const noexcept {
-    const LengthProblem problem{frame_, grip_, rates_m_s};
-    LengthErrors rates = length_errors(problem, last_pose_);
-    rates.residual_m = rates_m_s;
-    const RigidSolution solution = solve_rigid(problem, rates, last_pose_);
-    if (!solution.solvable || !(solution.min_pivot >= kRankDeficientPivot)) {
-        return std::nullopt;
-    }
-    const RigidStep &x = solution.step;
-    Twist twist;
-    twist.linear_m_s = Vec3(x[0], x[1], x[2]);
-    twist.angular_rad_s = Vec3(x[3], x[4], x[5]) * (1.0 / grip_.pole_half_length_m);
-    return twist;
-}
-
-std::optional<Twist>
-ForwardKinematics::twist_of_length_rates(const StringArray &rates_m_s) const noexcept {
-    if (grip_.kind == GripKind::rigid) {
-        return rigid_twist(rates_m_s);
-    }
-    const Vec3 area = glm::cross(last_pose_.r1_m, last_pose_.r2_m);
-    const double size = glm::length(area);
-    const double d2 = grip_.pole_half_length_m * grip_.pole_half_length_m;
-    if (!has_layout_ || !(size > kParallelAngle_rad * d2)) {
-        return std::nullopt;
-    }
-    const CrossedPose pose = lanes_of(last_pose_);
-    const LengthErrors paths = length_errors({frame_, grip_, rates_m_s}, last_pose_);
-    CrossedErrors rates;
-    for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
-        const auto &strings = layout_.strings[slot];
-        rates.direction[slot] = lanes_of(paths.direction[strings[0]], paths.direction[strings[1]]);
-        rates.residual_m[slot] = Lanes{rates_m_s[strings[0]], rates_m_s[strings[1]]};
-    }
-    const CrossedFactor factor = factorise(rates, pose, grip_.pole_half_length_m);
-    if (!factor.solvable || !(factor.min_pivot >= kRankDeficientPivot)) {
-        return std::nullopt;
-    }
-    const CrossedStep step = solve(factor, rates);
-    if (!std::isfinite(step.size_m2)) {
-        return std::nullopt;
-    }
-    // Pole k turns by omega +- alpha n, n the normal of both, alpha half the grasp rate.
-    const Vec3 n = area / size;
-    const Vec3 rate1 = lane(step.poles_m, 0);
-    const Vec3 rate2 = lane(step.poles_m, 1);
-    const double turn1 = glm::dot(rate1, glm::cross(n, last_pose_.r1_m)) / d2;
-    const double turn2 = glm::dot(rate2, glm::cross(n, last_pose_.r2_m)) / d2;
-    Twist twist;
-    twist.linear_m_s = lane(step.position_m, 0);
-    twist.grasp_rate_rad_s = turn1 - turn2;
-    // Out of their plane: omega . (r x n) = rate . n for both poles.
-    twist.angular_rad_s = 0.5 * (turn1 + turn2) * n +
-                          (glm::dot(rate1, n) * glm::cross(glm::cross(last_pose_.r2_m, n), n) -
-                           glm::dot(rate2, n) * glm::cross(glm::cross(last_pose_.r1_m, n), n)) /
-                              size;
-    return twist;
 }
 
 SearchTools ForwardKinematics::search_tools() const noexcept {

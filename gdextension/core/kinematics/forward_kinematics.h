@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "core/base/status.h"
 #include "core/base/types.h"
@@ -16,6 +15,17 @@
 namespace spidar {
 
 struct SearchTools; // core/kinematics/search/pose_search.h
+
+// Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
+inline constexpr double kImpossibleResidual_m = 0.020;
+// Smallest scaled pivot of the normal equations, about sigma7 squared. Below this the lengths leave a direction open to
+// 1 %: the pose is flagged.
+inline constexpr double kNearSingularPivot = 1e-4;
+// Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
+inline constexpr int kRivalPeriod = 8;
+// A warm tick is done when the error it leaves is below this part of what the lengths themselves err by: their residual.
+// Errors add by squares, so that the pose is then worse by 0.2 %.
+inline constexpr double kTrackingShare = 0.05;
 
 struct KinematicsResult {
     GripPose pose;
@@ -41,12 +51,6 @@ public:
     // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
-    // Velocity of the grip at the last pose from the rates of the string lengths (growing is positive; unit: m/s), by
-    // least squares as the pose itself. Empty where the poles are parallel or the lengths leave it open, and for
-    // crossed grips with other than two strings to a pole end.
-    [[nodiscard]] std::optional<Twist>
-    twist_of_length_rates(const StringArray &rates_m_s) const noexcept;
-
     // Warm start from here at the next update().
     void set_last_pose(const GripPose &pose) noexcept;
     [[nodiscard]] const GripPose &last_pose() const noexcept { return last_pose_; }
@@ -65,7 +69,6 @@ private:
                             double content_m) noexcept;
     [[nodiscard]] SearchTools search_tools() const noexcept;
     void look_for_rivals(const StringArray &lengths_m, const KinematicsResult &found) noexcept;
-    [[nodiscard]] std::optional<Twist> rigid_twist(const StringArray &rates_m_s) const noexcept;
     void foresee(const CrossedPose &change) noexcept;
     void forget_motion() noexcept {
         last_change_ = CrossedPose();
@@ -81,8 +84,8 @@ private:
     FrameGeometry frame_{};
     GripGeometry grip_{};
     CrossedLayout layout_;
-    bool has_layout_ = false;  // layout_ is valid
-    bool crossed_ = false;     // and the strings leave from eyelets: the fast steps serve
+    bool crossed_ =
+        false; // layout_ is valid and the strings leave from eyelets: the fast steps serve
     Vec3 half_extents_m_{0.0}; // valid when is_box_
     bool is_box_ = false;
     bool closed_form_ = false;

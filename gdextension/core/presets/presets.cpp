@@ -64,14 +64,4 @@ DevicePreset device_preset(Preset preset) noexcept {
     return paper();
 }
 
-std::optional<Preset> preset_named(std::string_view name) noexcept {
-    for (int i = 0; i < kPresetCount; ++i) {
-        const auto preset = static_cast<Preset>(i);
-        if (name == device_preset(preset).name) {
-            return preset;
-        }
-    }
-    return std::nullopt;
-}
-
 } // namespace spidar

@@ -4,8 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 #include "core/geometry/frame_geometry.h"
 #include "core/geometry/grip_geometry.h"
@@ -30,8 +28,5 @@ struct DevicePreset {
 
 // A value outside the enumeration gives the paper's device.
 [[nodiscard]] DevicePreset device_preset(Preset preset) noexcept;
-
-// By DevicePreset::name ("Paper", "SpidarG6X3R", "SpidarG6X3L"); empty for any other.
-[[nodiscard]] std::optional<Preset> preset_named(std::string_view name) noexcept;
 
 } // namespace spidar

@@ -4,21 +4,17 @@
 #include <cmath>
 
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
 
 namespace spidar {
 
 namespace {
 
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
-
 // Stands for "no regularising term": costs nothing and still leaves one answer.
 constexpr double kVanishingWeight = 1e-12;
 
-DofArray difference(const DofArray &a, const DofArray &b) noexcept {
-    DofArray result{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+PaperWrench difference(const PaperWrench &a, const PaperWrench &b) noexcept {
+    PaperWrench result{};
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         result[k] = a[k] - b[k];
     }
     return result;
@@ -26,15 +22,15 @@ DofArray difference(const DofArray &a, const DofArray &b) noexcept {
 
 } // namespace
 
-DofArray TensionReport::bias() const noexcept {
-    DofArray sum{};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+PaperWrench TensionReport::bias() const noexcept {
+    PaperWrench sum{};
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         sum[k] = ridge[k] + reference[k];
     }
     return sum;
 }
 
-TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
+TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wrench,
                              const StringArray &tensions_n,
                              const TensionSettings &settings) noexcept {
     TensionReport report;
@@ -43,13 +39,13 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
     if (!usable(report.status)) {
         return report;
     }
-    const DofArray achieved = spidar::apply(matrix, tensions_n);
+    const PaperWrench achieved = spidar::apply(matrix, tensions_n);
     TensionProblem problem;
     problem.matrix = matrix;
     problem.wrench = wrench;
     problem.weights = tension_weights(settings);
     StringArray reference_n{};
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = !has_string(settings.broken_mask, i);
         problem.lower_n[i] = works ? settings.min_tension_n : 0.0;
         problem.upper_n[i] = works ? settings.max_tension_n : 0.0;
@@ -65,15 +61,15 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
         }
         return difference(spidar::apply(matrix, steady.tensions_n), wrench);
     };
-    const DofArray limits = error_with(kVanishingWeight, tensions_n);
-    const DofArray with_ridge =
+    const PaperWrench limits = error_with(kVanishingWeight, tensions_n);
+    const PaperWrench with_ridge =
         settings.ridge > kVanishingWeight ? error_with(settings.ridge, StringArray{}) : limits;
     const double weight = settings.ridge + settings.reference_weight;
     StringArray target_n{};
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         target_n[i] = settings.reference_weight * reference_n[i] / weight;
     }
-    const DofArray whole = error_with(weight, target_n);
+    const PaperWrench whole = error_with(weight, target_n);
     if (!all_finite(achieved) || !usable(report.status)) {
         report.status = usable(report.status) ? Status::not_finite : report.status;
         return report;
@@ -84,7 +80,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
     report.ridge = difference(with_ridge, limits);
     report.reference = difference(whole, with_ridge);
     report.transient = difference(report.error, whole);
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = problem.lower_n[i] < problem.upper_n[i];
         if (works && steady.active[i] == StringBound::at_lower) {
             report.at_min_mask = with_string(report.at_min_mask, i);
@@ -92,7 +88,7 @@ TensionReport tension_report(const WrenchMatrix &matrix, const DofArray &wrench,
             report.at_max_mask = with_string(report.at_max_mask, i);
         }
     }
-    for (std::size_t k = 0; k < kDofs; ++k) {
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         if (std::abs(problem.weights[k] * limits[k]) > kNoticeableLimit_n) {
             report.status = Status::wrench_limited;
         }

@@ -1,21 +1,16 @@
 #include "core/tension/tension_solver.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "core/base/describe_value.h"
 #include "core/base/finite.h"
-#include "core/tension/exact/box_least_squares.h"
 #include "core/tension/fast/fast_tension.h"
 
 namespace spidar {
 
 namespace {
-
-constexpr auto kStrings = static_cast<std::size_t>(kStringCount);
-constexpr auto kDofs = static_cast<std::size_t>(kDofCount);
 
 // An error of the weighted wrench above this is reported (unit: N at the pole ends; a tenth of what a fingertip
 // can tell), when the regularising terms do not explain it.
@@ -39,14 +34,6 @@ bool same_bits(const T &a, const T &b) noexcept {
     // Bits are what is asked: -0 and NaN too.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
-
-// The strings whose byte has this bit: the product gathers the lowest bits of all eight in its top byte.
-std::uint8_t strings_at(const ActiveSet &active, unsigned bit) noexcept {
-    constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-    constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-    const auto bytes = std::bit_cast<std::uint64_t>(active);
-    return static_cast<std::uint8_t>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
 // Largest |a - b|. In four chains: one alone would wait for itself eight times.
@@ -109,6 +96,12 @@ Fault find_fault(const TensionSettings &s) noexcept {
 
 } // namespace
 
+TensionSolution solve_tension_problem(const TensionProblem &problem,
+                                      const ActiveSet *warm) noexcept {
+    TensionSolution fast;
+    return solve_fast(FastInput::of(problem), warm, fast) ? fast : solve_exactly(problem, warm);
+}
+
 Status TensionSolver::configure(const TensionSettings &settings) noexcept {
     if (find_fault(settings).field != nullptr) {
         return Status::invalid_settings;
@@ -124,7 +117,7 @@ void TensionSolver::prepare() noexcept {
     working_mask_ = static_cast<std::uint8_t>(~static_cast<unsigned>(s.broken_mask));
     const double steady_weight = s.ridge + s.reference_weight;
     const double whole_weight = steady_weight + s.change_weight;
-    for (std::size_t i = 0; i < kStrings; ++i) {
+    for (std::size_t i = 0; i < kStringCount; ++i) {
         const bool works = has_string(working_mask_, i);
         const double pull = works ? s.reference_weight * s.reference_tension_n : 0.0;
         problem_.lower_n[i] = works ? s.min_tension_n : 0.0;
@@ -143,13 +136,14 @@ void TensionSolver::aim() noexcept {
     problem_.proximal_target_n = steady_target_n_;
     if (has_last_) {
         problem_.proximal_weight += settings_.change_weight;
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             problem_.proximal_target_n[i] = steady_pull_[i] + change_pull_[i] * last_tensions_n_[i];
         }
     }
 }
 
-TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+TensionResult TensionSolver::update(const WrenchMatrix &matrix,
+                                    const PaperWrench &wrench) noexcept {
     if (settled_ && same_bits(wrench, problem_.wrench) &&
         same_bits(matrix.columns, problem_.matrix.columns)) {
         last_result_.skipped = true;
@@ -162,56 +156,53 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix, const DofArray &
     return update_carefully(matrix, wrench);
 }
 
-void TensionSolver::keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept {
+void TensionSolver::keep(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept {
     problem_.matrix = matrix;
     problem_.wrench = wrench;
 }
 
+// What the fast path refused.
 TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
-                                              const DofArray &wrench) noexcept {
-    keep(matrix, wrench);
+                                              const PaperWrench &wrench) noexcept {
     TensionResult result;
     settled_ = false;
-    if (!all_finite(problem_.matrix.columns)) {
+    if (!all_finite(matrix.columns)) {
         result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
         result.status = Status::not_finite;
         return result;
     }
-    const bool wrench_is_finite = all_finite(wrench);
-    if (!wrench_is_finite) {
-        problem_.wrench = {};
+    if (!all_finite(wrench)) {
+        result = update(matrix, PaperWrench{});
+        result.status = Status::not_finite;
+        settled_ = false;
+        return result;
     }
-    const TensionSolution solution =
-        solve_tension_problem(problem_, warm_ ? &last_active_ : nullptr);
+    keep(matrix, wrench);
+    const TensionSolution solution = solve_exactly(problem_, warm_ ? &last_active_ : nullptr);
     if (!usable(solution.status)) {
         result.tensions_n = solution.tensions_n;
         result.iterations = solution.iterations;
         result.status = solution.status;
         return result;
     }
-    result = remember(solution, matrix, problem_.wrench);
-    if (!wrench_is_finite) {
-        result.status = Status::not_finite;
-        settled_ = false;
-    }
-    return result;
+    return remember(solution, matrix, wrench);
 }
 
 TensionResult TensionSolver::remember(const TensionSolution &solution, const WrenchMatrix &matrix,
-                                      const DofArray &wrench) noexcept {
+                                      const PaperWrench &wrench) noexcept {
     TensionResult result;
     result.iterations = solution.iterations;
-    result.at_min_mask = strings_at(solution.active, 0) & working_mask_;
-    result.at_max_mask = strings_at(solution.active, 1) & working_mask_;
+    result.at_min_mask = strings_at(solution.active, StringBound::at_lower) & working_mask_;
+    result.at_max_mask = strings_at(solution.active, StringBound::at_upper) & working_mask_;
     result.tensions_n = solution.tensions_n;
     bool near_last = has_last_;
-    for (std::size_t i = 0; near_last && i < kStrings; ++i) {
+    for (std::size_t i = 0; near_last && i < kStringCount; ++i) {
         near_last = std::abs(solution.tensions_n[i] - last_tensions_n_[i]) <= kSettled_n &&
                     last_tensions_n_[i] >= problem_.lower_n[i] &&
                     last_tensions_n_[i] <= problem_.upper_n[i];
     }
     if (near_last) {
-        for (std::size_t i = 0; i < kStrings; ++i) {
+        for (std::size_t i = 0; i < kStringCount; ++i) {
             if (solution.active[i] == StringBound::free) {
                 result.tensions_n[i] = last_tensions_n_[i];
             }
@@ -257,12 +248,12 @@ void TensionSolver::reset() noexcept {
     aim();
 }
 
-DofArray tension_weights(const TensionSettings &settings) noexcept {
-    DofArray weights = {settings.weight_force,        settings.weight_force,
-                        settings.weight_force,        settings.weight_moment_per_m,
-                        settings.weight_moment_per_m, settings.weight_moment_per_m,
-                        settings.weight_grasp_per_m};
-    for (std::size_t k = 0; k < kDofs; ++k) {
+PaperWeights tension_weights(const TensionSettings &settings) noexcept {
+    PaperWeights weights = {settings.weight_force,        settings.weight_force,
+                            settings.weight_force,        settings.weight_moment_per_m,
+                            settings.weight_moment_per_m, settings.weight_moment_per_m,
+                            settings.weight_grasp_per_m};
+    for (std::size_t k = 0; k < kDofCount; ++k) {
         if (((static_cast<unsigned>(settings.dof_mask) >> k) & 1U) == 0U) {
             weights[k] = 0.0;
         }

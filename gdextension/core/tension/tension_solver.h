@@ -11,41 +11,13 @@
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/geometry/wrench_matrix.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
 
-// One bounded least-squares problem, spelled out.
-struct TensionProblem {
-    WrenchMatrix matrix;
-    DofArray wrench{};  // q, the paper's order and g
-    DofArray weights{}; // diagonal of W
-    // Sum of all quadratic terms in tau alone, as one weight and one target per string:
-    // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
-    double proximal_weight = 0.0;
-    StringArray proximal_target_n{};
-    StringArray lower_n{};
-    StringArray upper_n{};
-};
-
-enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
-using ActiveSet = std::array<StringBound, kStringCount>;
-
-struct TensionSolution {
-    StringArray tensions_n{};
-    ActiveSet active{};
-    double largest_error_n = 0.0; // max |W (A tau - q)|
-    int iterations = 0;           // factorisations
-    Status status = Status::ok;
-};
-
-// Exact optimum of `problem`. `warm` (may be null) is a guess of the active set and changes only the time.
-// Not finite input: status not_finite, tensions = lower bounds clamped to [0, upper]. Never NaN.
+// Exact optimum of `problem`, as solve_exactly() gives it: by the fast path where that can certify its answer.
 [[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
                                                     const ActiveSet *warm) noexcept;
-
-// The same by the slow search that the fast path falls back to: any weights, lost rank, zero multipliers.
-[[nodiscard]] TensionSolution solve_tension_problem_safely(const TensionProblem &problem,
-                                                           const ActiveSet *warm) noexcept;
 
 inline constexpr std::uint8_t kAllDofs = 0x7F;
 inline constexpr std::uint8_t kTranslationOnly = 0x07;
@@ -89,7 +61,7 @@ public:
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
     // wrench: the paper's q. Never NaN: a wrench that is not finite is taken as zero and flagged not_finite.
-    TensionResult update(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
     // What was really sent, when a later stage (slew limit) changed it: the change term refers to this.
     // Ignored when not finite.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
@@ -101,10 +73,10 @@ public:
 private:
     void prepare() noexcept;
     void aim() noexcept;
-    void keep(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
-    TensionResult update_carefully(const WrenchMatrix &matrix, const DofArray &wrench) noexcept;
+    void keep(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
+    TensionResult update_carefully(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
     TensionResult remember(const TensionSolution &solution, const WrenchMatrix &matrix,
-                           const DofArray &wrench) noexcept;
+                           const PaperWrench &wrench) noexcept;
 
     TensionSettings settings_{};
     TensionProblem problem_{};      // matrix and wrench: of the last tick, when it settled
@@ -123,6 +95,6 @@ private:
 
 [[nodiscard]] std::string validate(const TensionSettings &settings);
 // Diagonal of W; 0 where the mask leaves a DOF out.
-[[nodiscard]] DofArray tension_weights(const TensionSettings &settings) noexcept;
+[[nodiscard]] PaperWeights tension_weights(const TensionSettings &settings) noexcept;
 
 } // namespace spidar

@@ -30,7 +30,7 @@ inline constexpr int kContactTargetCount = 7;
 inline constexpr std::uint8_t kAllDof = 0x7F;
 // One value a DOF in that order: N, N/m or N s/m for the first three, N m, N m/rad or N m s/rad for the others
 // (grasp: per radian of grasp_angle). Not the paper's q, whose g is twice the grasp torque.
-using DofGains = std::array<double, kDofCount>;
+using DofGains = SevenDof<struct DofGainsMeaning>;
 
 // Between updates a plane moves on by its velocity, and turns and speeds up as it did over the last ones.
 // Unilateral: the target point x is pushed out along +normal when dot(normal, x) < offset.

@@ -68,8 +68,8 @@ struct ServoSnapshot {
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
     // Work done on the hand in each DOF since the start: commanded tensions times the motion that the lengths show.
-    DofGains injected_j{};
-    GainClamp clamp; // the last gain that was brought down
+    std::array<double, kDofCount> injected_j{}; // in the order of DofGains
+    GainClamp clamp;                            // the last gain that was brought down
     ServoCounters counters;
     std::uint8_t buttons = 0;
 };

@@ -9,8 +9,6 @@
 
 namespace spidar {
 
-class ReplayTransport;
-
 struct DeviceReading {
     CountArray counts{};
     std::uint64_t device_time_us = 0; // the device's own clock; 0 when it has none
@@ -62,8 +60,6 @@ public:
     virtual void advance(double dt_s) noexcept { (void)dt_s; }
     // A simulated device may arm itself when forces are enabled; a real one arms only on arm().
     [[nodiscard]] virtual bool simulated() const noexcept { return false; }
-    // A recording brings the loop its commands and time steps too; null: this is a device.
-    [[nodiscard]] virtual ReplayTransport *as_replay() noexcept { return nullptr; }
 };
 
 } // namespace spidar

@@ -1,41 +1,35 @@
-// Owns a transport and drives ServoStep: by its own real-time thread, or stepped in simulated time.
-// One controlling thread (the game's) calls everything here.
+// Drives a device, or plays a recording again, by ServoStep: in a real-time thread of its own, or stepped in simulated
+// time. One controlling thread (the game's) calls everything here.
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 
+#include "device/contract/device_event.h"
+#include "device/contract/haptic_command.h"
+#include "device/contract/servo_snapshot.h"
 #include "device/contract/transport.h"
+#include "device/loop/loop_timing.h"
 #include "device/recording/recorder_statistics.h"
-#include "device/step/servo_step.h"
-#include "device/threads/loop_histogram.h"
+#include "device/settings/servo_settings.h"
 
 namespace spidar {
 
-struct LoopStatistics {
-    double measured_rate_hz = 0.0; // over the last second; the set rate when stepped
-    double lateness_p50_us = 0.0;  // wake-up after the deadline; 0 when stepped
-    double lateness_p99_us = 0.0;
-    double lateness_max_us = 0.0;
-    double step_p50_us = 0.0; // read + compute + write
-    double step_p99_us = 0.0;
-    std::uint64_t missed_deadlines = 0;
-    std::uint64_t late_cycles = 0;   // more than 1 ms after the deadline
-    bool real_time_priority = false; // SCHED_FIFO granted
-};
+class CycleSource;
 
 class ServoLoop {
 public:
+    // A device.
     explicit ServoLoop(std::unique_ptr<Transport> transport);
+    // What brings its own commands: a Replay (recording/replay.h).
+    explicit ServoLoop(std::unique_ptr<CycleSource> source);
     ~ServoLoop(); // stop()
     ServoLoop(const ServoLoop &) = delete;
     ServoLoop &operator=(const ServoLoop &) = delete;
 
-    // Opens the transport. On failure nothing runs, unless reopen_interval_s lets the thread try again: then the
+    // Opens the device. On failure nothing runs, unless reopen_interval_s lets the thread try again: then the
     // state is closed until the device opens.
     Status start_threaded(const ServoSettings &settings);
     Status start_stepped(const ServoSettings &settings);
@@ -64,7 +58,6 @@ public:
     // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
     lateness_counts() const noexcept;
-    [[nodiscard]] Transport &transport() noexcept;
 
     // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
     // a recording that runs goes on. stop() ends a recording too.

@@ -101,7 +101,7 @@ GainClamp EffectSet::cap(Effect &effect, std::int32_t index) const noexcept {
 GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
     GainClamp clamp;
     const std::array<Track, kMaxEffects> old = tracks_;
-    const std::array<DofGains, kMaxEffects> given = last_;
+    const std::array<DofLanes, kMaxEffects> given = last_;
     std::array<bool, kMaxEffects> used{};
     const std::size_t old_count = count_;
     count_ = static_cast<std::size_t>(std::clamp(command.effect_count, 0, kMaxEffects));
@@ -128,7 +128,7 @@ GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
         }
         tracks_[i] = track;
     }
-    DofGains gone{};
+    DofLanes gone{};
     for (std::size_t i = 0; i < gone.size(); ++i) {
         gone[i] = leaving_part_ * leaving_[i];
         for (std::size_t j = 0; j < old_count; ++j) {
@@ -176,9 +176,9 @@ DofGains EffectSet::gain_now(const Track &track) const noexcept {
     return gain;
 }
 
-DofGains EffectSet::force(const Track &track, const GripMotion &motion) const noexcept {
+DofLanes EffectSet::force(const Track &track, const GripMotion &motion) const noexcept {
     const Effect &effect = track.effect;
-    DofGains result = gain_now(track);
+    DofLanes result = gain_now(track).values;
     switch (effect.kind) {
     case EffectKind::constant:
         return result;

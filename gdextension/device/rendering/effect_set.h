@@ -1,6 +1,7 @@
 // Effects at servo rate: viscous field, constant force, spring to a point, vibration, detents, on any DOF.
 #pragma once
 
+#include "device/contract/dof_lanes.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/motion.h"
 #include "device/settings/gain_clamp.h"
@@ -31,7 +32,7 @@ private:
         bool ended = false;
     };
     [[nodiscard]] DofGains gain_now(const Track &track) const noexcept;
-    [[nodiscard]] DofGains force(const Track &track, const GripMotion &motion) const noexcept;
+    [[nodiscard]] DofLanes force(const Track &track, const GripMotion &motion) const noexcept;
     GainClamp cap(Effect &effect, std::int32_t index) const noexcept;
 
     double fade_out_s_ = 0.05;
@@ -40,9 +41,9 @@ private:
     std::array<Track, kMaxEffects> tracks_{};
     std::size_t count_ = 0;
     // What effects gave that were taken out: falls to zero over one game period.
-    DofGains leaving_{};
+    DofLanes leaving_{};
     double leaving_part_ = 0.0;
-    std::array<DofGains, kMaxEffects> last_{}; // what each gave in the last cycle
+    std::array<DofLanes, kMaxEffects> last_{}; // what each gave in the last cycle
 };
 
 } // namespace spidar

@@ -16,11 +16,11 @@ public:
     // What acts until the next update.
     void hold(const Wrench &wrench) noexcept;
     // Work done on the hand since the start (unit: J).
-    [[nodiscard]] const DofGains &injected_j() const noexcept { return injected_j_; }
+    [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
 
 private:
     DofLanes held_{};
-    DofGains injected_j_{};
+    DofLanes injected_j_{};
 };
 
 // Damps a DOF while its changing part has given the hand more than it took. A slow force, such as a weight, is the

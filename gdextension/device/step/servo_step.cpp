@@ -215,7 +215,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
         events_.tell(DeviceEventKind::request_limited);
     }
     limiting_ = factor < 1.0;
-    rendering_ = to_paper(asked) != DofArray{};
+    rendering_ = to_paper(asked) != PaperWrench{};
     const double ramp = machine_.tension_scale();
     const double left = monitor_.wrench_scale();
     snapshot_.counters.faded_ticks += left < 1.0 && machine_.motors_on() ? 1U : 0U;

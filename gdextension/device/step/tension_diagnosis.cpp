@@ -24,7 +24,7 @@ TensionReport tension_report(const ServoSettings &settings,
         return {};
     }
     const WrenchMatrix matrix = wrench_matrix(settings.frame, settings.grip, snapshot.grip.pose);
-    DofArray wrench = to_paper(snapshot.requested);
+    PaperWrench wrench = to_paper(snapshot.requested);
     StringArray tensions_n = snapshot.tensions_n;
     for (double &value : wrench) {
         value /= ramp;
@@ -33,8 +33,8 @@ TensionReport tension_report(const ServoSettings &settings,
         value /= ramp;
     }
     TensionReport report = tension_report(matrix, wrench, tensions_n, solver_settings(settings));
-    for (DofArray *share : {&report.achieved, &report.error, &report.limits, &report.ridge,
-                            &report.reference, &report.transient}) {
+    for (PaperWrench *share : {&report.achieved, &report.error, &report.limits, &report.ridge,
+                               &report.reference, &report.transient}) {
         for (double &value : *share) {
             value *= ramp;
         }

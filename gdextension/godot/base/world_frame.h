@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "device/contract/dof_lanes.h"
 #include "device/contract/haptic_command.h"
 #include "godot/base/type_conversions.h"
 
@@ -62,10 +63,9 @@ struct WorldFrame {
                 world.grasp_torque_nm};
     }
     // fx fy fz mx my mz grasp_torque, world axes.
-    [[nodiscard]] DofArray wrench_to_world(const Wrench &device) const noexcept {
-        const Vec3 force = turn_to_world(device.force_n);
-        const Vec3 moment = turn_to_world(device.moment_nm);
-        return {force.x, force.y, force.z, moment.x, moment.y, moment.z, device.grasp_torque_nm};
+    [[nodiscard]] DofLanes wrench_to_world(const Wrench &device) const noexcept {
+        return lanes(turn_to_world(device.force_n), turn_to_world(device.moment_nm),
+                     device.grasp_torque_nm);
     }
     // A plane dot(normal, x) >= offset of the scene as one of the device. The grasp stop is the same in both.
     [[nodiscard]] ContactPlane contact_to_device(ContactPlane contact) const noexcept {

@@ -29,7 +29,7 @@
 #include "godot/settings/spidar_g_config.h"
 
 namespace spidar {
-class ReplayTransport;
+class Replay;
 }
 
 class SpidarG : public godot::Node3D {
@@ -325,7 +325,7 @@ private:
     std::string fallback_;                     // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
-    spidar::ReplayTransport *replay_ = nullptr;       // owned by loop_
+    spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
     std::unique_ptr<spidar::HidWatch> hid_watch_; // while the simulated device stands in
     spidar::RecordingPlace recording_place_;

@@ -208,7 +208,8 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     Effect effect;
     effect.kind = EffectKind::constant;
     effect.id = id;
-    effect.gain = spidar::lanes(
+    // A force to give, or a wave's height, stands in the row of the gains.
+    effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.duration_s = duration_s;
     return take_effect("set_force_effect", effect, DOF_ALL);
@@ -236,7 +237,8 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     Effect effect;
     effect.kind = EffectKind::vibration;
     effect.id = id;
-    effect.gain = spidar::lanes(
+    // A force to give, or a wave's height, stands in the row of the gains.
+    effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.frequency_hz = frequency_hz;
     effect.duration_s = duration_s;
@@ -249,7 +251,7 @@ bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double
     Effect effect;
     effect.kind = EffectKind::detents;
     effect.id = id;
-    effect.gain.fill(strength);
+    effect.gain.values.fill(strength);
     effect.spacing = same_gains(spacing / frame.scale, spacing, spacing);
     effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
     effect.centre_rotation =

@@ -4,7 +4,7 @@
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
-#include "device/recording/replay_transport.h"
+#include "device/recording/replay.h"
 #include "godot/base/type_conversions.h"
 
 using godot::String;
@@ -80,9 +80,8 @@ bool SpidarG::start_replay(const String &path) {
     if (!may_run()) {
         return reject("start_replay: add the node to the running scene, enabled, first.");
     }
-    auto transport = std::make_unique<spidar::ReplayTransport>();
     const std::string place = system_path(path);
-    const std::string problem = transport->load(place);
+    const std::string problem = spidar::Replay().load(place);
     if (!problem.empty()) {
         return reject("start_replay: " + problem);
     }
@@ -119,25 +118,25 @@ godot::Dictionary SpidarG::get_replay_statistics() const {
 }
 
 void SpidarG::open_replay() {
-    auto transport = std::make_unique<spidar::ReplayTransport>();
-    const std::string problem = transport->load(replay_path_);
+    auto replay = std::make_unique<spidar::Replay>();
+    const std::string problem = replay->load(replay_path_);
     if (!problem.empty()) {
         replay_path_.clear();
         refuse_to_open(Status::open_failed, problem);
         return;
     }
-    settings_ = transport->settings();
-    spidar::ReplayTransport *const replay = transport.get();
-    loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
+    settings_ = replay->settings();
+    replay_ = replay.get();
+    loop_ = std::make_unique<spidar::ServoLoop>(std::move(replay));
     const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
                                                        : loop_->start_threaded(settings_);
     if (!spidar::usable(status)) {
+        replay_ = nullptr;
         loop_.reset();
         replay_path_.clear();
         refuse_to_open(status, spidar::describe(status));
         return;
     }
-    replay_ = replay;
     replay_end_told_ = false;
     set_process_internal(true);
 }

@@ -19,7 +19,7 @@
 using godot::PackedFloat64Array;
 using godot::PackedVector3Array;
 using godot::Transform3D;
-using spidar::DofArray;
+using spidar::PaperWrench;
 using spidar::Vec3;
 
 namespace {
@@ -53,18 +53,18 @@ void complain(const char *method, const std::string &message) {
 }
 
 // The largest factor of `wrench` that the strings give exactly; 0: none.
-double largest_factor(const spidar::WrenchMatrix &matrix, const DofArray &wrench,
+double largest_factor(const spidar::WrenchMatrix &matrix, const PaperWrench &wrench,
                       const spidar::TensionSettings &settings) {
     const spidar::FeasibleScale scale = spidar::feasible_scale(matrix, wrench, settings);
     return scale.any ? scale.largest : 0.0;
 }
 
-DofArray paper_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
-                      double grasp_torque) {
+PaperWrench paper_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
+                         double grasp_torque) {
     return spidar::to_paper({spidar::to_core(force), spidar::to_core(moment), grasp_torque});
 }
 
-bool is_finite(const char *method, const DofArray &wrench) {
+bool is_finite(const char *method, const PaperWrench &wrench) {
     const bool good = std::all_of(wrench.begin(), wrench.end(),
                                   [](double value) { return std::isfinite(value); });
     if (!good) {
@@ -203,7 +203,7 @@ PackedFloat64Array SpidarGWorkspace::capacity(const char *method, std::size_t fi
                                  "but give some.");
             return {};
         }
-        DofArray wrench{};
+        PaperWrench wrench{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             wrench[first + axis] = direction[static_cast<int>(axis)] / length;
         }
@@ -231,7 +231,7 @@ godot::Vector2 SpidarGWorkspace::get_grasp_capacity(const Transform3D &pose,
         return {};
     }
     const auto most = [&here](double torque_nm) {
-        const DofArray wrench = spidar::to_paper({Vec3(0.0), Vec3(0.0), torque_nm});
+        const PaperWrench wrench = spidar::to_paper({Vec3(0.0), Vec3(0.0), torque_nm});
         return static_cast<spidar::GodotReal>(largest_factor(here->matrix, wrench, here->tension));
     };
     return {most(1.0), most(-1.0)};
@@ -242,7 +242,7 @@ PackedFloat64Array SpidarGWorkspace::get_tensions(const Transform3D &pose, doubl
                                                   const godot::Vector3 &moment,
                                                   double grasp_torque) const {
     const std::optional<Place> here = place("get_tensions", pose, grasp_angle);
-    const DofArray wrench = paper_wrench(force, moment, grasp_torque);
+    const PaperWrench wrench = paper_wrench(force, moment, grasp_torque);
     if (!here || !is_finite("get_tensions", wrench)) {
         return {};
     }
@@ -256,7 +256,7 @@ PackedFloat64Array SpidarGWorkspace::get_given_wrench(const Transform3D &pose, d
                                                       const godot::Vector3 &moment,
                                                       double grasp_torque) const {
     const std::optional<Place> here = place("get_given_wrench", pose, grasp_angle);
-    const DofArray wrench = paper_wrench(force, moment, grasp_torque);
+    const PaperWrench wrench = paper_wrench(force, moment, grasp_torque);
     if (!here || !is_finite("get_given_wrench", wrench)) {
         return {};
     }

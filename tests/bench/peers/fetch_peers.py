@@ -9,6 +9,7 @@ and needs no network.
 
 import glob
 import os
+import shlex
 import subprocess
 import sys
 import tarfile
@@ -31,7 +32,7 @@ def unpacked(package, version, source):
     folder = os.path.join(FOLDER, f"{package}-{version}")
     if os.path.isdir(folder):
         return folder
-    pattern = os.path.join(FOLDER, f"{package.replace('-', '_')}-{version}*")
+    pattern = os.path.join(glob.escape(FOLDER), f"{package.replace('-', '_')}-{version}*")
     archives = glob.glob(pattern + (".tar.gz" if source else ".whl"))
     if not archives:
         kind = "--no-binary" if source else "--only-binary"
@@ -60,16 +61,16 @@ def compile_library(name, compiler, arguments):
 
 
 def c_compiler():
-    return [os.environ.get("CC", "cc")]
+    return shlex.split(os.environ.get("CC", "cc"))
 
 
 def cxx_compiler():
-    return [os.environ.get("CXX", "c++"), "-std=c++17"]
+    return [*shlex.split(os.environ.get("CXX", "c++")), "-std=c++17"]
 
 
 def daqp(name, flags):
     csrc = os.path.join(unpacked("daqp", "0.11.0", source=True), "csrc")
-    files = sorted(glob.glob(os.path.join(csrc, "src", "*.c")))
+    files = sorted(glob.glob(os.path.join(glob.escape(csrc), "src", "*.c")))
     # Its own flags, without the clock calls of its profiling build.
     own = ["-O3", "-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"]
     compile_library(name, c_compiler(),
@@ -96,7 +97,7 @@ def qpoases(name, flags):
     library = os.path.join(prefix, "lib")
     compile_library(name, cxx_compiler(),
                     ["-O3", *flags, "-isystem", os.path.join(prefix, "include"), os.path.join(HERE, "qpoases.cc"),
-                     os.path.join(library, "libqpOASES.so.3.2"), f"-Wl,-rpath,{library}"])
+                     os.path.join(library, "libqpOASES.so.3.2"), "-Wl,-rpath,$ORIGIN/" + os.path.relpath(library, FOLDER)])
 
 
 # Name of the library, its adapter, how it is made, flags.

@@ -16,7 +16,7 @@ WrenchMatrix matrix_at(const GripPose &pose) {
 }
 
 // Largest weighted element of A tau - q at the best tensions there are.
-double best_error(const WrenchMatrix &matrix, const DofArray &wrench) {
+double best_error(const WrenchMatrix &matrix, const PaperWrench &wrench) {
     TensionProblem p;
     p.matrix = matrix;
     p.wrench = wrench;
@@ -25,7 +25,7 @@ double best_error(const WrenchMatrix &matrix, const DofArray &wrench) {
     p.lower_n.fill(TensionSettings{}.min_tension_n);
     p.upper_n.fill(TensionSettings{}.max_tension_n);
     p.proximal_target_n.fill(1.0);
-    const DofArray given = spidar::apply(matrix, solve_tension_problem(p, nullptr).tensions_n);
+    const PaperWrench given = spidar::apply(matrix, solve_tension_problem(p, nullptr).tensions_n);
     double largest = 0.0;
     for (std::size_t k = 0; k < given.size(); ++k) {
         largest = std::max(largest, std::abs(p.weights[k] * (given[k] - wrench[k])));
@@ -87,14 +87,14 @@ TEST_CASE("feasible scale: just below it the request is met, just above it is no
         for (double &tension : tensions) {
             tension = random.uniform(0.5, 9.0);
         }
-        const DofArray q = spidar::apply(matrix, tensions); // so that 1 is feasible
+        const PaperWrench q = spidar::apply(matrix, tensions); // so that 1 is feasible
         const FeasibleScale scale = feasible_scale(matrix, q, {});
         CAPTURE(i);
         REQUIRE(scale.any);
         CHECK(scale.least <= 1.0 + 1e-9);
         CHECK(scale.largest >= 1.0 - 1e-9);
         const auto times = [&q](double factor) {
-            DofArray scaled = q;
+            PaperWrench scaled = q;
             for (double &component : scaled) {
                 component *= factor;
             }
@@ -126,7 +126,7 @@ TEST_CASE(
         CHECK(masked.margin >= all.margin - 1e-6);
         wider += masked.margin > 0.0 && all.margin == 0.0 ? 1 : 0;
         if (masked.margin > 0.0) {
-            const DofArray left = apply(matrix, masked.null_tensions);
+            const PaperWrench left = apply(matrix, masked.null_tensions);
             const auto [least, most] =
                 std::minmax_element(masked.null_tensions.begin(), masked.null_tensions.end());
             CHECK(*least >= masked.margin - 1e-6);
@@ -147,7 +147,7 @@ TEST_CASE("feasible scale under a mask or with a broken string: given up to ther
         settings.dof_mask = round % 2 == 0 ? kTranslationOnly : kAllDofs;
         settings.broken_mask = round % 4 == 1 ? 16 : 0;
         const WrenchMatrix matrix = matrix_at(rest_pose(GripGeometry{}));
-        DofArray q{};
+        PaperWrench q{};
         for (std::size_t k = 0; k < q.size(); ++k) {
             q[k] = random.uniform(-1.0, 1.0) * (k < 3 ? 1.0 : 0.02);
         }
@@ -171,7 +171,7 @@ TEST_CASE("feasible scale under a mask or with a broken string: given up to ther
                 problem.lower_n[i] = works ? settings.min_tension_n : 0.0;
                 problem.upper_n[i] = works ? settings.max_tension_n : 0.0;
             }
-            return solve_tension_problem_safely(problem, nullptr).largest_error_n;
+            return solve_exactly(problem, nullptr).largest_error_n;
         };
         CHECK(error_at(scale.largest) < 1e-6);
         CHECK(error_at(scale.largest * 1.001 + 1e-3) > 1e-6);

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/geometry/grip_geometry.h"
-#include "core/kinematics/constants.h"
 #include "support/pose_helpers.h"
 
 using namespace spidar;

@@ -21,7 +21,7 @@ Vec3 turned(const Vec3 &v, const Vec3 &axis, double angle_rad) {
 
 // The pose moved along the seven rates of A: velocity, angular velocity, and alpha = -psi/2, which turns pole 1
 // by +alpha and pole 2 by -alpha about n = unit(r1 x r2).
-GripPose moved(const GripPose &pose, const DofArray &rates, double time) {
+GripPose moved(const GripPose &pose, const PaperTwist &rates, double time) {
     const Vec3 normal = glm::normalize(glm::cross(pose.r1_m, pose.r2_m));
     const Vec3 omega(rates[3], rates[4], rates[5]);
     GripPose result = pose;
@@ -46,7 +46,7 @@ double length_of(const GripPose &pose, std::size_t i) {
     return glm::length(corners[i] - pose.position_m - levers[i]);
 }
 
-StringArray shortening_rates(const GripPose &pose, const DofArray &rates) {
+StringArray shortening_rates(const GripPose &pose, const PaperTwist &rates) {
     StringArray result{};
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i] =
@@ -68,7 +68,7 @@ TEST_CASE("wrench matrix: A^T is minus the length rates, in all seven DOF of ran
         const GripPose pose = test::random_pose(random, 0.15, random.uniform(0.3, 2.8));
         const WrenchMatrix matrix = paper_matrix(pose);
         for (std::size_t dof = 0; dof < static_cast<std::size_t>(kDofCount); ++dof) {
-            DofArray rates{};
+            PaperTwist rates{};
             rates[dof] = 1.0;
             const StringArray measured = shortening_rates(pose, rates);
             const StringArray computed = apply_transposed(matrix, rates);
@@ -90,11 +90,11 @@ TEST_CASE("wrench matrix: columns at rest, by hand") {
     const double a = 0.24;
     const double d = 0.04;
     const double length = std::sqrt(a * a + (a - d) * (a - d) + a * a);
-    const DofArray first{a / length, (a - d) / length, a / length,    d * a / length,
-                         0.0,        -d * a / length,  d * a / length};
+    const PaperWrench first{a / length, (a - d) / length, a / length,    d * a / length,
+                            0.0,        -d * a / length,  d * a / length};
     // String 6: from (-d, 0, 0) to (-a, a, -a); lever (-d, 0, 0), pole 2.
-    const DofArray sixth{-(a - d) / length, a / length,      -a / length,    0.0,
-                         -d * a / length,   -d * a / length, -d * a / length};
+    const PaperWrench sixth{-(a - d) / length, a / length,      -a / length,    0.0,
+                            -d * a / length,   -d * a / length, -d * a / length};
     for (std::size_t k = 0; k < first.size(); ++k) {
         CAPTURE(k);
         CHECK(std::abs(matrix.columns[0][k] - first[k]) < 1e-15);
@@ -128,7 +128,7 @@ TEST_CASE("wrench matrix: power of the strings = wrench . twist, with g = 2 gras
     test::Random random(2);
     for (int round = 0; round < 60; ++round) {
         const GripPose pose = test::random_pose(random, 0.1, random.uniform(0.5, 2.6));
-        DofArray rates{};
+        PaperTwist rates{};
         for (double &rate : rates) {
             rate = random.uniform(-1.0, 1.0);
         }
@@ -155,7 +155,7 @@ TEST_CASE("wrench matrix: power of the strings = wrench . twist, with g = 2 gras
         CAPTURE(round);
         CHECK(grasp_rate == doctest::Approx(2.0 * rates[6]).epsilon(1e-6));
         CHECK(std::abs(string_power - hand_power) < 1e-7);
-        const DofArray there_and_back = to_paper(wrench);
+        const PaperWrench there_and_back = to_paper(wrench);
         CHECK(there_and_back[6] == 2.0 * wrench.grasp_torque_nm);
     }
 }
@@ -166,7 +166,7 @@ TEST_CASE("wrench matrix: parallel poles lose the grasp row and say so") {
         pose.r2_m = sign * pose.r1_m;
         const WrenchMatrix matrix = paper_matrix(pose);
         CHECK(matrix.grasp_row_vanishes);
-        for (const DofArray &column : matrix.columns) {
+        for (const PaperWrench &column : matrix.columns) {
             CHECK(column[6] == 0.0);
             CHECK(std::isfinite(column[0]));
         }
@@ -185,7 +185,7 @@ TEST_CASE("wrench matrix: the attachment table decides pole and end") {
     grip.attachments[0] = {1, -1.0};
     const GripPose rest = rest_pose(grip);
     const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-    const DofArray column = wrench_matrix(frame, grip, rest).columns[0];
+    const PaperWrench column = wrench_matrix(frame, grip, rest).columns[0];
     const Vec3 pull = glm::normalize(frame.motors_m[0] + rest.r2_m);
     const Vec3 moment = glm::cross(-rest.r2_m, pull);
     CHECK(column[0] == doctest::Approx(pull.x));

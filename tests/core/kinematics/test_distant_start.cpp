@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 
 using namespace spidar;

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "core/geometry/wrench_matrix.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_polish.h"
+#include "core/kinematics/search/pose_search.h"
 #include "support/pose_helpers.h"
 
 using namespace spidar;
@@ -117,7 +117,7 @@ TEST_CASE("kinematics: a flipped pole is found from no memory") {
         REQUIRE(usable(result.status));
         CHECK(result.residual_rms_m < kLengthRounding_m);
         CHECK(test::distance(result.pose, truth) < 1e-12);
-        const GripPose upright = closed_form_pose(
+        const GripPose upright = test::closed_form_pose(
             Vec3(kPaperHalfExtent_m), rig.grip.pole_half_length_m, rig.lengths(truth), 0);
         flipped += test::distance(upright, truth) > 1e-3 ? 1 : 0;
     }
@@ -267,9 +267,9 @@ TEST_CASE("kinematics: cold, a root pair that fits as well is never dropped unse
         }
         const LengthProblem problem{rig.frame, rig.grip, lengths};
         for (int pair = 0; pair < kRootPairCount; ++pair) {
-            const PolishResult other =
-                polish_pose(problem, closed_form_pose(Vec3(kPaperHalfExtent_m),
-                                                      rig.grip.pole_half_length_m, lengths, pair));
+            const PolishResult other = polish_pose(
+                problem, test::closed_form_pose(Vec3(kPaperHalfExtent_m),
+                                                rig.grip.pole_half_length_m, lengths, pair));
             // As good as the answer, elsewhere: then the answer must say so.
             if (other.converged && other.residual_rms_m < 2.0 * cold.residual_rms_m &&
                 test::distance(other.pose, cold.pose) > kDistinctPose_m) {
@@ -304,8 +304,8 @@ TEST_CASE("kinematics: a pose that two root pairs explain is flagged, cold and w
         for (int pair = 0; pair < kRootPairCount; ++pair) {
             const PolishResult other =
                 polish_pose({rig.frame, rig.grip, lengths},
-                            closed_form_pose(Vec3(kPaperHalfExtent_m), rig.grip.pole_half_length_m,
-                                             lengths, pair));
+                            test::closed_form_pose(Vec3(kPaperHalfExtent_m),
+                                                   rig.grip.pole_half_length_m, lengths, pair));
             rival = rival || (other.converged && test::distance(other.pose, branch.pose) > 0.01 &&
                               other.residual_rms_m < 2.0 * branch.residual_rms_m);
         }
@@ -364,35 +364,6 @@ TEST_CASE("kinematics: warm, the flag rises and falls within a period as the han
         CHECK(status == Status::ambiguous_pose);
         ++seen;
     }
-}
-
-TEST_CASE(
-    "kinematics: rates of the lengths give the twist back, the transpose of the wrench matrix") {
-    Rig rig;
-    test::Random random(29);
-    for (int i = 0; i < 500; ++i) {
-        const GripPose pose = random.pose(rig.grip, 0.15, 35.0 * kDeg);
-        rig.kinematics.set_last_pose(pose);
-        DofArray rates{};
-        for (double &rate : rates) {
-            rate = random.between(-1.0, 1.0);
-        }
-        StringArray growth = apply_transposed(wrench_matrix(rig.frame, rig.grip, pose), rates);
-        for (double &rate : growth) {
-            rate = -rate;
-        }
-        const std::optional<Twist> twist = rig.kinematics.twist_of_length_rates(growth);
-        REQUIRE(twist.has_value());
-        CHECK(glm::distance(twist->linear_m_s, Vec3(rates[0], rates[1], rates[2])) < 1e-11);
-        CHECK(glm::distance(twist->angular_rad_s, Vec3(rates[3], rates[4], rates[5])) < 1e-10);
-        CHECK(std::fabs(twist->grasp_rate_rad_s - 2.0 * rates[6]) < 1e-10);
-    }
-    rig.kinematics.set_last_pose({Vec3(0.0), Vec3(0.04, 0.0, 0.0), Vec3(0.04, 0.0, 0.0)});
-    CHECK_FALSE(rig.kinematics.twist_of_length_rates(StringArray{}).has_value());
-    rig.kinematics.set_last_pose(rest_pose(rig.grip));
-    StringArray bad{};
-    bad[2] = kNan;
-    CHECK_FALSE(rig.kinematics.twist_of_length_rates(bad).has_value());
 }
 
 TEST_CASE("kinematics: after a jump of the pose the next tick is right") {

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "core/geometry/wrench_matrix.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/pose_polish.h"
 #include "core/kinematics/steps/rigid_step.h"
@@ -171,26 +170,7 @@ TEST_CASE("rigid grip: 6 x 8 wrench matrix, minus the slopes of the lengths; no 
             CHECK(std::fabs(per_unit + matrix.columns[s][dof]) < 1e-8);
         }
     }
-    for (const DofArray &column : matrix.columns) {
+    for (const PaperWrench &column : matrix.columns) {
         CHECK(column[6] == 0.0);
     }
-}
-
-TEST_CASE("rigid grip: rates of the lengths give the twist back") {
-    test::Random random(5);
-    const DevicePreset device = device_preset(Preset::spidar_g6_x3r);
-    ForwardKinematics kinematics;
-    REQUIRE(kinematics.configure(device.frame, device.grip) == Status::ok);
-    const GripPose pose = draw(random, device.grip);
-    REQUIRE(usable(kinematics.update(string_lengths(device.frame, device.grip, pose)).status));
-    const DofArray motion{0.3, -0.2, 0.1, 1.5, -2.0, 0.7, 0.0};
-    StringArray rates = apply_transposed(wrench_matrix(device.frame, device.grip, pose), motion);
-    for (double &rate : rates) {
-        rate = -rate; // shortening is positive there
-    }
-    const std::optional<Twist> twist = kinematics.twist_of_length_rates(rates);
-    REQUIRE(twist.has_value());
-    CHECK(glm::distance(twist->linear_m_s, Vec3(0.3, -0.2, 0.1)) < 1e-12);
-    CHECK(glm::distance(twist->angular_rad_s, Vec3(1.5, -2.0, 0.7)) < 1e-10);
-    CHECK(twist->grasp_rate_rad_s == 0.0);
 }

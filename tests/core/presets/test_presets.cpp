@@ -67,7 +67,6 @@ TEST_CASE("presets: each is valid, of full rank, closed at rest and over most of
         CHECK(validate(device.grip, device.frame).empty());
         CHECK(device.metres_per_count > 1e-6);
         CHECK(device.min_tension_n < device.max_tension_n);
-        CHECK(preset_named(device.name) == static_cast<Preset>(i));
         const GeometryReport report =
             report_geometry(device.frame, device.grip, device.min_tension_n, 10.0, 200);
         CHECK(report.sound());
@@ -78,7 +77,6 @@ TEST_CASE("presets: each is valid, of full rank, closed at rest and over most of
         CHECK(report.force_capacity_n > 5.0);
         CHECK(report.moment_capacity_nm > 0.1);
     }
-    CHECK_FALSE(preset_named("SpidarG6X4").has_value());
 }
 
 TEST_CASE("presets: the left-hand device mirrors the right-hand one") {
@@ -100,7 +98,7 @@ TEST_CASE("geometry report: capacity at the paper's centre is what the geometry 
     CHECK(report.force_capacity_n > 0.0);
     const WrenchMatrix matrix = wrench_matrix(paper.frame, paper.grip, rest_pose(paper.grip));
     double most = 0.0; // no more than all strings that help, at their limit
-    for (const DofArray &column : matrix.columns) {
+    for (const PaperWrench &column : matrix.columns) {
         most += column[0] > 0.0 ? 10.0 * column[0] : 0.0;
     }
     CHECK(report.force_capacity_n <= most + 1e-6);
@@ -133,7 +131,7 @@ TEST_CASE("geometry report: what no string opposes is found, and no string works
     const GripPose rest = rest_pose(grip);
     const PoseStatics statics = pose_statics(frame, grip, rest);
     const WrenchMatrix matrix = wrench_matrix(frame, grip, rest);
-    for (const DofArray &column : matrix.columns) {
+    for (const PaperWrench &column : matrix.columns) {
         double work = 0.0;
         for (std::size_t k = 0; k < column.size(); ++k) {
             const double weight = k < 3 ? 1.0 : 1.0 / grip.pole_half_length_m;

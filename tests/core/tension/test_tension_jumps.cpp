@@ -23,16 +23,16 @@ Figures along_t1(const TensionSettings &settings) {
     REQUIRE(solver.configure(settings) == Status::ok);
     const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     const GripGeometry grip;
-    const DofArray weights = tension_weights(settings);
+    const PaperWeights weights = tension_weights(settings);
     Figures figures;
     StringArray last{};
     double squares = 0.0;
     for (int tick = 0; tick < kTicks; ++tick) {
         const double t_s = 0.001 * tick;
         const WrenchMatrix matrix = wrench_matrix(frame, grip, test::t1_pose(grip, t_s));
-        const DofArray wrench = test::t1_wrench(t_s);
+        const PaperWrench wrench = test::t1_wrench(t_s);
         const StringArray tensions = solver.update(matrix, wrench).tensions_n;
-        const DofArray given = apply(matrix, tensions);
+        const PaperWrench given = apply(matrix, tensions);
         for (std::size_t k = 0; k < wrench.size(); ++k) {
             const double error_n = weights[k] * (given[k] - wrench[k]);
             squares += error_n * error_n;

@@ -17,8 +17,8 @@ WrenchMatrix matrix_at(const GripPose &pose) {
     return wrench_matrix(make_box_frame(Vec3(kPaperHalfExtent_m)), GripGeometry{}, pose);
 }
 
-DofArray random_wrench(test::Random &random, double size) {
-    DofArray wrench{};
+PaperWrench random_wrench(test::Random &random, double size) {
+    PaperWrench wrench{};
     for (std::size_t k = 0; k < kDofs; ++k) {
         wrench[k] = random.uniform(-size, size) * (k < 3 ? 1.0 : 0.04);
     }
@@ -27,7 +27,7 @@ DofArray random_wrench(test::Random &random, double size) {
 
 // Ticks until the change term has died out.
 StringArray settled(const TensionSettings &settings, const WrenchMatrix &matrix,
-                    const DofArray &wrench) {
+                    const PaperWrench &wrench) {
     TensionSolver solver;
     REQUIRE(solver.configure(settings) == Status::ok);
     TensionResult result;
@@ -37,7 +37,7 @@ StringArray settled(const TensionSettings &settings, const WrenchMatrix &matrix,
     return result.tensions_n;
 }
 
-double weighed(const DofArray &values) {
+double weighed(const PaperWrench &values) {
     double largest = 0.0;
     for (std::size_t k = 0; k < kDofs; ++k) {
         largest = std::max(largest, std::abs(values[k]) * (k < 3 ? 1.0 : 25.0));
@@ -60,13 +60,13 @@ TEST_CASE("tension report: the shares add up to the error; at rest nothing is tr
             round % 2 == 0 ? make_pose(GripGeometry{}, Vec3(random.uniform(-0.03, 0.03), 0.0, 0.01),
                                        Mat3(1.0), random.uniform(-0.2, 0.2))
                            : test::random_pose(random, 0.1, random.uniform(0.7, 2.4)));
-        const DofArray wrench = random_wrench(random, round % 3 == 0 ? 20.0 : 0.5);
+        const PaperWrench wrench = random_wrench(random, round % 3 == 0 ? 20.0 : 0.5);
         const StringArray tensions = settled(settings, matrix, wrench);
         const TensionReport report = tension_report(matrix, wrench, tensions, settings);
         CAPTURE(round);
         REQUIRE(usable(report.status));
-        const DofArray given = apply(matrix, tensions);
-        const DofArray bias = report.bias();
+        const PaperWrench given = apply(matrix, tensions);
+        const PaperWrench bias = report.bias();
         for (std::size_t k = 0; k < kDofs; ++k) {
             CHECK(report.achieved[k] == given[k]);
             CHECK(report.error[k] == given[k] - wrench[k]);
@@ -97,14 +97,14 @@ TEST_CASE("tension report: each share is what dropping its term takes away, boun
         settings.change_weight = 0.0;
         const WrenchMatrix matrix =
             matrix_at(test::random_pose(random, 0.05, random.uniform(0.9, 2.2)));
-        const DofArray wrench = random_wrench(random, 2.0);
+        const PaperWrench wrench = random_wrench(random, 2.0);
         const StringArray tensions = settled(settings, matrix, wrench);
         const TensionReport report = tension_report(matrix, wrench, tensions, settings);
         TensionSettings less = settings;
         less.reference_weight = 0.0;
-        const DofArray ridge_only = apply(matrix, settled(less, matrix, wrench));
+        const PaperWrench ridge_only = apply(matrix, settled(less, matrix, wrench));
         less.ridge = 1e-11;
-        const DofArray bare = apply(matrix, settled(less, matrix, wrench));
+        const PaperWrench bare = apply(matrix, settled(less, matrix, wrench));
         CAPTURE(round);
         for (std::size_t k = 0; k < kDofs; ++k) {
             CHECK(std::abs(report.reference[k] - (report.achieved[k] - ridge_only[k])) < 1e-8);
@@ -117,11 +117,11 @@ TEST_CASE("tension report: each share is what dropping its term takes away, boun
 TEST_CASE("tension report: the change term's share is transient, and gone when it has settled") {
     const GripGeometry grip;
     const WrenchMatrix matrix = matrix_at(make_pose(grip, Vec3(0.05, 0.02, 0.0), Mat3(1.0), 0.1));
-    const DofArray wrench{0.0, 3.0, 0.0, 0.0, 0.02, 0.0, 0.0};
+    const PaperWrench wrench{0.0, 3.0, 0.0, 0.0, 0.02, 0.0, 0.0};
     TensionSettings settings;
     TensionSolver solver;
     REQUIRE(solver.configure(settings) == Status::ok);
-    solver.update(matrix, DofArray{});
+    solver.update(matrix, PaperWrench{});
     const TensionReport early =
         tension_report(matrix, wrench, solver.update(matrix, wrench).tensions_n, settings);
     const TensionReport late =
@@ -138,7 +138,7 @@ TEST_CASE("tension report: what no string can give is a limit and no bias of the
     GripPose pose = rest_pose(GripGeometry{});
     pose.r2_m = pose.r1_m;
     const WrenchMatrix matrix = matrix_at(pose);
-    DofArray wrench{};
+    PaperWrench wrench{};
     wrench[6] = 0.05;
     const TensionSettings settings;
     const TensionReport report =
@@ -155,21 +155,23 @@ TEST_CASE("tension report: input that is not finite is refused with zeros") {
     tensions.fill(1.0);
     const double bad_values[] = {std::nan(""), HUGE_VAL};
     for (const double bad : bad_values) {
-        DofArray wrench{};
+        PaperWrench wrench{};
         wrench[2] = bad;
         WrenchMatrix broken = matrix;
         broken.columns[3][4] = bad;
         StringArray sent = tensions;
         sent[5] = bad;
-        for (const TensionReport &report : {tension_report(matrix, wrench, tensions, settings),
-                                            tension_report(broken, DofArray{}, tensions, settings),
-                                            tension_report(matrix, DofArray{}, sent, settings)}) {
+        for (const TensionReport &report :
+             {tension_report(matrix, wrench, tensions, settings),
+              tension_report(broken, PaperWrench{}, tensions, settings),
+              tension_report(matrix, PaperWrench{}, sent, settings)}) {
             CHECK_FALSE(usable(report.status));
-            CHECK(report.achieved == DofArray{});
-            CHECK(report.error == DofArray{});
+            CHECK(report.achieved == PaperWrench{});
+            CHECK(report.error == PaperWrench{});
         }
     }
     TensionSettings wrong;
     wrong.max_tension_n = -1.0;
-    CHECK(tension_report(matrix, DofArray{}, tensions, wrong).status == Status::invalid_settings);
+    CHECK(tension_report(matrix, PaperWrench{}, tensions, wrong).status ==
+          Status::invalid_settings);
 }

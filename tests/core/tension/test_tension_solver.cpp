@@ -36,9 +36,9 @@ double largest_difference(const StringArray &a, const StringArray &b) {
     return largest;
 }
 
-DofArray error_of(const WrenchMatrix &matrix, const StringArray &tensions_n,
-                  const DofArray &wrench) {
-    DofArray error = apply(matrix, tensions_n);
+PaperWrench error_of(const WrenchMatrix &matrix, const StringArray &tensions_n,
+                     const PaperWrench &wrench) {
+    PaperWrench error = apply(matrix, tensions_n);
     for (std::size_t k = 0; k < kDofs; ++k) {
         error[k] -= wrench[k];
     }
@@ -52,7 +52,8 @@ bool within(const TensionSettings &settings, const StringArray &tensions_n) {
 }
 
 // Ticks until the change term has died out.
-TensionResult settled(TensionSolver &solver, const WrenchMatrix &matrix, const DofArray &wrench) {
+TensionResult settled(TensionSolver &solver, const WrenchMatrix &matrix,
+                      const PaperWrench &wrench) {
     TensionResult result;
     for (int tick = 0; tick < 12000 && !result.skipped; ++tick) {
         result = solver.update(matrix, wrench);
@@ -76,7 +77,7 @@ GripPose central_pose(test::Random &random) {
 
 struct Path {
     GripPose pose;
-    DofArray wrench{};
+    PaperWrench wrench{};
 };
 
 // A smooth motion with a changing wrench, `reach` metres to each side.
@@ -95,7 +96,7 @@ Path path_at(double t, double reach_m) {
 
 TEST_CASE("tension solver: zero wrench at the centre gives the reference tension in every string") {
     TensionSolver solver = solver_with({});
-    const TensionResult result = solver.update(matrix_at_rest(), DofArray{});
+    const TensionResult result = solver.update(matrix_at_rest(), PaperWrench{});
     const TensionSettings &s = solver.settings();
     // At rest A (1,...,1) = 0, so that the terms decide alone: ridge pulls the reference towards zero.
     const double expected =
@@ -117,7 +118,7 @@ TEST_CASE("tension solver: masks name the strings at bounds") {
     for (int round = 0; round < 300; ++round) {
         const WrenchMatrix matrix =
             matrix_at(test::random_pose(random, 0.15, random.uniform(0.7, 2.4)));
-        DofArray wrench{};
+        PaperWrench wrench{};
         for (std::size_t k = 0; k < kDofs; ++k) {
             wrench[k] = random.uniform(-4.0, 4.0) * (k < 3 ? 1.0 : 0.04);
         }
@@ -141,7 +142,7 @@ TEST_CASE("tension solver: a direction that no string can give is flagged") {
     GripPose pose = rest_pose(GripGeometry{});
     pose.r2_m = pose.r1_m;
     TensionSolver solver = solver_with({});
-    DofArray wrench{};
+    PaperWrench wrench{};
     wrench[6] = 0.05;
     const TensionResult result = solver.update(matrix_at(pose), wrench);
     CHECK(result.status == Status::wrench_limited);
@@ -176,7 +177,7 @@ TEST_CASE("tension solver: a broken string carries nothing and the rest still me
 TEST_CASE("tension solver: a wrench beyond reach saturates, says so and keeps its sign") {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         TensionSolver solver = solver_with({});
-        DofArray wrench{};
+        PaperWrench wrench{};
         wrench[axis] = 100.0;
         const TensionResult result = solver.update(matrix_at_rest(), wrench);
         CAPTURE(axis);
@@ -202,7 +203,7 @@ TEST_CASE("tension solver: the change term limits jumps along a path outside wre
             const Path at = path_at(0.001 * tick, 0.15);
             const WrenchMatrix matrix = matrix_at(at.pose);
             const TensionResult result = solver.update(matrix, at.wrench);
-            const DofArray error = error_of(matrix, result.tensions_n, at.wrench);
+            const PaperWrench error = error_of(matrix, result.tensions_n, at.wrench);
             if (tick > 0) {
                 jumps[on] = std::max(jumps[on], largest_difference(result.tensions_n, last));
             }
@@ -219,7 +220,7 @@ TEST_CASE("tension solver: the change term limits jumps along a path outside wre
 
 TEST_CASE("tension solver: the change term has no steady cost and refers to what was sent") {
     const WrenchMatrix matrix = matrix_at_rest();
-    const DofArray wrench{0.0, 0.0, -3.0, 0, 0, 0, 0};
+    const PaperWrench wrench{0.0, 0.0, -3.0, 0, 0, 0, 0};
     StringArray ends[2];
     for (int on = 0; on < 2; ++on) {
         TensionSettings settings;
@@ -236,29 +237,29 @@ TEST_CASE("tension solver: the change term has no steady cost and refers to what
     StringArray sent{};
     sent.fill(4.0);
     solver.set_last_tensions(sent);
-    CHECK(largest_difference(solver.update(matrix, DofArray{}).tensions_n, sent) < 1e-3);
+    CHECK(largest_difference(solver.update(matrix, PaperWrench{}).tensions_n, sent) < 1e-3);
     StringArray broken = sent;
     broken[2] = std::nan("");
     solver.set_last_tensions(broken); // ignored
-    CHECK(largest_difference(solver.update(matrix, DofArray{}).tensions_n, sent) < 1e-3);
+    CHECK(largest_difference(solver.update(matrix, PaperWrench{}).tensions_n, sent) < 1e-3);
     solver.reset();
-    CHECK(largest_difference(solver.update(matrix, DofArray{}).tensions_n, sent) > 3.0);
+    CHECK(largest_difference(solver.update(matrix, PaperWrench{}).tensions_n, sent) > 3.0);
 }
 
 TEST_CASE("tension solver: a wrench that is not finite counts as zero, and the matrix is refused") {
     TensionSolver at_work = solver_with({});
-    const DofArray wrench_of_work{1.0, 0, 0, 0, 0, 0, 0};
+    const PaperWrench wrench_of_work{1.0, 0, 0, 0, 0, 0, 0};
     const TensionResult good = settled(at_work, matrix_at_rest(), wrench_of_work);
     const double bad_values[] = {std::nan(""), HUGE_VAL, -HUGE_VAL};
     for (const double bad : bad_values) {
         for (std::size_t k = 0; k < kDofs; ++k) {
             TensionSolver solver = solver_with({});
             TensionSolver zero = solver_with({});
-            DofArray wrench{};
+            PaperWrench wrench{};
             wrench[k] = bad;
             const TensionResult result = solver.update(matrix_at_rest(), wrench);
             CHECK(result.status == Status::not_finite);
-            CHECK(result.tensions_n == zero.update(matrix_at_rest(), DofArray{}).tensions_n);
+            CHECK(result.tensions_n == zero.update(matrix_at_rest(), PaperWrench{}).tensions_n);
         }
         for (std::size_t i = 0; i < kStrings; ++i) {
             for (std::size_t k = 0; k < kDofs; ++k) {
@@ -352,7 +353,7 @@ TEST_CASE(
             matrix_at(round % 2 == 0 ? central_pose(random)
                                      : test::random_pose(random, 0.1, random.uniform(0.9, 2.2)));
         const double size = random.uniform(0.05, 2.0);
-        DofArray wrench{};
+        PaperWrench wrench{};
         for (std::size_t k = 0; k < kDofs; ++k) {
             wrench[k] = random.uniform(-size, size) * (k < 3 ? 1.0 : 0.04);
         }
@@ -366,8 +367,8 @@ TEST_CASE(
                                     open.proximal_weight);
         open.lower_n.fill(-1e6);
         open.upper_n.fill(1e6);
-        const double open_n = solve_tension_problem_safely(open, nullptr).largest_error_n;
-        const DofArray error = error_of(matrix, result.tensions_n, wrench);
+        const double open_n = solve_exactly(open, nullptr).largest_error_n;
+        const PaperWrench error = error_of(matrix, result.tensions_n, wrench);
         double bounded_n = 0.0;
         for (std::size_t k = 0; k < kDofs; ++k) {
             bounded_n = std::max(bounded_n, std::abs(open.weights[k] * error[k]));
@@ -398,7 +399,7 @@ TEST_CASE("tension solver: an unchanged tick that has settled is skipped, bit fo
         settings.dof_mask = random.chance(0.2) ? kTranslationOnly : kAllDofs;
         TensionSolver solver = solver_with(settings);
         WrenchMatrix matrix = matrix_at(central_pose(random));
-        DofArray wrench{};
+        PaperWrench wrench{};
         for (int tick = 0; tick < 600; ++tick) {
             if (random.chance(0.01)) {
                 matrix = matrix_at(test::random_pose(random, 0.1, 1.5));

@@ -10,6 +10,7 @@
 
 #include "core/geometry/rotation_log.h"
 #include "device/contact/contact_renderer.h"
+#include "device/rendering/motion_filter.h"
 
 using namespace spidar;
 

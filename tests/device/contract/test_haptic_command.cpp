@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 TEST_CASE("wrench request: NaN or infinity in any of its eight numbers is refused") {
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
         for (int field = 0; field < 8; ++field) {
-            DofArray q{};
+            PaperWrench q{};
             double duration_s = 0.05;
             (field < 7 ? q[static_cast<std::size_t>(field)] : duration_s) = bad;
             CAPTURE(field);

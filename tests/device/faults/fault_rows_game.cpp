@@ -89,7 +89,7 @@ Answer nonsense(HandFirmness hand, std::span<const double> values) {
     std::uint64_t sent = 0;
     for (const double value : values) {
         for (std::size_t dof = 0; dof < kDofCount; ++dof) {
-            DofArray q = to_paper(good);
+            PaperWrench q = to_paper(good);
             q[dof] = value;
             rig.asked = from_paper(q);
             rig.run_ms(16);

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/kinematics/forward_kinematics.h"
 #include "device/faults/fault_table.h"
 
 namespace spidar::test {

@@ -62,7 +62,7 @@ struct Device {
 
 Wrench unit_wrench(int dof, double sign) {
     // The issue's 2 N, 50 N mm and 25 N mm of grasp torque.
-    DofArray q{};
+    PaperWrench q{};
     q[static_cast<std::size_t>(dof)] = sign * (dof < 3 ? 2.0 : 0.05); // g = 2 grasp_torque
     return from_paper(q);
 }
@@ -79,9 +79,9 @@ TEST_CASE("closed loop: each DOF is felt by the hand within 1 % beyond the repor
             const Wrench asked = unit_wrench(dof, sign);
             device.ask(asked);
             device.play(60);
-            const DofArray q = to_paper(asked);
-            const DofArray felt = to_paper(device.truth.strings);
-            const DofArray bias = tension_report(device.settings, device.snapshot).bias();
+            const PaperWrench q = to_paper(asked);
+            const PaperWrench felt = to_paper(device.truth.strings);
+            const PaperWrench bias = tension_report(device.settings, device.snapshot).bias();
             CAPTURE(dof);
             CAPTURE(sign);
             for (std::size_t k = 0; k < felt.size(); ++k) {

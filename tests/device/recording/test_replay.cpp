@@ -261,8 +261,8 @@ TEST_CASE("replay: another build, another schema or no file at all is refused wi
     RecordingWriter writer;
     REQUIRE(writer.open(file.path(), info) == "");
     writer.close();
-    ReplayTransport transport;
-    CHECK(transport.load(file.path()).find("another build") != std::string::npos);
+    Replay unread;
+    CHECK(unread.load(file.path()).find("another build") != std::string::npos);
     info = describe_recording(ideal_settings());
     ++info.command_words;
     CHECK(why_no_replay(info).find("another form") != std::string::npos);
@@ -276,9 +276,9 @@ TEST_CASE("replay: another build, another schema or no file at all is refused wi
     const TemporaryFile of_old_level;
     REQUIRE(writer.open(of_old_level.path(), info) == "");
     writer.close();
-    CHECK(transport.load(of_old_level.path()) == why_no_replay(info));
-    CHECK(transport.open() == Status::open_failed); // and not at another level
-    CHECK(transport.load(file.path() + ".absent").find("no such file") != std::string::npos);
+    CHECK(unread.load(of_old_level.path()) == why_no_replay(info));
+    CHECK(unread.open() == Status::open_failed); // and not at another level
+    CHECK(unread.load(file.path() + ".absent").find("no such file") != std::string::npos);
     Session session;
     CHECK(session.loop->start_recording(file.path()).find("No device") != std::string::npos);
     REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);

@@ -75,7 +75,7 @@ TEST_CASE("passivity: a wall held between frames gives energy; controlled it doe
 TEST_CASE("passivity: a weight is left alone") {
     PassivityController controller;
     DofGains most{};
-    most.fill(5.0);
+    most.values.fill(5.0);
     controller.configure(most);
     Wrench weight;
     weight.force_n.y = -1.0;
@@ -97,7 +97,7 @@ TEST_CASE("passivity: a weight is left alone") {
 TEST_CASE("passivity: settles to exactly nothing") {
     PassivityController controller;
     DofGains most{};
-    most.fill(5.0);
+    most.values.fill(5.0);
     controller.configure(most);
     Wrench push;
     push.force_n.x = 1.0;

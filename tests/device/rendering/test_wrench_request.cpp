@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/contract/dof_lanes.h"
 #include "device/rendering/wrench_request.h"
 
 using namespace spidar;

@@ -20,7 +20,7 @@ TEST_CASE("plant: net wrench of the strings is the virtual work of the tensions 
             plant.advance(0.02);
             const PlantTruth truth = plant.truth();
             const DofLanes given = lanes(truth.strings);
-            const DofArray expected =
+            const PaperWrench expected =
                 virtual_work_forces(settings, pose_of(truth), truth.tensions_n);
             for (std::size_t dof = 0; dof < kDofCount; ++dof) {
                 CAPTURE(elastic);

@@ -363,7 +363,7 @@ TEST_CASE("plant: a broken string pulls no more, winds in, and is taut when mend
     plant.advance(1.0);
     CHECK(plant.counts()[3] == 0); // all wound in
     const HandTarget pose = pose_of(plant.truth());
-    const DofArray expected = virtual_work_forces(settings, pose, plant.truth().tensions_n);
+    const PaperWrench expected = virtual_work_forces(settings, pose, plant.truth().tensions_n);
     CHECK(std::abs(lanes(plant.truth().strings)[0] - expected[0]) < 1e-7);
     plant.set_broken_strings(0);
     plant.advance(0.2);

@@ -58,13 +58,13 @@ TEST_CASE(
     bench.activate();
     for (int dof = 0; dof < kDofCount; ++dof) {
         for (const double sign : {1.0, -1.0}) {
-            DofArray q{};
+            PaperWrench q{};
             q[static_cast<std::size_t>(dof)] = sign * (dof < 3 ? 2.0 : 0.05);
             bench.ask(from_paper(q), 1.0);
             bench.tick(300);
-            const DofArray requested = to_paper(bench.now().requested);
-            const DofArray achieved = to_paper(bench.now().achieved);
-            const DofArray bias = tension_report(bench.settings, bench.now()).bias();
+            const PaperWrench requested = to_paper(bench.now().requested);
+            const PaperWrench achieved = to_paper(bench.now().achieved);
+            const PaperWrench bias = tension_report(bench.settings, bench.now()).bias();
             for (std::size_t k = 0; k < achieved.size(); ++k) {
                 CAPTURE(dof);
                 CAPTURE(k);
@@ -241,10 +241,10 @@ TEST_CASE("step: a weak motor lowers the limit of the solver, so no current is c
     }
     CHECK(bench.now().tension_status == Status::wrench_limited);
     CHECK(bench.now().counters.saturated_ticks > 0);
-    const StringArray pulled_n =
-        tensions_from_currents(bench.settings.motors, bench.drive.currents_a);
+    const StringArray per_ampere_n_a = motor_scale(bench.settings.motors).tension_per_ampere_n_a;
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        CHECK(pulled_n[i] == doctest::Approx(bench.now().tensions_n[i]));
+        const double pulled_n = bench.drive.currents_a[i] * per_ampere_n_a[i];
+        CHECK(pulled_n == doctest::Approx(bench.now().tensions_n[i]));
     }
 }
 

@@ -102,7 +102,7 @@ void LengthJacobian::factorise(std::array<StringArray, kDofCount> columns) noexc
         return; // singular, or not finite
     }
     // |R^-1| by power iteration on (R^T R)^-1.
-    DofArray x;
+    PoseStep x;
     x.fill(1.0 / std::sqrt(static_cast<double>(kDofCount)));
     double growth = 0.0;
     for (int step = 0; step < kInverseIterations; ++step) {
@@ -135,8 +135,8 @@ double LengthJacobian::parity_m(const StringArray &measured_m) const noexcept {
     return sum;
 }
 
-DofArray LengthJacobian::motion(const StringArray &length_change_m) const noexcept {
-    DofArray x{};
+PoseStep LengthJacobian::motion(const StringArray &length_change_m) const noexcept {
+    PoseStep x{};
     if (!(smallest_ > 0.0)) {
         return x;
     }

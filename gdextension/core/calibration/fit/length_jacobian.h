@@ -7,6 +7,7 @@
 #include "core/base/types.h"
 #include "core/geometry/frame_geometry.h"
 #include "core/geometry/grip_geometry.h"
+#include "core/geometry/pose_tangents.h"
 
 namespace spidar {
 
@@ -28,7 +29,7 @@ public:
     [[nodiscard]] double parity_m(const StringArray &measured_m) const noexcept;
     // The motion that best explains a change of lengths: x y z of the grip centre, then two tangent
     // displacements of each pole's end (unit: m). Zero where J is singular.
-    [[nodiscard]] DofArray motion(const StringArray &length_change_m) const noexcept;
+    [[nodiscard]] PoseStep motion(const StringArray &length_change_m) const noexcept;
 
 private:
     void factorise(std::array<StringArray, kDofCount> columns) noexcept;
@@ -37,7 +38,7 @@ private:
     StringArray lengths_m_{};
     StringArray null_{};
     std::array<StringArray, kDofCount> q_{}; // orthonormal columns
-    std::array<DofArray, kDofCount> r_{};    // r_[row][column], upper triangle
+    std::array<PoseStep, kDofCount> r_{};    // r_[row][column], upper triangle
     double smallest_ = 0.0;
 };
 

@@ -227,7 +227,7 @@ double grip_error(const DeviceModel &model, const System &system, const Unknowns
     int poses = 0;
     for (std::size_t k = 0; k < system.poses.size(); k += stride, ++poses) {
         const LengthJacobian jacobian(model.frame, model.grip, system.poses[k]);
-        std::vector<DofArray> motions;
+        std::vector<PoseStep> motions;
         for (const std::size_t unknown : unknowns) {
             StringArray change =
                 length_change(model, jacobian, system.poses[k], jacobian.lengths_m(), unknown);

@@ -264,11 +264,4 @@ RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
     return result;
 }
 
-GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
-                          const StringArray &lengths_m, int pair) noexcept {
-    return pose_of(
-        root_pair_pose(solve_closed_form(half_extents_m, pole_half_length_m, lengths_m), pair)
-            .pose);
-}
-
 } // namespace spidar

@@ -45,7 +45,7 @@ struct RootHeights {
 [[nodiscard]] RootHeights root_heights(const ClosedForm &form) noexcept;
 
 // What RootPairPose::misfit_m will be, to first order in how far the poles disagree about z: all pairs for little more
-// than the price of one. And how much of an error of the lengths a misfit may be, before kMisfitGain: it grows
+// than the price of one. And how much of an error of the lengths a misfit may be, up to a constant factor: it grows
 // towards the z faces.
 struct MisfitForecast {
     double misfit_m = 0.0;
@@ -67,9 +67,5 @@ struct RootPairPose {
 
 // Its pose alone, for a pair that is tried whatever its misfit: z without the last refinement.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
-
-// Both at once.
-[[nodiscard]] GripPose closed_form_pose(const Vec3 &half_extents_m, double pole_half_length_m,
-                                        const StringArray &lengths_m, int pair) noexcept;
 
 } // namespace spidar

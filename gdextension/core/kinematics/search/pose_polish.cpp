@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/pose_tangents.h"
-#include "core/kinematics/constants.h"
 #include "core/kinematics/steps/rigid_step.h"
 
 namespace spidar {
@@ -15,6 +14,8 @@ namespace {
 constexpr std::size_t kSize = kDofCount;
 using Matrix = std::array<PoseStep, kSize>; // lower triangle used
 
+// Quadratic convergence takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.
+constexpr int kMaxPolishSteps = 50;
 // Damping factors of the descent, relative to the diagonal (Levenberg-Marquardt).
 constexpr double kFirstDamping = 1e-3;
 constexpr double kDampingRise = 8.0;

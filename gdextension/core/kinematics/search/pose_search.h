@@ -10,6 +10,9 @@
 
 namespace spidar {
 
+// Two poses further apart than this (grip centre or pole end) are different answers, not rounding.
+inline constexpr double kDistinctPose_m = 1e-5;
+
 // What a search may use besides the problem itself.
 struct SearchTools {
     const CrossedLayout *layout = nullptr; // eyelets, two strings to each pole end: the fast steps

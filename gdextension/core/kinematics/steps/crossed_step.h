@@ -18,6 +18,10 @@ namespace spidar {
 
 inline constexpr std::size_t kSlotCount = 4;
 
+// Error that a step of size s leaves behind: about this times s^2, in metres. The poles are the most curved
+// part of the map, 1 / d = 25 for the paper's grip. Divided by the root of the pivot where that is small.
+inline constexpr double kLengthCurvature = 25.0;
+
 // Which string sits in which slot, and from where it comes.
 struct CrossedLayout {
     std::array<LaneVec, kSlotCount> motors_m;

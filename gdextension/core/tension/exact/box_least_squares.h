@@ -1,29 +1,15 @@
-// The linear algebra under solve_tension_problem(): the objective
+// The linear algebra under solve_exactly(): the objective
 //   ||W (A x - q)||^2 + w |x - t|^2
 // restricted to a set of free strings. Everything is fixed-size, 8 wide and masked (a string that is not
 // free has a unit row and column), so that no path depends on how many strings are free.
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "core/base/types.h"
-#include "core/tension/tension_solver.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
-
-using StringMask = std::uint8_t; // bit i: string i
-inline constexpr StringMask kAllStrings = 0xFF;
-
-[[nodiscard]] constexpr bool has_string(StringMask mask, std::size_t string) noexcept {
-    return ((static_cast<unsigned>(mask) >> string) & 1U) != 0U;
-}
-[[nodiscard]] constexpr StringMask with_string(StringMask mask, std::size_t string) noexcept {
-    return static_cast<StringMask>(static_cast<unsigned>(mask) | (1U << string));
-}
-[[nodiscard]] constexpr StringMask without_string(StringMask mask, std::size_t string) noexcept {
-    return static_cast<StringMask>(static_cast<unsigned>(mask) & ~(1U << string));
-}
 
 class BoxLeastSquares {
 public:
@@ -70,7 +56,9 @@ private:
     void factor_householder() noexcept;
     [[nodiscard]] Gradient gradient_precise(const StringArray &x) const noexcept;
     // W A v
-    [[nodiscard]] DofArray weighted_apply(const StringArray &v) const noexcept;
+    [[nodiscard]] PaperWrench weighted_apply(const StringArray &v) const noexcept;
+    // sum += (W A)' force
+    void add_transposed(const PaperWrench &force, StringArray &sum) const noexcept;
 
     const TensionProblem &problem_;
     std::array<Row, kDofCount> rows_{}; // W A, by DOF, 8 strings wide

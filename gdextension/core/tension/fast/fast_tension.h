@@ -1,7 +1,7 @@
 // The fast way to the optimum of a TensionProblem, which answers only what it can certify itself.
 #pragma once
 
-#include "core/tension/tension_solver.h"
+#include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
 
@@ -10,7 +10,12 @@ namespace spidar {
 struct FastInput {
     const TensionProblem &problem; // all but those two
     const WrenchMatrix &matrix;
-    const DofArray &wrench;
+    const PaperWrench &wrench;
+
+    // All of `problem`, its own matrix and wrench included.
+    static FastInput of(const TensionProblem &problem) noexcept {
+        return {problem, problem.matrix, problem.wrench};
+    }
 };
 
 // True: `solution` is the optimum to rounding, its KKT conditions checked with a gradient taken from A itself, every

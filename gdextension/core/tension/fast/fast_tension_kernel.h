@@ -94,28 +94,17 @@ private:
 
     // Bounds, target, start and R. False for bounds in disorder or nothing finite.
     bool read(const ActiveSet *warm) noexcept {
-        const Row lower = Row::load(p_.lower_n.data());
-        const Row upper = Row::load(p_.upper_n.data());
-        const Row target = Row::load(p_.proximal_target_n.data());
-        const Four most = Four::all(kLargest);
-        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
-        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
-        const Four fine_a = (lower.a <= upper.a) & (size_a <= most);
-        const Four fine_b = (lower.b <= upper.b) & (size_b <= most);
-        if (Row::bits(fine_a, fine_b) != 0xFFU || !(p_.proximal_weight > 0.0)) {
+        const BoundRows<Four> bounds(p_);
+        const auto &[lower, upper, target] = bounds;
+        if (!bounds.sound() || !(p_.proximal_weight > 0.0)) {
             return false;
         }
-        movable_ = Row::bits(lower.a < upper.a, lower.b < upper.b);
+        movable_ = bounds.movable();
         low_ = ~movable_ & 0xFFU;
         high_ = 0;
         if (warm != nullptr) {
-            // One byte a string, 1 or 2: the product gathers the lowest bits of all eight in its top byte.
-            const auto guess = std::bit_cast<std::uint64_t>(*warm);
-            constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-            constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-            low_ |= static_cast<unsigned>(((guess & kLowBits) * kGather) >> 56U);
-            high_ |= static_cast<unsigned>((((guess >> 1U) & kLowBits) * kGather) >> 56U);
-            high_ &= ~low_;
+            low_ |= strings_at(*warm, StringBound::at_lower);
+            high_ = strings_at(*warm, StringBound::at_upper) & ~low_;
         }
         const Row at_low = Row::strings(low_);
         const Row at_high = Row::strings(high_);
@@ -141,7 +130,7 @@ private:
         Four d3 = Four::load(&matrix_.columns[first + 3][3]);
         Four::transpose(c0, c1, c2, c3);
         Four::transpose(d0, d1, d2, d3);
-        const DofArray &w = p_.weights;
+        const PaperWeights &w = p_.weights;
         (c0 * Four::all(w[0])).store(&rows_[0][first]);
         (c1 * Four::all(w[1])).store(&rows_[1][first]);
         (c2 * Four::all(w[2])).store(&rows_[2][first]);
@@ -337,17 +326,10 @@ private:
         return d > kStep_n ? Verdict::correct_again : Verdict::in_doubt;
     }
 
-    // Bit i to the lowest bit of byte i.
-    static std::uint64_t spread(unsigned mask) noexcept {
-        const std::uint64_t copies = (mask & 0xFFU) * std::uint64_t{0x0101010101010101};
-        const std::uint64_t picked = copies & 0x8040201008040201ULL;
-        return ((picked + 0x7F7F7F7F7F7F7F7FULL) >> 7U) & 0x0101010101010101ULL;
-    }
-
     // False where squares overflow.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
-        solution.active = std::bit_cast<ActiveSet>(spread(low_) | (spread(high_) << 1U));
+        solution.active = active_set(low_, high_);
         solution.largest_error_n = Four::max(front_.absolute(), back_.absolute()).largest();
         solution.iterations = iterations;
         solution.status = Status::ok;
@@ -356,7 +338,7 @@ private:
 
     const TensionProblem &p_;
     const WrenchMatrix &matrix_;
-    const DofArray &wrench_;
+    const PaperWrench &wrench_;
     alignas(32) double rows_[kFastDofs][kFastStrings]; // R, by DOF
     alignas(32) double x_[kFastStrings];
     alignas(32) double y_[kFastStrings];

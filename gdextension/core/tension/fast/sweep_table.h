@@ -34,6 +34,32 @@ struct StringRow {
     static unsigned bits(Four a, Four b) noexcept { return a.bits() | (b.bits() << 4U); }
 };
 
+// What keeps a problem's tensions in place, read where it lies.
+template <class Four>
+struct BoundRows {
+    using Row = StringRow<Four>;
+    Row lower;
+    Row upper;
+    Row target;
+
+    explicit BoundRows(const TensionProblem &problem) noexcept
+        : lower(Row::load(problem.lower_n.data())), upper(Row::load(problem.upper_n.data())),
+          target(Row::load(problem.proximal_target_n.data())) {}
+
+    // False for bounds in disorder and for what is not finite.
+    [[nodiscard]] bool sound() const noexcept {
+        const Four most = Four::all(kLargest);
+        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
+        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
+        return Row::bits((lower.a <= upper.a) & (size_a <= most),
+                         (lower.b <= upper.b) & (size_b <= most)) == 0xFFU;
+    }
+    // Strings whose bounds leave them a range.
+    [[nodiscard]] unsigned movable() const noexcept {
+        return Row::bits(lower.a < upper.a, lower.b < upper.b);
+    }
+};
+
 template <class Four>
 class SweepTable {
 public:

@@ -19,7 +19,7 @@ namespace { // each source compiles its own, for its own target
 
 // NOLINTNEXTLINE(misc-definitions-in-headers): `inline` would let the linker mix the targets
 [[nodiscard]] bool is_translation_only(const TensionProblem &problem) noexcept {
-    const DofArray &w = problem.weights;
+    const PaperWeights &w = problem.weights;
     return w[3] == 0.0 && w[4] == 0.0 && w[5] == 0.0 && w[6] == 0.0;
 }
 
@@ -31,19 +31,13 @@ public:
 
     // False: `solution` means nothing, as for solve_fast().
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
-        const Row lower = Row::load(p_.lower_n.data());
-        const Row upper = Row::load(p_.upper_n.data());
-        const Row target = Row::load(p_.proximal_target_n.data());
-        const Four most = Four::all(kLargest);
-        const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
-        const Four size_b = lower.b.absolute() + upper.b.absolute() + target.b.absolute();
-        const unsigned fine = Row::bits((lower.a <= upper.a) & (size_a <= most),
-                                        (lower.b <= upper.b) & (size_b <= most));
+        const BoundRows<Four> bounds(p_);
+        const auto &[lower, upper, target] = bounds;
         const double w = p_.proximal_weight;
-        if (fine != 0xFFU || !(w > 0.0)) {
+        if (!bounds.sound() || !(w > 0.0)) {
             return false;
         }
-        const unsigned movable = Row::bits(lower.a < upper.a, lower.b < upper.b);
+        const unsigned movable = bounds.movable();
         read_half(0);
         read_half(4);
         const double b0 = p_.weights[0] * wrench_[0];
@@ -52,8 +46,8 @@ public:
         unsigned low = ~movable & 0xFFU;
         unsigned high = 0;
         if (warm != nullptr) {
-            low |= strings_at(*warm, 0);
-            high = strings_at(*warm, 1) & ~low;
+            low |= strings_at(*warm, StringBound::at_lower);
+            high = strings_at(*warm, StringBound::at_upper) & ~low;
         }
         const Row at_low = Row::strings(low);
         const Row at_high = Row::strings(high);
@@ -115,25 +109,6 @@ private:
         return ab > size(c) ? ab : size(c);
     }
 
-    // Strings whose byte of the set has this bit.
-    static unsigned strings_at(const ActiveSet &active, unsigned bit) noexcept {
-        constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
-        constexpr std::uint64_t kGather = 0x0102040810204080ULL;
-        const auto bytes = std::bit_cast<std::uint64_t>(active);
-        return static_cast<unsigned>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
-    }
-
-    static constexpr auto kAtLower = static_cast<std::uint64_t>(StringBound::at_lower);
-    static constexpr auto kAtUpper = static_cast<std::uint64_t>(StringBound::at_upper);
-    // 1 in byte k where bit k is set: each byte keeps its own bit of the copies, and what is not 0 carries into bit 7.
-    static std::uint64_t a_byte_a_string(unsigned strings) noexcept {
-        constexpr std::uint64_t kCopies = 0x0101010101010101ULL;
-        constexpr std::uint64_t kOwnBit = 0x8040201008040201ULL;
-        constexpr std::uint64_t kAllButTop = 0x7F7F7F7F7F7F7F7FULL;
-        const std::uint64_t own = (strings * kCopies) & kOwnBit;
-        return (((own & kAllButTop) + kAllButTop) | own) >> 7U & kCopies;
-    }
-
     void read_half(std::size_t first) noexcept {
         Four c0 = Four::load(&matrix_.columns[first][0]);
         Four c1 = Four::load(&matrix_.columns[first + 1][0]);
@@ -192,8 +167,7 @@ private:
             return false;
         }
         x.store(solution.tensions_n.data());
-        solution.active = std::bit_cast<ActiveSet>(a_byte_a_string(low) * kAtLower |
-                                                   a_byte_a_string(high) * kAtUpper);
+        solution.active = active_set(low, high);
         solution.largest_error_n = error_n;
         solution.iterations = steps;
         solution.status = Status::ok;
@@ -202,7 +176,7 @@ private:
 
     const TensionProblem &p_;
     const WrenchMatrix &matrix_;
-    const DofArray &wrench_;
+    const PaperWrench &wrench_;
     Row row_[3];         // R
     double adjugate_[6]; // xx xy xz yy yz zz
     double over_ = 0.0;  // 1 / determinant

@@ -6,18 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "device/contract/cycle_input.h"
 #include "device/contract/servo_snapshot.h"
-#include "device/contract/transport.h"
 
 namespace spidar {
-
-struct CycleInput {
-    DeviceReading reading;
-    double dt_s = 0.001;
-    Status read_status = Status::ok;
-    Status write_status = Status::ok; // what report_write() was told
-    bool may_arm_itself = false;
-};
 
 // What a replay must reproduce to the bit: what went to the motors, and what the game was told.
 struct CycleOutput {
@@ -34,7 +26,6 @@ struct CycleOutput {
 };
 
 inline constexpr std::size_t kOutputTensions = 8; // where tensions_n begin in CycleOutput::values
-inline constexpr std::size_t kOutputTime = CycleOutput::kValues - 1;
 
 void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
                  CycleOutput &output) noexcept;

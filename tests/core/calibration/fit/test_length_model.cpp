@@ -26,7 +26,8 @@ TEST_CASE(
         }
         CHECK(square == doctest::Approx(1.0).epsilon(1e-14));
         // A nu = 0: strings pulled by nu give no wrench (moments in units of the pole).
-        const DofArray wrench = spidar::apply(wrench_matrix(device.frame, device.grip, pose), nu);
+        const PaperWrench wrench =
+            spidar::apply(wrench_matrix(device.frame, device.grip, pose), nu);
         for (std::size_t row = 0; row < kDofCount; ++row) {
             CHECK(std::fabs(wrench[row]) < 1e-14);
         }
@@ -40,7 +41,7 @@ TEST_CASE(
         for (std::size_t i = 0; i < kStringCount; ++i) {
             change[i] = lengths[i] - jacobian.lengths_m()[i];
         }
-        const DofArray motion = jacobian.motion(change);
+        const PoseStep motion = jacobian.motion(change);
         const double sigma = jacobian.smallest_singular();
         CHECK(sigma > 0.0);
         CHECK(std::fabs(motion[0] - 1e-5) < 1e-8 / sigma);

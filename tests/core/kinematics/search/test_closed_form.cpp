@@ -11,7 +11,7 @@ using test::kDeg;
 namespace {
 
 GripPose root_pair(const StringArray &lengths, int pair) {
-    return closed_form_pose(Vec3(kPaperHalfExtent_m), kPaperPoleHalfLength_m, lengths, pair);
+    return test::closed_form_pose(Vec3(kPaperHalfExtent_m), kPaperPoleHalfLength_m, lengths, pair);
 }
 
 } // namespace

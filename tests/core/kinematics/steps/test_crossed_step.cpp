@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/kinematics/constants.h"
 #include "core/kinematics/search/pose_polish.h"
 #include "core/kinematics/steps/crossed_step.h"
 #include "core/kinematics/steps/gauss_newton.h"

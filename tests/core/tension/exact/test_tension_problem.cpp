@@ -240,13 +240,13 @@ TEST_CASE(
     for (const double bad : bad_values) {
         TensionProblem problem = good;
         std::vector<double *> fields;
-        for (DofArray &column : problem.matrix.columns) {
+        for (PaperWrench &column : problem.matrix.columns) {
             for (double &value : column) {
                 fields.push_back(&value);
             }
         }
-        for (DofArray *array : {&problem.wrench, &problem.weights}) {
-            for (double &value : *array) {
+        for (auto *values : {&problem.wrench.values, &problem.weights.values}) {
+            for (double &value : *values) {
                 fields.push_back(&value);
             }
         }
@@ -298,4 +298,22 @@ TEST_CASE(
     solution = solve_tension_problem(problem, nullptr);
     CHECK(solution.status == Status::ok);
     CHECK(solution.tensions_n == problem.lower_n);
+}
+
+TEST_CASE("active set: a byte a string and a bit a string say the same, for all 3^8 sets") {
+    for (int number = 0; number < 6561; ++number) {
+        ActiveSet active{};
+        unsigned low = 0;
+        unsigned high = 0;
+        int digits = number;
+        for (std::size_t i = 0; i < active.size(); ++i, digits /= 3) {
+            active[i] = static_cast<StringBound>(digits % 3);
+            low |= active[i] == StringBound::at_lower ? 1U << i : 0U;
+            high |= active[i] == StringBound::at_upper ? 1U << i : 0U;
+        }
+        REQUIRE(strings_at(active, StringBound::at_lower) == low);
+        REQUIRE(strings_at(active, StringBound::at_upper) == high);
+        REQUIRE(active_set(low, high) == active);
+        REQUIRE(active_set(low | 0x100U, high | 0xF00U) == active);
+    }
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/simd_level.h"
 #include "core/tension/fast/fast_tension.h"
+#include "core/tension/tension_solver.h"
 #include "support/exact_optimum.h"
 #include "support/problem_generator.h"
 
@@ -64,8 +65,7 @@ TEST_CASE("fast tension: what it certifies is optimal in quad precision, at ever
             const bool is_easy = (named.kind == "central" || named.kind == "strong") &&
                                  named.problem.proximal_weight > 1e-7;
             easy += is_easy ? 1 : 0;
-            if (!solve_fast({named.problem, named.problem.matrix, named.problem.wrench}, nullptr,
-                            solution)) {
+            if (!solve_fast(FastInput::of(named.problem), nullptr, solution)) {
                 continue;
             }
             answered += is_easy ? 1 : 0;
@@ -91,7 +91,7 @@ TEST_CASE("fast tension: both levels and the safe search agree") {
     for (std::uint64_t seed = 92000; seed < 92300; ++seed) {
         TensionProblem problem = test::random_problem(seed).problem;
         problem.proximal_weight = 1e-4;
-        const TensionSolution safe = solve_tension_problem_safely(problem, nullptr);
+        const TensionSolution safe = solve_exactly(problem, nullptr);
         for (const SimdLevel level : kLevels) {
             const LevelInUse in_use(level);
             const TensionSolution fast = solve_tension_problem(problem, &safe.active);
@@ -136,17 +136,17 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
             problem.proximal_weight = 0.1;
             test::Random random(~seed);
             const double scale = std::pow(10.0, random.uniform(3.0, 5.5));
-            for (DofArray &column : problem.matrix.columns) {
+            for (PaperWrench &column : problem.matrix.columns) {
                 for (double &value : column) {
                     value *= scale;
                 }
             }
             TensionSolution fast;
-            if (!solve_fast({problem, problem.matrix, problem.wrench}, nullptr, fast)) {
+            if (!solve_fast(FastInput::of(problem), nullptr, fast)) {
                 continue;
             }
             ++answered;
-            const TensionSolution safe = solve_tension_problem_safely(problem, nullptr);
+            const TensionSolution safe = solve_exactly(problem, nullptr);
             CAPTURE(seed);
             for (std::size_t i = 0; i < fast.tensions_n.size(); ++i) {
                 CHECK(std::abs(fast.tensions_n[i] - safe.tensions_n[i]) < 1e-11);
@@ -168,7 +168,7 @@ TEST_CASE("DOF mask: a far bound guessed wrongly leaves no rounding behind (foun
             const ActiveSet guess = {StringBound::free, StringBound::free, StringBound::free,
                                      StringBound::free, StringBound::at_lower};
             const StringArray given = solve_tension_problem(problem, &guess).tensions_n;
-            const StringArray safe = solve_tension_problem_safely(problem, nullptr).tensions_n;
+            const StringArray safe = solve_exactly(problem, nullptr).tensions_n;
             CAPTURE(seed);
             for (std::size_t i = 0; i < given.size(); ++i) {
                 CHECK(std::abs(given[i] - safe[i]) < 1e-10);
@@ -191,7 +191,7 @@ TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
             pose.position_m = Vec3(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05),
                                    random.uniform(-0.05, 0.05));
             const WrenchMatrix matrix = wrench_matrix(frame, GripGeometry{}, pose);
-            DofArray wrench{};
+            PaperWrench wrench{};
             for (std::size_t k = 0; k < wrench.size(); ++k) {
                 wrench[k] = random.uniform(-1.0, 1.0) * (k < 3 ? 1.0 : 0.02);
             }
@@ -209,7 +209,7 @@ TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
                                         bare.proximal_weight);
             bare.lower_n.fill(settings.min_tension_n);
             bare.upper_n.fill(settings.max_tension_n);
-            const StringArray expected = solve_tension_problem_safely(bare, nullptr).tensions_n;
+            const StringArray expected = solve_exactly(bare, nullptr).tensions_n;
             CAPTURE(i);
             for (std::size_t s = 0; s < expected.size(); ++s) {
                 CHECK(std::abs(result.tensions_n[s] - expected[s]) < 1e-11);

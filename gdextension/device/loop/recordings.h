@@ -1,0 +1,48 @@
+// The recording that a loop makes, and those that were stopped while the loop's thread may still hold them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/recording/recorder.h"
+
+namespace spidar {
+
+class Recordings {
+public:
+    // From the controlling thread. in_time: the loop runs in a thread of its own. Empty: recording. Else one sentence.
+    [[nodiscard]] std::string start(const std::string &path, const ServoSettings &settings,
+                                    bool in_time);
+    void stop() noexcept;
+    // The same, while the loop rests: nothing holds a recorder.
+    void stop_at_rest() noexcept;
+    [[nodiscard]] bool recording() const noexcept {
+        return current_.load(std::memory_order_relaxed) != nullptr;
+    }
+    // Of the recording that runs, or else of the last one.
+    [[nodiscard]] RecorderStatistics statistics() const noexcept;
+
+    // From the loop's thread: what this cycle is recorded by, null for nothing; and the end of a cycle.
+    [[nodiscard]] Recorder *current() const noexcept {
+        return current_.load(std::memory_order_acquire);
+    }
+    void end_cycle() noexcept {
+        cycles_.store(cycles_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    }
+
+private:
+    // The one that records now is the last.
+    struct Owned {
+        std::unique_ptr<Recorder> recorder;
+        std::uint64_t free_at_cycle = UINT64_MAX; // from then on the loop has let go of it
+    };
+    std::vector<Owned> owned_;
+    std::atomic<Recorder *> current_{nullptr};
+    std::atomic<std::uint64_t> cycles_{0};
+    RecorderStatistics last_;
+};
+
+} // namespace spidar

@@ -1,0 +1,70 @@
+#include "device/loop/servo_cycle.h"
+
+namespace spidar {
+
+Status ServoCycle::configure(const ServoSettings &settings) noexcept {
+    const Status configured = step_.configure(settings);
+    if (!usable(configured)) {
+        return configured;
+    }
+    source_->read_command(given_.command);
+    step_.acknowledge(given_.command);
+    given_.input = CycleInput();
+    host_events_ = EventLog();
+    return configured;
+}
+
+void ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
+    Recorder *const recorder = recordings_.current();
+    CycleInput &input = given_.input;
+    input.dt_s = dt_s;
+    if (!source_->next(given_, step_, host_events_)) {
+        return; // the end: what was last shown stays
+    }
+    if (recorder != nullptr) {
+        recorder->begin(step_);
+    }
+    const DriveCommand drive = step_.step(input.read_status, input.reading, given_.command,
+                                          input.dt_s, input.may_arm_itself);
+    const bool lost = step_.snapshot().state == DeviceState::closed;
+    input.write_status = source_->write(drive);
+    if (!lost) {
+        step_.report_write(input.write_status); // a lost device is not lost a second time
+    }
+    const ServoSnapshot &snapshot = step_.snapshot();
+    if (recorder != nullptr) {
+        recorder->end(input, drive, snapshot, given_.command, given_.command_is_new);
+    }
+    for (const auto &log : {step_.events(), host_events_.events()}) {
+        for (const DeviceEvent &event : log) {
+            events_.push(event);
+        }
+    }
+    host_events_.begin_cycle(snapshot.time_s);
+    snapshots_.write(snapshot);
+    source_->finish(snapshot, drive, input.dt_s);
+    recordings_.end_cycle();
+}
+
+void ServoCycle::show_open_failed(Status why) noexcept {
+    ServoSnapshot closed;
+    closed.fault = why;
+    snapshots_.write(closed);
+    events_.push({0.0, 0.0, DeviceEventKind::open_failed, -1, 0});
+}
+
+void ServoCycle::show_closed() noexcept {
+    ServoSnapshot last = step_.snapshot();
+    last.state = DeviceState::closed; // no device, no force
+    last.tensions_n = {};
+    last.requested = Wrench();
+    last.achieved = Wrench();
+    last.force_scale = 0.0;
+    last.at_min_mask = 0;
+    last.at_max_mask = 0;
+    last.grip.twist = Twist();
+    last.grip.status = Status::not_open;
+    snapshots_.write(last);
+}
+
+} // namespace spidar

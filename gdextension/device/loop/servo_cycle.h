@@ -1,0 +1,45 @@
+// One servo cycle after the other: read, compute, write; and what the rest of the program sees of it.
+#pragma once
+
+#include <memory>
+
+#include "device/loop/recordings.h"
+#include "device/step/cycle_source.h"
+#include "device/step/servo_step.h"
+#include "device/threads/event_queue.h"
+#include "device/threads/nonblocking.h"
+#include "device/threads/triple_buffer.h"
+
+namespace spidar {
+
+class ServoCycle {
+public:
+    explicit ServoCycle(std::unique_ptr<CycleSource> source) : source_(std::move(source)) {}
+
+    // At rest. What was asked and what happened before does not act after it.
+    Status configure(const ServoSettings &settings) noexcept;
+    // From the loop's thread: one cycle of this length.
+    void run(double dt_s) noexcept SPIDAR_NONBLOCKING;
+    // Where no cycle runs: what a reader sees of a device that did not open, or was closed.
+    void show_open_failed(Status why) noexcept;
+    void show_closed() noexcept;
+
+    [[nodiscard]] CycleSource &source() noexcept { return *source_; }
+    [[nodiscard]] Recordings &recordings() noexcept { return recordings_; }
+    // Of the host, beside the step's. From the loop's thread.
+    [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
+    // From the controlling thread; false: nothing new.
+    bool latest(ServoSnapshot &snapshot) noexcept { return snapshots_.read(snapshot); }
+    bool next_event(DeviceEvent &event) noexcept { return events_.pop(event); }
+
+private:
+    std::unique_ptr<CycleSource> source_;
+    ServoStep step_;
+    CycleGiven given_;
+    Recordings recordings_;
+    EventLog host_events_;
+    EventQueue events_;
+    TripleBuffer<ServoSnapshot> snapshots_;
+};
+
+} // namespace spidar

@@ -1,0 +1,66 @@
+// A recording that is played again: gives a servo loop what the recorded one was given, and compares what comes out with
+// what came out then, bit for bit. No motor is behind it, and no game's command comes between.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "device/recording/recording_file.h"
+#include "device/step/cycle_source.h"
+
+namespace spidar {
+
+struct ReplayReport {
+    std::uint64_t cycles = 0;          // replayed so far
+    std::uint64_t differing = 0;       // gave other bits than in the recording
+    std::uint64_t first_differing = 0; // its tick; 0: none
+    std::uint64_t lost = 0;            // missing in the recording
+    bool finished = false;             // nothing more to replay
+    // The last cycle's time, and what was recorded of it.
+    double time_s = 0.0;
+};
+
+class Replay final : public CycleSource {
+public:
+    // Empty: ready for ServoLoop. Else one sentence: no file, damaged, of another build.
+    [[nodiscard]] std::string load(const std::string &path);
+
+    // Those of the recorded device: what to start the loop with.
+    [[nodiscard]] const ServoSettings &settings() const noexcept { return reader_.info().settings; }
+    [[nodiscard]] const RecordingInfo &info() const noexcept { return reader_.info(); }
+
+    // Sets the process to the vector level of the recording, and back when closed.
+    Status open() noexcept override;
+    void close() noexcept override;
+    [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
+    // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
+    bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
+    Status write(const DriveCommand &drive) noexcept override;
+    // Compares.
+    void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
+                double dt_s) noexcept override;
+
+    // The cycle that was last replayed, as recorded. From the loop's thread, or when it rests.
+    [[nodiscard]] const RecordedCycle &cycle() const noexcept { return cycle_; }
+
+    // From any thread.
+    [[nodiscard]] ReplayReport report() const noexcept;
+    // When finished: empty, or why the recording ends before its time.
+    [[nodiscard]] std::string damage() const;
+
+private:
+    RecordingReader reader_;
+    RecordedCycle cycle_;
+    SimdLevel level_before_ = SimdLevel::plain;
+    bool is_open_ = false;
+    std::atomic<std::uint64_t> cycles_{0};
+    std::atomic<std::uint64_t> differing_{0};
+    std::atomic<std::uint64_t> first_differing_{0};
+    std::atomic<std::uint64_t> lost_{0};
+    std::atomic<double> time_s_{0.0};
+    std::atomic<bool> finished_{false};
+};
+
+} // namespace spidar

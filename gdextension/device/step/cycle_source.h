@@ -1,0 +1,57 @@
+// Where the cycles of a servo loop come from: a device that a game drives, or a recording that is played again.
+#pragma once
+
+#include <cstdint>
+
+#include "device/contract/cycle_input.h"
+#include "device/contract/device_event.h"
+#include "device/contract/haptic_command.h"
+#include "device/contract/servo_snapshot.h"
+
+namespace spidar {
+
+class ServoStep;
+
+// What one servo cycle is given.
+struct CycleGiven {
+    CycleInput input;
+    HapticCommand command;
+    bool command_is_new = false; // may differ from the cycle before
+};
+
+class CycleSource {
+public:
+    CycleSource() = default;
+    CycleSource(const CycleSource &) = delete;
+    CycleSource &operator=(const CycleSource &) = delete;
+    virtual ~CycleSource() = default;
+
+    // Not from a servo cycle: may allocate and wait. close() is safe when not open.
+    virtual Status open() noexcept = 0;
+    virtual void close() noexcept = 0;
+    // Each cycle lasts one period exactly, however long it took.
+    [[nodiscard]] virtual bool simulated() const noexcept = 0;
+
+    // In each cycle, these three in this order. next() brings `given` up to date; input.dt_s holds the time that the loop
+    // measured. It may set `step` to another state. False: there is no cycle left.
+    virtual bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept = 0;
+    virtual Status write(const DriveCommand &drive) noexcept = 0;
+    virtual void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
+                        double dt_s) noexcept = 0;
+
+    // What follows has a meaning for devices only.
+    // Before the first cycle. threaded: cycles come in real time, from a thread of the loop's own.
+    virtual Status begin(bool /*threaded*/) noexcept { return Status::ok; }
+    // After the last cycle.
+    virtual void motors_off() noexcept {}
+    // As Transport::wait_report().
+    [[nodiscard]] virtual bool wait_report(std::int64_t /*until_ns*/) noexcept { return false; }
+    // What a game wants. From the controlling thread; the newest command wins. Wait-free.
+    virtual void publish(const HapticCommand & /*command*/) noexcept {}
+    // The newest published command. From the loop's thread. False: none came since the last call.
+    virtual bool read_command(HapticCommand & /*command*/) noexcept { return false; }
+    // Motors off as soon as can be. From any thread, one atomic.
+    virtual void panic() noexcept {}
+};
+
+} // namespace spidar
