@@ -39,6 +39,7 @@ def main():
         ("columns in another order", [header[i] for i in order],
          [[r[i] for i in order] for r in rows], PASS, "failures 0"),
         ("one more column", header + ["remark"], [r + ["x"] for r in rows], PASS, "failures 0"),
+        ("a byte order mark", ["\ufeff" + header[0], *header[1:]], rows, PASS, "failures 0"),
         ("z off by 1e-12 m", header, altered(rows, header, 0, "z", shifted), FAIL, "position"),
         ("noisy r2x off by 2e-9 m", header,
          altered(rows, header, noisy, "r2x", shifted_noisy), FAIL, "r2"),
@@ -56,7 +57,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "fk.csv")
         for name, names, lines, code, text in cases:
-            with open(path, "w", newline="") as file:
+            with open(path, "w", encoding="utf-8", newline="") as file:
                 csv.writer(file).writerows([names, *lines])
             run = subprocess.run([program, "fk", path], capture_output=True, text=True, check=False)
             good = run.returncode == code and text in run.stdout + run.stderr

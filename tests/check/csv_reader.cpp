@@ -30,6 +30,14 @@ void strip_carriage_return(std::string &line) {
     }
 }
 
+// Spreadsheets begin a UTF-8 file with it.
+void strip_byte_order_mark(std::string &line) {
+    constexpr const char *kMark = "\xEF\xBB\xBF";
+    if (line.rfind(kMark, 0) == 0) {
+        line.erase(0, 3);
+    }
+}
+
 } // namespace
 
 CsvTable::CsvTable(const std::string &path) : path_(path) {
@@ -42,6 +50,7 @@ CsvTable::CsvTable(const std::string &path) : path_(path) {
         throw CsvError(path + ": is empty; the first line must name the columns.");
     }
     strip_carriage_return(line);
+    strip_byte_order_mark(line);
     header_ = split(line);
     for (std::size_t i = 0; i < header_.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {

@@ -101,6 +101,21 @@ def check_balance(check, participants):
         check(len(counts) == 4 and len(set(counts.values())) == 1, f"first conditions: {counts}")
 
 
+def check_spreadsheets(check):
+    """A file that a German spreadsheet saved (a byte order mark, semicolons, decimal commas) reads like the original."""
+    folder = os.path.join(OUT, "spreadsheet")
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "summary.csv"), "w", encoding="utf-8-sig", newline="") as file:
+        file.write("task;condition;task_time_s;note\r\npick_and_place;mouse;12,5;a, b\r\n")
+    sys.path.insert(0, os.path.join(ROOT, "tools", "results"))
+    import results
+
+    read = results.read(folder, "summary.csv")
+    wanted = [{"task": "pick_and_place", "condition": "mouse", "task_time_s": "12.5", "note": "a, b"}]
+    check(read == wanted, f"a spreadsheet's file: {read}")
+    shutil.rmtree(folder)
+
+
 def check_figures(check, python, participants):
     figures = os.path.join(OUT, "results")
     done = subprocess.run([python, os.path.join(ROOT, "tools", "results", "results.py"), OUT, "--out", figures],
@@ -151,6 +166,7 @@ def main():
     for participant, (code, output) in zip(participants, ended):
         check_participant(check, participant, code, output)
     check_balance(check, participants)
+    check_spreadsheets(check)
     check_figures(check, arguments.python, participants)
     print(f"{counts[0]} passed, {counts[1]} failed")
     return 1 if counts[1] else 0

@@ -21,6 +21,8 @@ struct FakeDevice {
     FirmwareModel firmware;
     bool plugged = true;
     bool permitted = true;
+    // As Windows does: a feature report is read into a buffer for the longest one, and all of it counts as read.
+    bool wants_largest_buffer = false;
     std::atomic<bool> writes_hang{false};
     std::uint32_t generation = 0; // counts plug-ins: handles of an earlier one are dead
     std::mutex mutex;
@@ -74,8 +76,11 @@ public:
         if (dead() || size == 0 || size > bytes.size()) {
             return -1;
         }
+        if (device_->wants_largest_buffer && bytes.size() < kLargestReport) {
+            return -1;
+        }
         std::copy_n(report.begin(), size, bytes.begin());
-        return static_cast<int>(size);
+        return static_cast<int>(device_->wants_largest_buffer ? kLargestReport : size);
     }
     int send_feature(std::span<const std::uint8_t> bytes) noexcept override {
         const std::lock_guard<std::mutex> lock(device_->mutex);

@@ -10,6 +10,7 @@ import argparse
 import csv
 import math
 import os
+import re
 import statistics
 import sys
 
@@ -21,6 +22,7 @@ COLOURS = {"forces_on": "#e0694f", "forces_off": "#e3ae3c", "mouse": "#4f83d1", 
 PAPER_MATCHES = (60.0, 70.0)
 PAPER_OVERALL = 80.0
 NOT_COMPARABLE = "dotted: the paper's 60-70 % (matches) and 80 % (overall); other device, tasks and people: not comparable"
+DECIMAL_COMMA = re.compile(r"^(-?\d*),(\d+(?:[eE][-+]?\d+)?)$")
 SATISFIED_FROM = 4  # of 5: "good" and "best"
 
 
@@ -30,11 +32,20 @@ def read(folder, name):
     for place, _, names in sorted(os.walk(folder)):
         if name not in names:
             continue
-        with open(os.path.join(place, name), encoding="utf-8", newline="") as file:
+        with open(os.path.join(place, name), encoding="utf-8-sig", newline="") as file:
             text = file.read()
-        whole = text[: text.rfind("\n") + 1]
-        rows += list(csv.DictReader(whole.splitlines()))
+        rows += rows_of(text[: text.rfind("\n") + 1])
     return rows
+
+
+def rows_of(text):
+    """The rows of a CSV file, also of one that a spreadsheet saved where the comma is the decimal mark: fields are then
+    parted by semicolons, and 0,5 is read as 0.5."""
+    lines = text.splitlines()
+    if not lines or lines[0].count(";") <= lines[0].count(","):
+        return list(csv.DictReader(lines))
+    return [{key: DECIMAL_COMMA.sub(r"\1.\2", value) if value else value for key, value in row.items()}
+            for row in csv.DictReader(lines, delimiter=";")]
 
 
 def numbers_of(rows, column, **where):

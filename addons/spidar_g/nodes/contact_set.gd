@@ -47,6 +47,12 @@ func replace(found: Array[ContactPlane]) -> void:
 	planes = kept
 
 
+## Leaves out the farthest planes beyond `most`, where scripts use some of the device's contacts.
+func keep_nearest(most: int) -> void:
+	if planes.size() > most:
+		planes.resize(maxi(most, 0))
+
+
 ## Appends SpidarG's rows for a grip centred on `centre` (world).
 func pack_into(rows: PackedFloat64Array, centre: Vector3) -> void:
 	for plane: ContactPlane in planes:

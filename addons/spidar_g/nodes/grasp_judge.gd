@@ -36,13 +36,15 @@ func judge(
 ) -> Verdict:
 	var problem: String = ""
 	var body: RigidBody3D = jaw.body as RigidBody3D
-	if body == null:
+	if body == null or body.is_queued_for_deletion():
 		return Verdict.WAIT  # A wall or a fixed peg: it has a width, and nobody expects to lift it.
 	var friction: float = _friction_on(body)
 	var carried_n: float = 2.0 * friction * finger_force_n
 	var weight_n: float = weight_scale * body.mass * _gravity_on(body)
 	if body.freeze:
 		problem = "the body is frozen: set freeze to false to let it be lifted"
+	elif PhysicsServer3D.body_get_mode(body.get_rid()) < PhysicsServer3D.BODY_MODE_RIGID:
+		problem = "the body is disabled: let its process_mode run to let it be lifted"
 	elif jaw.opposition_deg() < MIN_OPPOSITION_DEG:
 		problem = (
 			"its faces are %.0f degrees apart, at least %.0f are needed: turn the grip"
@@ -78,4 +80,5 @@ func _friction_on(body: RigidBody3D) -> float:
 
 
 static func _gravity_on(body: RigidBody3D) -> float:
-	return PhysicsServer3D.body_get_direct_state(body.get_rid()).total_gravity.length()
+	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
+	return state.total_gravity.length() if state != null else 0.0

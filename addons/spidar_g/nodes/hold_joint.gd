@@ -16,7 +16,10 @@ var _caught: Transform3D = Transform3D.IDENTITY
 var _off_centre_m: float = 0.0
 var _seat: Transform3D = Transform3D.IDENTITY
 var _age_s: float = 0.0
-var _could_sleep: bool = true
+var _key: int = 0
+## How many hold a body, by its instance, and whether it could sleep before the first did.
+static var _holds: Dictionary[int, int] = {}
+static var _could_sleep: Dictionary[int, bool] = {}
 
 
 func _init() -> void:
@@ -29,7 +32,11 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 	_off_centre_m = off_centre_m
 	_age_s = 0.0
 	_caught = grip.affine_inverse() * body.global_transform
-	_could_sleep = body.can_sleep
+	var key: int = body.get_instance_id()
+	if not _holds.has(key):
+		_could_sleep[key] = body.can_sleep
+	_holds[key] = _holds.get(key, 0) + 1
+	_key = key
 	body.can_sleep = false
 	body.sleeping = false
 	_anchor = AnimatableBody3D.new()
@@ -44,6 +51,15 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 	_joint.global_transform = body.global_transform
 	_joint.node_a = _joint.get_path_to(_anchor)
 	_joint.node_b = _joint.get_path_to(body)
+
+
+## False when the body was taken out of the physics, or made one that nothing moves: disabled, frozen or freed.
+func is_movable() -> bool:
+	if not is_instance_valid(body) or body.is_queued_for_deletion():
+		return false
+	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
+	var mode: PhysicsServer3D.BodyMode = PhysicsServer3D.body_get_mode(body.get_rid())
+	return state != null and mode >= PhysicsServer3D.BODY_MODE_RIGID
 
 
 ## Moves on by one physics frame: call once, before where() and follow().
@@ -90,8 +106,14 @@ func detach(max_speed_m_s: float) -> void:
 		_joint.node_b = NodePath()
 		_joint.queue_free()
 		_anchor.queue_free()
+	_holds[_key] = _holds.get(_key, 1) - 1
+	var was_last: bool = _holds[_key] <= 0
+	if is_instance_valid(body) and was_last:
+		body.can_sleep = _could_sleep[_key]
+	if was_last:
+		_holds.erase(_key)
+		_could_sleep.erase(_key)
 	if is_instance_valid(body):
-		body.can_sleep = _could_sleep
 		body.linear_velocity = body.linear_velocity.limit_length(max_speed_m_s)
 	body = null
 	_joint = null

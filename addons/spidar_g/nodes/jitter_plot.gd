@@ -1,3 +1,4 @@
+@tool
 ## Bars of how late the servo thread woke up, on logarithmic scales: two bars an octave.
 extends Control
 

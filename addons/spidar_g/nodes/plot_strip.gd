@@ -1,3 +1,4 @@
+@tool
 ## A strip of curves that run from right to left: the newest value is at the right edge.
 extends Control
 

@@ -23,6 +23,9 @@ const ContactPlane := preload("contact_plane.gd")
 const ContactSet := preload("contact_set.gd")
 const GraspJudge := preload("grasp_judge.gd")
 const GraspStop := preload("grasp_stop.gd")
+const HandPlace := preload("hand/place.gd")
+const HandRanges := preload("hand/ranges.gd")
+const HandRequests := preload("hand/requests.gd")
 const HeldLoad := preload("held_load.gd")
 const HoldJoint := preload("hold_joint.gd")
 const JawSensor := preload("jaw_sensor.gd")
@@ -52,25 +55,41 @@ const BREAK_TIME_S: float = 0.05
 @export_flags_3d_physics var collision_mask: int = 1
 @export_group("Contact", "contact_")
 ## Surfaces nearer than this (device metres) are published, so that the device has them before the hand does.
-@export_range(0.01, 0.1, 0.001, "suffix:m") var contact_margin_m: float = 0.04
+@export_range(0.01, 0.1, 0.001, "suffix:m") var contact_margin_m: float = 0.04:
+	set(value):
+		contact_margin_m = HandRanges.checked(&"contact_margin_m", value, contact_margin_m)
 ## Of every surface, per device metre. Above 350 light hands may buzz on slow links.
-@export_range(50.0, 2000.0, 1.0, "suffix:N/m") var contact_stiffness_n_m: float = 350.0
-@export_range(0.0, 5.0, 0.1, "suffix:N s/m") var contact_damping_n_s_m: float = 2.0
-@export_range(0.0, 2.0, 0.01) var contact_friction: float = 0.4
+@export_range(50.0, 2000.0, 1.0, "suffix:N/m") var contact_stiffness_n_m: float = 350.0:
+	set(value):
+		contact_stiffness_n_m = HandRanges.checked(&"contact_stiffness_n_m", value, contact_stiffness_n_m)
+@export_range(0.0, 5.0, 0.1, "suffix:N s/m") var contact_damping_n_s_m: float = 2.0:
+	set(value):
+		contact_damping_n_s_m = HandRanges.checked(&"contact_damping_n_s_m", value, contact_damping_n_s_m)
+@export_range(0.0, 2.0, 0.01) var contact_friction: float = 0.4:
+	set(value):
+		contact_friction = HandRanges.checked(&"contact_friction", value, contact_friction)
 @export_group("Grasp")
 ## Between a pad and a body. A body whose physics material is smoother takes its own, unless it is marked rough.
-@export_range(0.0, 2.0, 0.01) var pad_friction: float = 1.0
+@export_range(0.0, 2.0, 0.01) var pad_friction: float = 1.0:
+	set(value):
+		pad_friction = HandRanges.checked(&"pad_friction", value, pad_friction)
 ## Least grasp torque that holds anything, however light.
-@export_range(0.0, 0.4, 0.001, "suffix:N m") var hold_torque_nm: float = 0.005
+@export_range(0.0, 0.4, 0.001, "suffix:N m") var hold_torque_nm: float = 0.005:
+	set(value):
+		hold_torque_nm = HandRanges.checked(&"hold_torque_nm", value, hold_torque_nm)
 ## A held body pressed against the world harder than this is torn from the pads.
-@export_range(0.5, 50.0, 0.1, "suffix:N") var break_force_n: float = 7.0
+@export_range(0.5, 50.0, 0.1, "suffix:N") var break_force_n: float = 7.0:
+	set(value):
+		break_force_n = HandRanges.checked(&"break_force_n", value, break_force_n)
 @export_group("Feel")
 @export var render_contacts: bool = true
 @export var render_width: bool = true
 @export var render_weight: bool = true
 @export var render_inertia: bool = true
 ## Multiplies the felt weight and inertia, for scenes whose masses the device cannot carry.
-@export_range(0.0, 2.0, 0.01) var weight_scale: float = 1.0
+@export_range(0.0, 2.0, 0.01) var weight_scale: float = 1.0:
+	set(value):
+		weight_scale = HandRanges.checked(&"weight_scale", value, weight_scale)
 
 ## The parent, or null: then nothing happens and a configuration warning says why.
 var spidar: SpidarG = null
@@ -86,15 +105,17 @@ var _shown_pads: ShownPads = ShownPads.new()
 var _hold: HoldJoint = null
 var _held_width_m: float = 0.0
 var _overload_s: float = 0.0
-var _published: bool = false
-var _load_requested: bool = false
-var _fallback_config: SpidarGConfig = SpidarGConfig.new()
+var _requests: HandRequests = HandRequests.new()
+var _place: HandPlace = HandPlace.new()
 
 
 func _enter_tree() -> void:
 	spidar = get_parent() as SpidarG
+	_requests.device = spidar
+	_requests.owner = name
 	set_physics_process(spidar != null and not Engine.is_editor_hint())
 	update_configuration_warnings()
+	_place.entered(self)
 
 
 func _ready() -> void:
@@ -110,16 +131,7 @@ func _exit_tree() -> void:
 
 
 func _get_configuration_warnings() -> PackedStringArray:
-	var warnings: PackedStringArray = []
-	if not get_parent() is SpidarG:
-		warnings.append("SpidarGHand does nothing here: make it a child of a SpidarG node.")
-	var engine: String = str(ProjectSettings.get_setting("physics/3d/physics_engine", ""))
-	if engine != "Jolt Physics":
-		warnings.append(
-			"Thin bodies slip through floors in this physics engine: set physics/3d/physics_engine to "
-			+ "Jolt Physics (Project > Tools > SPIDAR-G: Apply Physics Settings)."
-		)
-	return warnings
+	return HandPlace.warnings(self)
 
 
 ## The body that the tool holds, or null.
@@ -197,12 +209,12 @@ func release() -> void:
 
 
 func _physics_process(delta: float) -> void:
-	if spidar.get_state() == SpidarG.STATE_CLOSED:
+	if not _place.may_act(self) or spidar.get_state() == SpidarG.STATE_CLOSED:
 		release()
 		_withdraw()
 		return
 	var grip: Transform3D = spidar.get_grip_transform()
-	_contacts.read_impulses(spidar.get_contact_impulses())
+	_contacts.read_impulses(spidar.get_contact_impulses(_requests.owner))
 	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
 	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
 	_contacts.push_bodies(_settings().max_force * delta, spidar.get_linear_velocity())
@@ -219,7 +231,13 @@ func _physics_process(delta: float) -> void:
 		_carry(grip, exclude, delta, found)
 	_find_tool_planes(grip, delta, exclude, found)
 	_contacts.replace(found)
-	_publish(grip)
+	var rows: PackedFloat64Array = PackedFloat64Array()
+	if render_contacts:
+		_contacts.keep_nearest(_requests.free_planes())
+		_contacts.pack_into(rows, grip.origin)
+	if render_width:
+		_stop.pack_into(rows)
+	_requests.publish(rows)
 	_request_load(grip, delta)
 
 
@@ -271,7 +289,7 @@ func _try_grasp(grip: Transform3D, delta: float) -> void:
 
 func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 	_hold = HoldJoint.new()
-	add_child(_hold)
+	add_child(_hold, false, Node.INTERNAL_MODE_BACK)  # Not copied by duplicate(): the copy holds nothing.
 	_hold.attach(body, grip, _jaw.centre_offset_m)
 	_held_width_m = _jaw.width_m
 	_overload_s = 0.0
@@ -282,6 +300,9 @@ func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 
 ## Lets go when the jaws open past the body, or when the world tears at it for long enough.
 func _watch_hold(delta: float) -> void:
+	if not _hold.is_movable():
+		release()
+		return
 	var force: Vector3 = Vector3.ZERO
 	for plane: ContactPlane in _contacts.planes:
 		if plane.through_held_body:
@@ -331,32 +352,16 @@ func _find_tool_planes(
 		_finder.find(_space(), shape, at, beside, found, ahead)
 
 
-func _publish(grip: Transform3D) -> void:
-	var rows: PackedFloat64Array = PackedFloat64Array()
-	if render_contacts:
-		_contacts.pack_into(rows, grip.origin)
-	if render_width:
-		_stop.pack_into(rows)
-	if not rows.is_empty():
-		_published = spidar.set_contacts(rows)
-	elif _published:
-		spidar.clear_contacts()
-		_published = false
-
-
 func _request_load(grip: Transform3D, delta: float) -> void:
 	if _hold == null or not (render_weight or render_inertia):
-		if _load_requested:
-			spidar.request_wrench(Vector3.ZERO, Vector3.ZERO, 0.0)
-			_load_requested = false
+		_requests.end_load()
 		return
 	_load.gain = weight_scale
 	_load.max_force_n = _settings().max_force
-	# What has snapped in is carried by its socket.
-	_load.with_weight = render_weight and not _hold.detained
+	_load.with_weight = render_weight and not _hold.detained  # What has snapped in is carried by its socket.
 	_load.with_inertia = render_inertia and not _hold.detained
 	_load.advance(delta, _hold.body, grip.origin, spidar.workspace_scale)
-	_load_requested = spidar.request_wrench(_load.force_n, _load.moment_nm, 0.0)
+	_requests.ask(_load.force_n, _load.moment_nm)
 
 
 ## Takes everything back from the device.
@@ -364,12 +369,7 @@ func _withdraw() -> void:
 	_stop.remove()
 	_contacts.replace([])
 	_jaw.body = null
-	if spidar != null and _published:
-		spidar.clear_contacts()
-	if spidar != null and _load_requested:
-		spidar.request_wrench(Vector3.ZERO, Vector3.ZERO, 0.0)
-	_published = false
-	_load_requested = false
+	_requests.withdraw()
 
 
 func _prepare_finder() -> void:
@@ -397,4 +397,4 @@ func _shown_gap_m() -> float:
 
 
 func _settings() -> SpidarGConfig:
-	return spidar.config if spidar.config != null else _fallback_config
+	return spidar.get_effective_config()

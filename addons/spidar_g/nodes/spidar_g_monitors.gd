@@ -1,3 +1,4 @@
+@tool
 class_name SpidarGMonitors
 extends Node
 ## Adds what a [SpidarG] does to the Monitors tab of Godot's debugger: servo rate, punctuality, step time, saturation,
@@ -6,7 +7,8 @@ extends Node
 ## Add it as a child of a [SpidarG]. The monitors are there while it is in the tree, in debug builds only, and cost
 ## nothing unless the debugger asks for them.
 
-## Monitors are named [code]spidar_g/...[/code]; of further devices [code]spidar_g NODE/...[/code].
+## Monitors are named [code]spidar_g/...[/code]; of further devices [code]spidar_g NODE/...[/code], and of further nodes of
+## that name [code]spidar_g NODE 2/...[/code].
 const GROUP: String = "spidar_g"
 
 var _device: SpidarG = null
@@ -18,6 +20,9 @@ var _saturated_before: int = 0
 
 func _enter_tree() -> void:
 	_device = get_parent() as SpidarG
+	update_configuration_warnings()
+	if _device == null and not Engine.is_editor_hint():
+		push_warning("SpidarGMonitors shows nothing: make it a child of a SpidarG node.")
 	if _device == null or not OS.is_debug_build() or Engine.is_editor_hint():
 		return
 	_device.fault_raised.connect(_count_fault)
@@ -43,7 +48,7 @@ func _exit_tree() -> void:
 func _get_configuration_warnings() -> PackedStringArray:
 	if get_parent() is SpidarG:
 		return []
-	return ["This node shows its parent: put it under a SpidarG."]
+	return ["SpidarGMonitors shows nothing here: make it a child of a SpidarG node."]
 
 
 ## The names under which Performance knows what this node added.
@@ -55,9 +60,13 @@ func _add(quantity: String, reader: Callable) -> void:
 	var monitor := StringName("%s/%s" % [GROUP, quantity])
 	if Performance.has_custom_monitor(monitor):
 		monitor = StringName("%s %s/%s" % [GROUP, _device.name, quantity])
-	if not Performance.has_custom_monitor(monitor):
-		Performance.add_custom_monitor(monitor, reader)
-		_names.append(monitor)
+	# Devices of one name in several places of the tree.
+	var number: int = 2
+	while Performance.has_custom_monitor(monitor):
+		monitor = StringName("%s %s %d/%s" % [GROUP, _device.name, number, quantity])
+		number += 1
+	Performance.add_custom_monitor(monitor, reader)
+	_names.append(monitor)
 
 
 func _count_fault(_status: int, _message: String) -> void:

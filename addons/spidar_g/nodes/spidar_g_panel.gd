@@ -1,3 +1,4 @@
+@tool
 class_name SpidarGPanel
 extends PanelContainer
 ## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, how punctual its servo thread is, and
@@ -30,25 +31,34 @@ const GIVEN_ALPHA: float = 0.45
 			_disconnect()
 			device = value
 			_connect()
+			update_configuration_warnings()
 
 ## The file of the recording that runs, or of the last one.
 var recording_path: String = ""
 
+## The recording that runs is this panel's own; another's goes on when the panel leaves.
+var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []
 
-@onready var _state: Label = %State
-@onready var _tensions: PlotStrip = %Tensions
-@onready var _force: PlotStrip = %Force
-@onready var _moment: PlotStrip = %Moment
-@onready var _jitter: JitterPlot = %Jitter
-@onready var _numbers: Label = %Numbers
-@onready var _log: RichTextLabel = %Events
-@onready var _record: Button = %Record
-@onready var _recorded: Label = %Recorded
+@onready var _state: Label = get_node_or_null(^"%State")
+@onready var _tensions: PlotStrip = get_node_or_null(^"%Tensions")
+@onready var _force: PlotStrip = get_node_or_null(^"%Force")
+@onready var _moment: PlotStrip = get_node_or_null(^"%Moment")
+@onready var _jitter: JitterPlot = get_node_or_null(^"%Jitter")
+@onready var _numbers: Label = get_node_or_null(^"%Numbers")
+@onready var _log: RichTextLabel = get_node_or_null(^"%Events")
+@onready var _record: Button = get_node_or_null(^"%Record")
+@onready var _recorded: Label = get_node_or_null(^"%Recorded")
 
 
 func _ready() -> void:
+	set_process(false)
+	if Engine.is_editor_hint():
+		return
+	if _state == null:
+		push_warning("SpidarGPanel shows nothing: add the scene spidar_g_panel.tscn in place of this node.")
+		return
 	_tensions.title = "String tensions 1-8, N"
 	_tensions.least_high = 2.0
 	var tints: PackedColorArray = []
@@ -70,14 +80,24 @@ func _ready() -> void:
 	_visibility_changed()
 
 
+func _get_configuration_warnings() -> PackedStringArray:
+	if get_node_or_null(^"%State") == null:
+		return ["SpidarGPanel needs its scene: add spidar_g_panel.tscn in place of this node."]
+	if device == null and not get_parent() is SpidarG:
+		return ["SpidarGPanel shows nothing here: set its device, or make it a child of a SpidarG node."]
+	return []
+
+
 func _exit_tree() -> void:
-	if is_recording():
+	if _records and is_recording():
 		device.stop_recording()
+	_records = false
 	_disconnect()
 
 
 func _enter_tree() -> void:
 	_connect()
+	update_configuration_warnings()
 
 
 func _process(_delta: float) -> void:
@@ -109,12 +129,18 @@ func toggle_recording() -> void:
 		return
 	if device.is_recording():
 		device.stop_recording()
+		_records = false
 		_tell("recorded: %s" % ProjectSettings.globalize_path(recording_path))
 	else:
 		DirAccess.make_dir_recursive_absolute(RECORDING_FOLDER)
 		var stamp: String = Time.get_datetime_string_from_system().replace(":", "-")
 		var path: String = "%s/%s.rec" % [RECORDING_FOLDER, stamp]
+		var number: int = 2
+		while FileAccess.file_exists(path):
+			path = "%s/%s %d.rec" % [RECORDING_FOLDER, stamp, number]
+			number += 1
 		if device.start_recording(path):
+			_records = true
 			recording_path = path
 			_tell("recording: %s" % path.get_file())
 	_report()
@@ -122,7 +148,7 @@ func toggle_recording() -> void:
 
 ## State, numbers and histogram.
 func _report() -> void:
-	if not is_instance_valid(device) or not is_visible_in_tree():
+	if not is_instance_valid(device) or not is_visible_in_tree() or _state == null:
 		return
 	_state.text = "%s   %s" % [device.get_state_text(), device.get_fault_text()]
 	var numbers: Dictionary = device.get_statistics()
@@ -146,7 +172,7 @@ func _report() -> void:
 
 
 func _visibility_changed() -> void:
-	set_process(is_visible_in_tree())
+	set_process(is_visible_in_tree() and not Engine.is_editor_hint())
 	_report()
 
 
@@ -162,14 +188,14 @@ func _tell(text: String) -> void:
 	_events.append("%s  %s" % [Time.get_time_string_from_system(), text])
 	if _events.size() > MOST_EVENTS:
 		_events = _events.slice(_events.size() - MOST_EVENTS)
-	if is_node_ready():
+	if is_node_ready() and _log != null:
 		_log.text = "\n".join(_events)
 
 
 ## Signals of the device and what the log says of them.
 func _listeners() -> Dictionary[StringName, Callable]:
 	return {
-		&"device_connected": _tell.bind("connected"),
+		&"device_connected": _connected,
 		&"armed": _tell.bind("armed"),
 		&"disarmed": _tell.bind("disarmed"),
 		&"grasped": _tell.bind("grasped"),
@@ -184,7 +210,7 @@ func _listeners() -> Dictionary[StringName, Callable]:
 
 
 func _connect() -> void:
-	if not is_instance_valid(device) or not is_inside_tree():
+	if not is_instance_valid(device) or not is_inside_tree() or Engine.is_editor_hint():
 		return
 	var listeners: Dictionary[StringName, Callable] = _listeners()
 	for name_of_signal: StringName in listeners:
@@ -199,6 +225,10 @@ func _disconnect() -> void:
 	for name_of_signal: StringName in listeners:
 		if device.is_connected(name_of_signal, listeners[name_of_signal]):
 			device.disconnect(name_of_signal, listeners[name_of_signal])
+
+
+func _connected() -> void:
+	_tell("connected: %s" % device.get_device_text())
 
 
 func _lost(reason: String) -> void:

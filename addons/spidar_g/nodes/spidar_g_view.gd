@@ -1,3 +1,4 @@
+@tool
 @icon("../icons/spidar_g_view.svg")
 class_name SpidarGView
 extends Node3D
@@ -76,18 +77,45 @@ func get_drawn_pad(side: int) -> Transform3D:
 
 func _enter_tree() -> void:
 	spidar = get_parent() as SpidarG
+	update_configuration_warnings()
+	if Engine.is_editor_hint():
+		return
 	top_level = true
 	global_transform = Transform3D.IDENTITY
+	# The parts are placed in each drawn frame at the newest pose: there is nothing to interpolate.
+	physics_interpolation_mode = Node.PHYSICS_INTERPOLATION_MODE_OFF
 	_stale = true
+	if spidar == null:
+		push_warning("SpidarGView draws nothing: make it a child of a SpidarG node.")
+	elif _parts == null:
+		_parts = ViewParts.new()
+		# Internal: a copy of the view makes parts of its own.
+		add_child(_parts, false, Node.INTERNAL_MODE_FRONT)
+	if is_node_ready():
+		_follow()
 
 
 func _ready() -> void:
-	set_process(spidar != null)
-	if spidar == null:
-		push_warning("SpidarGView draws nothing: make it a child of a SpidarG node.")
-		return
-	_parts = ViewParts.new()
-	add_child(_parts)
+	_follow()
+
+
+func _exit_tree() -> void:
+	spidar = null
+	_hand = null
+
+
+func _get_configuration_warnings() -> PackedStringArray:
+	if get_parent() is SpidarG:
+		return []
+	return ["SpidarGView draws nothing here: make it a child of a SpidarG node."]
+
+
+## The engine turns processing on just before _ready().
+func _follow() -> void:
+	var draws: bool = spidar != null and not Engine.is_editor_hint()
+	set_process(draws)
+	if _parts != null:
+		_parts.visible = draws
 
 
 func _process(_delta: float) -> void:
@@ -183,16 +211,16 @@ func _find_hand() -> Hand:
 
 
 func _pole_half_length() -> float:
-	return spidar.config.pole_half_length if spidar.config != null else 0.04
+	return spidar.get_effective_config().get_effective_pole_half_length()
 
 
 func _frame_size() -> Vector3:
-	return spidar.config.frame_size if spidar.config != null else Vector3(0.48, 0.48, 0.48)
+	return spidar.get_effective_config().get_effective_frame_size()
 
 
 func _closed_angle() -> float:
-	return spidar.config.jaw_closed_angle if spidar.config != null else deg_to_rad(50.0)
+	return spidar.get_effective_config().jaw_closed_angle
 
 
 func _max_tension() -> float:
-	return spidar.config.tension_max if spidar.config != null else 10.0
+	return spidar.get_effective_config().tension_max

@@ -201,7 +201,7 @@ bool arrange_arguments(const MethodRecord &method, const GDExtensionConstVariant
         const auto place = static_cast<std::size_t>(i);
         arranged[i] = i < count ? static_cast<const Variant *>(given[i])
                                 : &method.defaults[static_cast<std::size_t>(i - first_default)];
-        const Variant::Type wanted = method.arguments[place].type;
+        const Variant::Type wanted = method.insisted_types[place];
         const Variant::Type have = arranged[i]->get_type();
         if (wanted != Variant::NIL && have != wanted &&
             !Variant::can_convert_strict(have, wanted)) {

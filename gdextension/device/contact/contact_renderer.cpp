@@ -85,6 +85,10 @@ void ContactRenderer::configure(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
+void ContactRenderer::retune(const ServoSettings &settings) noexcept {
+    caps_ = gain_caps(settings.render, settings.rate_hz);
+}
+
 GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) noexcept {
     using Gain = GainClamp::Gain;
     GainClamp clamp;

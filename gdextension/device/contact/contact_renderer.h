@@ -24,6 +24,8 @@ inline constexpr double kGodObjectGraspStiffness_nm_rad = 0.25;
 class ContactRenderer {
 public:
     void configure(const ServoSettings &settings) noexcept;
+    // Other caps for what is accepted from now on; all else stays.
+    void retune(const ServoSettings &settings) noexcept;
 
     // A valid set (validate_contacts) replaces the last one; the same id and target carries on. Says what was
     // brought down to a cap. now_s: the clock of HapticCommand::contacts_state_time_s.

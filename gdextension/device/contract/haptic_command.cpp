@@ -133,6 +133,22 @@ Status validate_effect(const Effect &effect) noexcept {
     return good ? Status::ok : Status::invalid_request;
 }
 
+Status validate_limits(const LiveLimits &limits) noexcept {
+    for (const double most :
+         {limits.max_force_n, limits.max_moment_nm, limits.max_grasp_torque_nm}) {
+        if (!(most > 0.0 && std::isfinite(most))) {
+            return Status::invalid_request;
+        }
+    }
+    for (const double most : {limits.max_stiffness_n_m, limits.max_turn_stiffness_nm_rad,
+                              limits.max_grasp_stiffness_nm_rad}) {
+        if (!(most >= 0.0 && std::isfinite(most))) {
+            return Status::invalid_request;
+        }
+    }
+    return Status::ok;
+}
+
 Status validate_effects(const HapticCommand &command) noexcept {
     return validate_first(command.effects, command.effect_count, validate_effect);
 }

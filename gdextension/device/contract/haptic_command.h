@@ -100,6 +100,16 @@ struct Effect {
     std::uint32_t renewal = 0;
 };
 
+// Limits that a game may change while the device is open; ranges as in SafetySettings and RenderSettings.
+struct LiveLimits {
+    double max_force_n = 0.0;
+    double max_moment_nm = 0.0;
+    double max_grasp_torque_nm = 0.0;
+    double max_stiffness_n_m = 0.0;
+    double max_turn_stiffness_nm_rad = 0.0;
+    double max_grasp_stiffness_nm_rad = 0.0; // per radian of grasp_angle
+};
+
 struct HapticCommand {
     bool forces_enabled = false;
     // Edge counters: the device acts when a value differs from the last one it saw.
@@ -131,6 +141,10 @@ struct HapticCommand {
     std::uint64_t effects_sequence = 0;
     int effect_count = 0;
     std::array<Effect, kMaxEffects> effects{};
+
+    // Taken when limits_sequence changes; until then those of the settings hold.
+    std::uint32_t limits_sequence = 0;
+    LiveLimits limits;
 };
 
 // ok, or invalid_request / not_finite: the command must then not be published. Over-large but finite values
@@ -142,5 +156,7 @@ struct HapticCommand {
 [[nodiscard]] Status validate_coupling(const Coupling &coupling) noexcept;
 [[nodiscard]] Status validate_effect(const Effect &effect) noexcept;
 [[nodiscard]] Status validate_effects(const HapticCommand &command) noexcept;
+// Finite, none below zero, and a force, moment and grasp torque above it.
+[[nodiscard]] Status validate_limits(const LiveLimits &limits) noexcept;
 
 } // namespace spidar

@@ -21,6 +21,7 @@ bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device) {
            is(filter.product_id, device.product_id) &&
            (device.usage_page == 0 || device.usage_page == kHidUsagePage) &&
            (filter.serial.empty() || filter.serial == device.serial) &&
+           (filter.path.empty() || filter.path == device.path) &&
            device.product.compare(0, filter.product.size(), filter.product) == 0;
 }
 

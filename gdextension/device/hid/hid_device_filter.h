@@ -15,6 +15,7 @@ struct HidDeviceFilter {
     std::uint16_t product_id = 0;
     std::string serial;
     std::string product = "SPIDAR-G"; // the product string begins with this
+    std::string path;                 // of the system: tells devices without a serial number apart
 };
 
 [[nodiscard]] bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device);

@@ -14,13 +14,14 @@ std::string name_of(const HidDeviceInfo &device) {
     return "\"" + device.product + "\" (serial \"" + device.serial + "\", " + device.path + ")";
 }
 
-// Reads feature report `id` of `size` bytes and decodes it.
+// Reads feature report `id` of `size` bytes and decodes it. Windows wants a buffer for the longest feature report of the
+// device whichever is read, and may say that it filled the whole.
 template <typename Report>
 bool read_feature(HidHandle &handle, HidReportId id, std::size_t size, Report &report) {
     std::array<std::uint8_t, kLargestReport + 1> bytes{};
     bytes[0] = static_cast<std::uint8_t>(id);
-    const int length = handle.get_feature(std::span(bytes).first(size));
-    return length == static_cast<int>(size) &&
+    const int length = handle.get_feature(bytes);
+    return length >= static_cast<int>(size) &&
            decode(ReportBytes(bytes).first(size), report) == Decoded::ok;
 }
 

@@ -150,9 +150,10 @@ void HidTransport::Impl::watch() {
     HidDeviceFilter filter = settings.filter;
     std::string why;
     std::unique_lock<std::mutex> lock(mutex);
-    if (!session.device.serial.empty()) {
-        filter.serial = session.device.serial; // this very device, whatever its path is then
-    }
+    // This very device: by its serial number, whatever its path is then. Without one only a device at the same place can
+    // be the same, and another one must not be taken for it.
+    filter.serial = session.device.serial;
+    filter.path = session.device.serial.empty() ? session.device.path : std::string();
     while (!stop_watcher) {
         if (connected) {
             wake.wait(lock);

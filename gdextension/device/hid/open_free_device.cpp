@@ -4,6 +4,10 @@
 
 namespace spidar {
 
+std::string claim_name(const HidDeviceInfo &device) {
+    return "hid:" + (device.serial.empty() ? device.path : device.serial);
+}
+
 std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,
                                                HidTransportSettings settings,
                                                const std::string &owner, DeviceClaim &claim,
@@ -17,7 +21,7 @@ std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bu
     status = find_devices(*bus, settings.filter, found);
     problem = describe(status);
     for (const HidDeviceInfo &device : found) {
-        const std::string name = "hid:" + (device.serial.empty() ? device.path : device.serial);
+        const std::string name = claim_name(device);
         if (!claim.take(name, owner)) {
             status = Status::device_in_use;
             problem = "Device \"" + device.product + "\" (serial \"" + device.serial +
@@ -26,6 +30,7 @@ std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bu
             continue;
         }
         settings.filter.serial = device.serial;
+        settings.filter.path = device.path; // this very one, of all that look alike
         auto transport = std::make_unique<HidTransport>(bus, settings);
         status = transport->open(); // now, so that what is wrong can be told or stood in for
         if (usable(status)) {

@@ -32,6 +32,10 @@ void CouplingRequest::configure(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
+void CouplingRequest::retune(const ServoSettings &settings) noexcept {
+    caps_ = gain_caps(settings.render, settings.rate_hz);
+}
+
 CouplingRequest::Proxy CouplingRequest::proxy_now() const noexcept {
     const double moved_s = clock_.carried_s();
     const double left = 1.0 - cross_fade(clock_.age_s());

@@ -13,6 +13,8 @@ namespace spidar {
 class CouplingRequest {
 public:
     void configure(const ServoSettings &settings) noexcept;
+    // Other caps for what is accepted from now on; all else stays.
+    void retune(const ServoSettings &settings) noexcept;
     // A valid coupling (validate_coupling). What jumps against the last one is spread over one game period.
     // now_s: the clock of Coupling::state_time_s.
     GainClamp accept(const Coupling &coupling, double now_s) noexcept;

@@ -34,6 +34,10 @@ void EffectSet::configure(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
 }
 
+void EffectSet::retune(const ServoSettings &settings) noexcept {
+    caps_ = gain_caps(settings.render, settings.rate_hz);
+}
+
 GainClamp EffectSet::cap(Effect &effect, std::int32_t index) const noexcept {
     using Gain = GainClamp::Gain;
     GainClamp clamp;

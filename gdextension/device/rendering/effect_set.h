@@ -12,6 +12,8 @@ namespace spidar {
 class EffectSet {
 public:
     void configure(const ServoSettings &settings) noexcept;
+    // Other caps for what is accepted from now on; all else stays.
+    void retune(const ServoSettings &settings) noexcept;
     // A valid set (validate_effects) replaces the last one. The same id and kind carries on; what begins, ends or
     // changes does so over one game period.
     GainClamp accept(const HapticCommand &command) noexcept;

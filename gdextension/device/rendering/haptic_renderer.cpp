@@ -20,6 +20,13 @@ void HapticRenderer::configure(const ServoSettings &settings) noexcept {
     load_.force_n = -render.compensated_mass_kg * render.gravity_m_s2;
 }
 
+void HapticRenderer::retune(const ServoSettings &settings) noexcept {
+    contacts_.retune(settings);
+    coupling_.retune(settings);
+    effects_.retune(settings);
+    wrench_.retune(settings.safety);
+}
+
 void HapticRenderer::acknowledge(const HapticCommand &command) noexcept {
     wrench_sequence_ = command.wrench_sequence;
     contacts_sequence_ = command.contacts_sequence;

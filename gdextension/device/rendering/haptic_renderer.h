@@ -16,6 +16,8 @@ namespace spidar {
 class HapticRenderer {
 public:
     void configure(const ServoSettings &settings) noexcept;
+    // Other limits and caps; what acts goes on.
+    void retune(const ServoSettings &settings) noexcept;
     // Takes this command's requests as already seen.
     void acknowledge(const HapticCommand &command) noexcept;
 

@@ -14,6 +14,8 @@ namespace spidar {
 class WrenchRequest {
 public:
     void configure(const SafetySettings &safety) noexcept;
+    // Other limits for what is accepted from now on.
+    void retune(const SafetySettings &safety) noexcept { safety_ = safety; }
     // A valid request (validate_wrench). Says when it had to be brought down to a limit.
     GainClamp accept(const Wrench &wrench, double duration_s) noexcept;
     // Once a cycle, before accept(). True in the cycle in which the request ends.

@@ -40,7 +40,27 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
 void ServoStep::acknowledge(const HapticCommand &command) noexcept {
     game_.acknowledge(command);
     parts_.renderer.acknowledge(command);
+    limits_sequence_ = command.limits_sequence;
     resting_ = false;
+}
+
+void ServoStep::take_limits(const HapticCommand &command) noexcept {
+    if (command.limits_sequence == limits_sequence_) {
+        return;
+    }
+    limits_sequence_ = command.limits_sequence;
+    if (!usable(validate_limits(command.limits))) {
+        ++snapshot_.counters.rejected_requests;
+        return;
+    }
+    const LiveLimits &limits = command.limits;
+    settings_.safety.max_force_n = limits.max_force_n;
+    settings_.safety.max_moment_nm = limits.max_moment_nm;
+    settings_.safety.max_grasp_torque_nm = limits.max_grasp_torque_nm;
+    settings_.render.max_stiffness_n_m = limits.max_stiffness_n_m;
+    settings_.render.max_turn_stiffness_nm_rad = limits.max_turn_stiffness_nm_rad;
+    settings_.render.max_grasp_stiffness_nm_rad = limits.max_grasp_stiffness_nm_rad;
+    parts_.renderer.retune(settings_);
 }
 
 void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept {
@@ -222,6 +242,7 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
         jump_clock(asked_dt_s);
     }
     const std::uint64_t refused = snapshot_.counters.rejected_requests;
+    take_limits(command);
     parts_.renderer.take(command, snapshot_.time_s, dt_s, snapshot_.counters);
     if (snapshot_.counters.rejected_requests != refused) {
         parts_.events.tell(DeviceEventKind::request_refused);

@@ -67,6 +67,7 @@ public:
 
 private:
     using Edges = GameWatch::Edges;
+    void take_limits(const HapticCommand &command) noexcept;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
     // False: an old report, or none of this device's.
@@ -114,6 +115,7 @@ private:
     Parts parts_;
     // What commands and readings brought last.
     GameWatch game_;
+    std::uint32_t limits_sequence_ = 0;
     bool forces_enabled_ = false;
     bool simulated_ = false;
     bool device_zeroed_ = true;

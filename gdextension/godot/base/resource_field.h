@@ -2,13 +2,28 @@
 // (Written as a macro because each accessor must be a named member for ClassDB::bind_method.)
 #pragma once
 
-#define SPIDAR_G_FIELD(m_type, m_name, m_default)                                                  \
+#include <cstdint>
+
+#include "godot/base/strict.h"
+
+// In the class, before its fields: counts the changes of what only a device that is opened anew takes over.
+#define SPIDAR_G_REVISION                                                                          \
+public:                                                                                            \
+    [[nodiscard]] std::uint64_t revision() const noexcept {                                        \
+        return revision_;                                                                          \
+    }                                                                                              \
+                                                                                                   \
+private:                                                                                           \
+    std::uint64_t revision_ = 0
+
+#define SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, m_counts)                                    \
 public:                                                                                            \
     void set_##m_name(m_type p_value) {                                                            \
         if (m_name##_ == p_value) {                                                                \
             return;                                                                                \
         }                                                                                          \
         m_name##_ = p_value;                                                                       \
+        revision_ += (m_counts);                                                                   \
         emit_changed();                                                                            \
     }                                                                                              \
     m_type get_##m_name() const {                                                                  \
@@ -18,11 +33,17 @@ public:                                                                         
 private:                                                                                           \
     m_type m_name##_ = m_default
 
+#define SPIDAR_G_FIELD(m_type, m_name, m_default) SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 1U)
+// One that an open device takes over at once.
+#define SPIDAR_G_LIVE_FIELD(m_type, m_name, m_default)                                             \
+    SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 0U)
+
 // The same for values that are handed over by reference (packed arrays, strings).
 #define SPIDAR_G_ARRAY_FIELD(m_type, m_name)                                                       \
 public:                                                                                            \
     void set_##m_name(const m_type &p_value) {                                                     \
         m_name##_ = p_value;                                                                       \
+        ++revision_;                                                                               \
         emit_changed();                                                                            \
     }                                                                                              \
     m_type get_##m_name() const {                                                                  \
@@ -33,7 +54,7 @@ private:                                                                        
     m_type m_name##_
 
 #define SPIDAR_G_BIND_FIELD(m_class, m_variant, m_name, m_hint, m_hint_string)                     \
-    godot::ClassDB::bind_method(godot::D_METHOD("set_" #m_name, #m_name), &m_class::set_##m_name); \
+    spidar::bind_checked<&m_class::set_##m_name, m_hint_string, "set_" #m_name, #m_name>();        \
     godot::ClassDB::bind_method(godot::D_METHOD("get_" #m_name), &m_class::get_##m_name);          \
     ADD_PROPERTY(godot::PropertyInfo(m_variant, #m_name, m_hint, m_hint_string), "set_" #m_name,   \
                  "get_" #m_name)

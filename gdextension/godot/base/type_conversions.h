@@ -60,9 +60,9 @@ template <std::size_t kSize>
     return packed;
 }
 
-// Messages are plain ASCII.
+// Texts are UTF-8: names of nodes and devices are part of messages.
 [[nodiscard]] inline godot::String to_godot(const std::string &text) {
-    return {text.c_str()};
+    return godot::String::utf8(text.c_str(), static_cast<std::int64_t>(text.size()));
 }
 
 } // namespace spidar

@@ -18,9 +18,22 @@ struct WorldFrame {
     Vec3 origin{0.0};
     double scale = 1.0; // scene metres per device metre
 
-    // A node with scale still gives a rotation: its scale is warned about and left out.
+    // False for a node that is flat or stands nowhere.
+    [[nodiscard]] bool usable() const noexcept {
+        constexpr double kRoundingOfFloats = 1e-3;
+        const double turn = std::abs(glm::determinant(rotation));
+        return std::abs(turn - 1.0) < kRoundingOfFloats &&
+               std::isfinite(origin.x + origin.y + origin.z);
+    }
+
+    // A node that is scaled or mirrored still gives a rotation: what is not a rotation is warned about and left out,
+    // as Godot's own Basis.get_rotation_quaternion() does.
     static WorldFrame of(const godot::Transform3D &node, double workspace_scale) {
-        return {to_core(node.basis.orthonormalized()), to_core(node.origin), workspace_scale};
+        Mat3 rotation = to_core(node.basis.orthonormalized());
+        if (glm::determinant(rotation) < 0.0) {
+            rotation = -rotation;
+        }
+        return {rotation, to_core(node.origin), workspace_scale};
     }
 
     [[nodiscard]] Vec3 point_to_world(const Vec3 &device) const noexcept {

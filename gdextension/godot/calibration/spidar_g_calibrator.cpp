@@ -1,6 +1,8 @@
 // The device of a calibration: opened, watched, its tasks.
 #include "godot/calibration/spidar_g_calibrator.h"
 
+#include <godot_cpp/variant/utility_functions.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -237,6 +239,11 @@ godot::String SpidarGCalibrator::get_problem() const {
 
 bool SpidarGCalibrator::is_open() const {
     return rig_ && rig_->state() == RigState::open && began_;
+}
+
+void SpidarGCalibrator::refuse(const std::string &message) const {
+    problem_ = message;
+    godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGCalibrator." + message));
 }
 
 bool SpidarGCalibrator::reject(const std::string &message) {

@@ -21,6 +21,7 @@
 
 class SpidarGCalibrator : public godot::RefCounted {
     GDCLASS(SpidarGCalibrator, godot::RefCounted)
+    SPIDAR_G_CHECKED_CALLS
 
 public:
     enum DeviceState { DEVICE_CLOSED, DEVICE_OPENING, DEVICE_OPEN, DEVICE_FAILED };
@@ -39,6 +40,9 @@ public:
     enum Hand { HAND_HOME, HAND_FREE_MOTION, HAND_PLACE };
 
     ~SpidarGCalibrator() override;
+
+    // An argument of a type that the method does not take: told by get_problem() and in the output.
+    void refuse(const std::string &message) const;
 
     // Device (spidar_g_calibrator.cpp).
     bool open(const godot::Ref<SpidarGConfig> &config,
@@ -107,7 +111,7 @@ private:
     [[nodiscard]] spidar::DeviceModel model() const;
     [[nodiscard]] bool may_measure(const char *method, int string);
 
-    std::string problem_;
+    mutable std::string problem_; // a refused question is a problem too
     spidar::CalibrationTarget target_;
     spidar::DeviceModel start_;
     spidar::MotorCalibration motors_;

@@ -300,19 +300,16 @@ void SpidarGCalibrator::_bind_methods() {
 
 void SpidarGCalibrator::bind_device() {
     using Self = SpidarGCalibrator;
-    ClassDB::bind_method(D_METHOD("open", "config", "calibration", "stepped"), &Self::open,
-                         DEFVAL(false));
+    spidar::bind_checked<&Self::open, "", "open", "config", "calibration", "stepped">(false);
     ClassDB::bind_method(D_METHOD("close"), &Self::close);
     ClassDB::bind_method(D_METHOD("poll"), &Self::poll);
-    ClassDB::bind_method(D_METHOD("advance", "seconds"), &Self::advance);
+    spidar::bind_checked<&Self::advance, "", "advance", "seconds">();
     ClassDB::bind_method(D_METHOD("get_device_state"), &Self::get_device_state);
     ClassDB::bind_method(D_METHOD("get_problem"), &Self::get_problem);
     ClassDB::bind_method(D_METHOD("get_live"), &Self::get_live);
-    ClassDB::bind_method(D_METHOD("start_task", "task", "string", "weight_n"), &Self::start_task,
-                         DEFVAL(0), DEFVAL(0.0));
+    spidar::bind_checked<&Self::start_task, "", "start_task", "task", "string", "weight_n">(0, 0.0);
     ClassDB::bind_method(D_METHOD("get_task"), &Self::get_task);
-    ClassDB::bind_method(D_METHOD("move_simulated_hand", "hand", "place"),
-                         &Self::move_simulated_hand, DEFVAL(0));
+    spidar::bind_checked<&Self::move_simulated_hand, "", "move_simulated_hand", "hand", "place">(0);
 }
 
 void SpidarGCalibrator::bind_measurements() {
@@ -320,13 +317,13 @@ void SpidarGCalibrator::bind_measurements() {
     ClassDB::bind_method(D_METHOD("take_zero"), &Self::take_zero);
     ClassDB::bind_method(D_METHOD("clear_zero"), &Self::clear_zero);
     ClassDB::bind_method(D_METHOD("get_zero"), &Self::get_zero);
-    ClassDB::bind_method(D_METHOD("take_length", "string", "length_m"), &Self::take_length);
-    ClassDB::bind_method(D_METHOD("clear_lengths", "string"), &Self::clear_lengths);
-    ClassDB::bind_method(D_METHOD("get_lengths", "string"), &Self::get_lengths);
-    ClassDB::bind_method(D_METHOD("get_weights", "string"), &Self::get_weights);
-    ClassDB::bind_method(D_METHOD("clear_weights", "string"), &Self::clear_weights);
-    ClassDB::bind_method(D_METHOD("is_reversed", "string"), &Self::is_reversed);
-    ClassDB::bind_method(D_METHOD("set_collecting", "collecting"), &Self::set_collecting);
+    spidar::bind_checked<&Self::take_length, "", "take_length", "string", "length_m">();
+    spidar::bind_checked<&Self::clear_lengths, "", "clear_lengths", "string">();
+    spidar::bind_checked<&Self::get_lengths, "", "get_lengths", "string">();
+    spidar::bind_checked<&Self::get_weights, "", "get_weights", "string">();
+    spidar::bind_checked<&Self::clear_weights, "", "clear_weights", "string">();
+    spidar::bind_checked<&Self::is_reversed, "", "is_reversed", "string">();
+    spidar::bind_checked<&Self::set_collecting, "", "set_collecting", "collecting">();
     ClassDB::bind_method(D_METHOD("is_collecting"), &Self::is_collecting);
     ClassDB::bind_method(D_METHOD("clear_poses"), &Self::clear_poses);
     ClassDB::bind_method(D_METHOD("get_coverage"), &Self::get_coverage);

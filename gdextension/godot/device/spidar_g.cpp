@@ -9,6 +9,7 @@
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "godot/base/type_conversions.h"
+#include "godot/device/live_limits.h"
 
 using godot::Engine;
 using godot::Ref;
@@ -18,6 +19,15 @@ using spidar::DeviceState;
 using spidar::Status;
 
 namespace {
+
+// Scenes from a pollen grain to a town; beyond, a float has no room for the digits of a position.
+constexpr double kLeastWorkspaceScale = 1e-3;
+constexpr double kMostWorkspaceScale = 1e3;
+// 100 s at 1 kHz. A script that asks for more has mistaken its unit, and the game would stand still.
+constexpr int kMostCycles = 100000;
+
+// No resources have that many changes.
+constexpr std::uint64_t kNeverOpened = ~std::uint64_t{0};
 
 [[nodiscard]] bool in_editor() {
     return Engine::get_singleton()->is_editor_hint();
@@ -31,7 +41,7 @@ SpidarG::SpidarG() {
 }
 
 SpidarG::~SpidarG() {
-    close_device();
+    close_device("The node was freed.");
 }
 
 void SpidarG::set_config(const Ref<SpidarGConfig> &config) {
@@ -43,6 +53,7 @@ void SpidarG::set_config(const Ref<SpidarGConfig> &config) {
         config_->disconnect("changed", listener);
     }
     config_ = config;
+    opened_revision_ = kNeverOpened;
     if (config_.is_valid()) {
         config_->connect("changed", listener);
     }
@@ -58,6 +69,7 @@ void SpidarG::set_calibration(const Ref<SpidarGCalibration> &calibration) {
         calibration_->disconnect("changed", listener);
     }
     calibration_ = calibration;
+    opened_revision_ = kNeverOpened;
     if (calibration_.is_valid()) {
         calibration_->connect("changed", listener);
     }
@@ -65,7 +77,15 @@ void SpidarG::set_calibration(const Ref<SpidarGCalibration> &calibration) {
 }
 
 void SpidarG::resource_changed() {
-    problem_ = read_resources();
+    const spidar::StringCalibration strings = settings_.strings; // of the device that is open
+    const std::string problem = read_resources();
+    if (change_live(problem)) {
+        settings_.strings = strings;
+        update_configuration_warnings();
+        update_gizmos();
+        return;
+    }
+    problem_ = problem;
     // Several fields are often set in a row: the device restarts once, at the next tick, and arms anew.
     restart_pending_ = true;
     update_configuration_warnings();
@@ -80,7 +100,7 @@ void SpidarG::set_enabled(bool enabled) {
     if (may_run()) {
         open_device();
     } else {
-        close_device();
+        close_device("enabled = false.");
     }
 }
 
@@ -90,6 +110,11 @@ void SpidarG::set_forces_enabled(bool enabled) {
 }
 
 void SpidarG::set_drive_mode(DriveMode mode) {
+    if (mode != DRIVE_THREADED && mode != DRIVE_STEPPED) {
+        refuse("drive_mode = " + std::to_string(static_cast<int>(mode)) +
+               ": give DRIVE_THREADED (0) or DRIVE_STEPPED (1); the old value stays.");
+        return;
+    }
     if (drive_mode_ == mode) {
         return;
     }
@@ -98,9 +123,9 @@ void SpidarG::set_drive_mode(DriveMode mode) {
 }
 
 void SpidarG::set_workspace_scale(double scale) {
-    if (!(scale > 0.0 && std::isfinite(scale))) {
-        reject("workspace_scale = " + std::to_string(scale) +
-               " scene m per device m: give a finite value above zero.");
+    if (!(scale >= kLeastWorkspaceScale && scale <= kMostWorkspaceScale)) {
+        refuse("workspace_scale = " + std::to_string(scale) +
+               " scene m per device m: give 0.001 to 1000; the old value stays.");
         return;
     }
     workspace_scale_ = scale;
@@ -116,10 +141,14 @@ std::string SpidarG::name_for_messages() const {
 }
 
 void SpidarG::open_device() {
-    close_device();
+    close_device("The device is opened anew.");
+    if (!may_run()) {
+        return; // a listener to what closing tells has changed its mind
+    }
     restart_pending_ = false;
     read_project();
     set_process_input(options_.panic_key != 0);
+    watch_panic_key(true);
     problem_ = read_resources();
     // Even a refused device is retried when a resource changes.
     set_physics_process_internal(true);
@@ -143,6 +172,15 @@ void SpidarG::open_device() {
     command_.wrench_sequence = 0;
     command_.contacts_sequence = 0;
     command_.contact_count = 0;
+    keep_stopped();
+    opened_revision_ = resources_revision();
+    limits_wanted_ = spidar::live_limits(settings_);
+    limits_from_ = limits_wanted_;
+    limits_share_ = 1.0;
+    command_.limits_sequence = 0;
+    command_.limits = limits_wanted_;
+    requests_.clear();
+    requests_.configure(settings_.safety.wrench_fade_s, settings_.safety.contacts_gone_s);
     loop_->publish(command_);
     const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
                                                        : loop_->start_threaded(settings_);
@@ -154,6 +192,12 @@ void SpidarG::open_device() {
         refuse_to_open(status, spidar::describe(status));
         return;
     }
+    const std::string odd = transform_problem();
+    if (!odd.empty()) {
+        UtilityFunctions::push_warning(
+            spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + odd));
+    }
+    watch_for_devices();
     set_process_internal(true);
 }
 
@@ -162,10 +206,14 @@ void SpidarG::refuse_to_open(Status status, const std::string &message) {
     const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +
                                          "\": the device stays closed. " + message);
     UtilityFunctions::push_error(text);
-    emit_signal("fault_raised", static_cast<int>(status), text);
+    // Later in this frame: a node that opens as its scene enters the tree is not connected to anything yet.
+    call_deferred("emit_signal", "fault_raised", static_cast<int>(status), text);
 }
 
-void SpidarG::close_device() {
+// Tells the end of all that was told to have begun.
+void SpidarG::close_device(const char *why) {
+    const bool told = is_connected_told_;
+    const spidar::ServoSnapshot before = snapshot_;
     if (loop_) {
         loop_->stop(); // motors off, thread joined, then the handle
         loop_.reset();
@@ -174,24 +222,42 @@ void SpidarG::close_device() {
         replay_ = nullptr;
     }
     claim_.release();
+    recording_place_.release();
+    hid_watch_.reset();
     snapshot_.state = DeviceState::closed;
     snapshot_.tensions_n = {};
     snapshot_.requested = {};
     snapshot_.achieved = {};
+    snapshot_.tension_status = Status::ok;
+    limited_told_s_ = -1.0;
+    forget_player();
+    if (told) {
+        emit_edges(before, spidar::to_godot(std::string(why)));
+        emit_buttons(before.buttons);
+    }
 }
 
 void SpidarG::_notification(int what) {
     switch (what) {
     case NOTIFICATION_ENTER_TREE:
+        if (!in_editor()) {
+            read_project();
+            watch_panic_key(true);
+        }
         if (may_run()) {
             open_device();
         } else if (in_editor()) {
             read_project();
             problem_ = read_resources();
+            set_notify_transform(true);
         }
         break;
+    case NOTIFICATION_TRANSFORM_CHANGED:
+        update_configuration_warnings(); // in the editor only
+        break;
     case NOTIFICATION_EXIT_TREE:
-        close_device();
+        close_device("The node left the scene tree.");
+        watch_panic_key(false);
         set_process_input(false);
         set_process_internal(false);
         set_physics_process_internal(false);
@@ -216,15 +282,23 @@ void SpidarG::_notification(int what) {
 }
 
 void SpidarG::physics_tick() {
+    if (hid_watch_ && hid_watch_->found()) {
+        restart_pending_ = true; // to the device that was plugged in
+    }
     if (restart_pending_ && may_run()) {
         open_device();
     }
     if (!loop_) {
         return;
     }
+    const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
+    move_limits(1.0 / (hz > 0 ? hz : 60));
+    if (requests_.wrench_changes(snapshot_.time_s)) {
+        publish_wrench();
+    }
+    keep_stopped();
     beat();
     if (drive_mode_ == DRIVE_STEPPED) {
-        const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
     }
     pull_snapshot();
@@ -235,79 +309,15 @@ int SpidarG::advance_cycles(int cycles) {
         reject("advance_cycles needs an open device with drive_mode DRIVE_STEPPED.");
         return 0;
     }
-    if (cycles < 0) {
-        reject("advance_cycles: cycles = " + std::to_string(cycles) + ": give 0 or more.");
+    if (cycles < 0 || cycles > kMostCycles) {
+        reject("advance_cycles: cycles = " + std::to_string(cycles) + ": give 0 to 100000.");
         return 0;
     }
+    keep_stopped();
     const int run = loop_->advance(static_cast<std::uint32_t>(cycles),
                                    static_cast<std::uint32_t>(std::lround(settings_.rate_hz)));
     pull_snapshot();
     return run;
-}
-
-void SpidarG::pull_snapshot() {
-    if (!loop_) {
-        return;
-    }
-    const spidar::ServoSnapshot before = snapshot_;
-    if (loop_->latest(snapshot_)) {
-        emit_edges(before);
-        emit_buttons(before.buttons);
-    }
-    emit_events();
-    if (loop_) {
-        watch_loop();
-    }
-    watch_recordings();
-}
-
-void SpidarG::emit_edges(const spidar::ServoSnapshot &before) {
-    const DeviceState now = snapshot_.state;
-    if (now != before.state) {
-        if (before.state == DeviceState::closed) {
-            emit_signal("device_connected");
-        }
-        if (now == DeviceState::active) {
-            emit_signal("armed");
-        } else if (before.state == DeviceState::active) {
-            emit_signal("disarmed");
-        }
-        if (now == DeviceState::closed) {
-            emit_signal("device_lost", spidar::to_godot(fault_message()));
-        }
-        if (now == DeviceState::fault) {
-            emit_signal("fault_raised", static_cast<int>(snapshot_.fault),
-                        spidar::to_godot(fault_message()));
-        }
-    }
-    if (snapshot_.grasp != before.grasp) {
-        switch (snapshot_.grasp) {
-        case spidar::GraspPhase::open:
-            emit_signal("released");
-            break;
-        case spidar::GraspPhase::grasped:
-            emit_signal("grasped");
-            break;
-        case spidar::GraspPhase::over_closed:
-            emit_signal("over_closed");
-            break;
-        }
-    }
-    if (snapshot_.tension_status == Status::wrench_limited &&
-        before.tension_status != Status::wrench_limited) {
-        emit_signal("tension_saturated");
-    }
-}
-
-std::string SpidarG::fault_message() const {
-    if (snapshot_.fault == Status::ok) {
-        return problem_;
-    }
-    std::string message = spidar::describe(snapshot_.fault);
-    if (snapshot_.fault_string >= 0) {
-        message += " String " + std::to_string(snapshot_.fault_string + 1) + " (of 1-8).";
-    }
-    return message;
 }
 
 void SpidarG::arm() {
@@ -325,6 +335,8 @@ void SpidarG::disarm() {
 }
 
 void SpidarG::clear_fault() {
+    panicked_.store(false);
+    publish_forces();
     ++command_.clear_fault_count;
     if (loop_) {
         loop_->publish(command_);
@@ -332,13 +344,17 @@ void SpidarG::clear_fault() {
 }
 
 spidar::WorldFrame SpidarG::world() const {
-    return spidar::WorldFrame::of(is_inside_tree() ? get_global_transform() : get_transform(),
-                                  workspace_scale_);
-}
-
-bool SpidarG::reject(const std::string &message) {
-    const String text = spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
-    UtilityFunctions::push_error(text);
-    emit_signal("request_rejected", text);
-    return false;
+    const spidar::WorldFrame now = spidar::WorldFrame::of(
+        is_inside_tree() ? get_global_transform() : get_transform(), workspace_scale_);
+    if (now.usable()) {
+        last_world_ = now;
+        world_told_ = false;
+    } else if (!world_told_) {
+        world_told_ = true;
+        refuse(
+            "the node's transform is flat or not finite: the last good one stands. Give the node "
+            "and its parents finite positions and no scale of zero.");
+    }
+    last_world_.scale = workspace_scale_;
+    return last_world_;
 }

@@ -3,6 +3,7 @@
 // The class reference is gdextension/doc_classes/SpidarG.xml.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -10,14 +11,19 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/array.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/packed_string_array.hpp>
 
 #include "device/contract/device_claims.h"
 #include "device/hid/hid_transport.h"
+#include "device/hid/hid_watch.h"
 #include "device/loop/servo_loop.h"
 #include "device/simulation/simulated_transport.h"
+#include "godot/base/strict.h"
 #include "godot/base/world_frame.h"
+#include "godot/device/recording_places.h"
+#include "godot/device/request_owners.h"
 #include "godot/settings/project_options.h"
 #include "godot/settings/spidar_g_calibration.h"
 #include "godot/settings/spidar_g_config.h"
@@ -28,6 +34,7 @@ class Replay;
 
 class SpidarG : public godot::Node3D {
     GDCLASS(SpidarG, godot::Node3D)
+    SPIDAR_G_CHECKED_CALLS
 
 public:
     enum DriveMode { DRIVE_THREADED, DRIVE_STEPPED };
@@ -94,6 +101,7 @@ public:
     // Set-up.
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
+    [[nodiscard]] godot::Ref<SpidarGConfig> get_effective_config() const;
     void set_calibration(const godot::Ref<SpidarGCalibration> &calibration);
     [[nodiscard]] godot::Ref<SpidarGCalibration> get_calibration() const { return calibration_; }
     void set_enabled(bool enabled);
@@ -107,6 +115,12 @@ public:
     void set_workspace_scale(double scale);
     [[nodiscard]] double get_workspace_scale() const { return workspace_scale_; }
     [[nodiscard]] godot::PackedStringArray _get_configuration_warnings() const override;
+    [[nodiscard]] godot::PackedStringArray get_warnings() const {
+        return _get_configuration_warnings();
+    }
+
+    // Tells what was not taken: by request_rejected and in the output.
+    void refuse(const std::string &message) const;
 
     // Device (spidar_g.cpp).
     void arm();
@@ -116,6 +130,9 @@ public:
 
     // Real device (spidar_g_device.cpp).
     bool zero_device();
+    [[nodiscard]] bool is_simulated() const { return simulated_ != nullptr; }
+    [[nodiscard]] godot::String get_device_text() const;
+    [[nodiscard]] static godot::Array list_devices();
     [[nodiscard]] godot::Dictionary get_device_info() const;
 
     // Safety (spidar_g_safety.cpp).
@@ -124,9 +141,10 @@ public:
 
     // Requests (spidar_g_requests.cpp).
     bool request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
-                        double grasp_torque, double duration_s);
-    bool set_contacts(const godot::PackedFloat64Array &contacts);
-    void clear_contacts();
+                        double grasp_torque, double duration_s, const godot::String &owner);
+    bool set_contacts(const godot::PackedFloat64Array &contacts, const godot::String &owner);
+    void clear_contacts(const godot::String &owner);
+    [[nodiscard]] int get_free_contacts(const godot::String &owner) const;
     // Coupling and effects (spidar_g_effects.cpp).
     bool set_coupling_gains(const godot::PackedFloat64Array &stiffness,
                             const godot::PackedFloat64Array &damping, double max_force,
@@ -174,8 +192,8 @@ public:
     [[nodiscard]] godot::PackedFloat64Array get_requested_wrench() const;
     [[nodiscard]] godot::PackedFloat64Array get_achieved_wrench() const;
     [[nodiscard]] godot::PackedFloat64Array get_wrench_bias() const;
-    [[nodiscard]] godot::Dictionary get_contact_impulses() const;
-    [[nodiscard]] godot::PackedInt32Array get_touching_contacts() const;
+    [[nodiscard]] godot::Dictionary get_contact_impulses(const godot::String &owner) const;
+    [[nodiscard]] godot::PackedInt32Array get_touching_contacts(const godot::String &owner) const;
     [[nodiscard]] godot::Dictionary get_statistics() const;
     [[nodiscard]] godot::PackedInt32Array get_lateness_histogram() const;
 
@@ -216,15 +234,22 @@ private:
     static void bind_enums();
 
     void resource_changed();
+    // What an open device takes over of a changed config; false: it has to be opened anew.
+    bool change_live(const std::string &problem);
+    void move_limits(double dt_s);
+    [[nodiscard]] std::uint64_t resources_revision() const;
     // The project's settings as they are now; they count from the next opening on.
     void read_project();
     // Reads config and calibration into settings_. Empty: fine; else the problem, and settings_ keep their values.
     std::string read_resources();
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
+    // Why the node's place in the scene is none that a device can have; or empty.
+    [[nodiscard]] std::string transform_problem() const;
     [[nodiscard]] bool may_run() const;
     void open_device();
     void open_replay();
-    void close_device();
+    void close_device(const char *why);
+    void forget_player();
     // Null, with the reason: none.
     std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
                                                         std::string &problem);
@@ -234,22 +259,36 @@ private:
     // Of the device that was opened: its counts at the home pose.
     void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
     void emit_buttons(std::uint8_t before);
+    // A button that is down when the device opens is none until it was released: the press belongs to the scene before.
+    void mask_buttons(const spidar::ServoSnapshot &before);
     void refuse_to_open(spidar::Status status, const std::string &message);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
-    void emit_edges(const spidar::ServoSnapshot &before);
+    void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
+    // Who asked for how much when a request is limited, and to what.
+    [[nodiscard]] std::string limited_request() const;
+    void tell_limited(const spidar::ServoSnapshot &before);
     void beat();
     void watch_loop();
     void set_away(bool away);
+    void publish_wrench();
+    void publish_contacts();
+    // What the devices of a fallback were tried for, and a look for those that are plugged in later.
+    void watch_for_devices();
+    void tell_choice(const std::string &reason);
+    [[nodiscard]] std::string why_simulated() const;
+    void watch_panic_key(bool watch);
+    void poll_panic_key();
+    void keep_stopped();
     void publish_forces();
     // A recording that cannot go on, a replay that has ended.
     void watch_recordings();
     void tell_recording_failed();
     bool reject(const std::string &message);
-    bool take_effect(const char *method, spidar::Effect effect);
+    bool take_effect(const char *method, spidar::Effect effect, int dof_mask);
     [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] std::string fault_message() const;
     [[nodiscard]] std::string name_for_messages() const;
@@ -262,6 +301,9 @@ private:
     bool enabled_ = true;
     DriveMode drive_mode_ = DRIVE_THREADED;
     double workspace_scale_ = 1.0;
+    mutable spidar::WorldFrame
+        last_world_; // in place of a transform that nothing can be computed with
+    mutable bool world_told_ = false;
 
     spidar::ServoSettings settings_;
     spidar::PlantSettings plant_;
@@ -269,16 +311,29 @@ private:
     bool restart_pending_ = false;
     bool forces_wanted_ = false;
     bool release_on_focus_loss_ = true;
-    bool away_ = false;       // the application has lost the focus, or was put aside
-    bool stall_told_ = false; // the loop stands still, and that was told
+    bool is_connected_told_ = false;
+    std::uint8_t stale_buttons_ = 0; // down since before the device was opened
+    bool panic_key_down_ = false;
+    std::atomic<bool> panicked_{false}; // by panic_stop(), until clear_fault()
+    bool away_ = false;                 // the application has lost the focus, or was put aside
+    double limited_told_s_ = -1.0;      // snapshot time
+    bool stall_told_ = false;           // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
-    spidar::HidTransport *hid_ = nullptr; // owned by loop_
-    std::string fallback_;                // why the simulated device stands in for a real one
+    spidar::HidTransport *hid_ = nullptr;      // owned by loop_
+    std::vector<spidar::HidDeviceInfo> tried_; // plugged in when the device was chosen
+    std::string fallback_;                     // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
+    std::unique_ptr<spidar::HidWatch> hid_watch_; // while the simulated device stands in
+    spidar::RecordingPlace recording_place_;
+    spidar::RequestOwners requests_;
+    std::uint64_t opened_revision_ = 0; // of config and calibration, when the device was opened
+    spidar::LiveLimits limits_from_;    // limits move from these to those wanted, so that nobody
+    spidar::LiveLimits limits_wanted_;  // feels a step
+    double limits_share_ = 1.0;         // of the way
     spidar::HapticCommand command_;
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()
     std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time

@@ -28,17 +28,19 @@ void SpidarG::_bind_methods() {
 }
 
 void SpidarG::bind_setup() {
-    ClassDB::bind_method(D_METHOD("set_config", "config"), &SpidarG::set_config);
+    spidar::bind_checked<&SpidarG::set_config, "", "set_config", "config">();
     ClassDB::bind_method(D_METHOD("get_config"), &SpidarG::get_config);
-    ClassDB::bind_method(D_METHOD("set_calibration", "calibration"), &SpidarG::set_calibration);
+    ClassDB::bind_method(D_METHOD("get_warnings"), &SpidarG::get_warnings);
+    ClassDB::bind_method(D_METHOD("get_effective_config"), &SpidarG::get_effective_config);
+    spidar::bind_checked<&SpidarG::set_calibration, "", "set_calibration", "calibration">();
     ClassDB::bind_method(D_METHOD("get_calibration"), &SpidarG::get_calibration);
-    ClassDB::bind_method(D_METHOD("set_enabled", "enabled"), &SpidarG::set_enabled);
+    spidar::bind_checked<&SpidarG::set_enabled, "", "set_enabled", "enabled">();
     ClassDB::bind_method(D_METHOD("is_enabled"), &SpidarG::is_enabled);
-    ClassDB::bind_method(D_METHOD("set_forces_enabled", "enabled"), &SpidarG::set_forces_enabled);
+    spidar::bind_checked<&SpidarG::set_forces_enabled, "", "set_forces_enabled", "enabled">();
     ClassDB::bind_method(D_METHOD("are_forces_enabled"), &SpidarG::are_forces_enabled);
-    ClassDB::bind_method(D_METHOD("set_drive_mode", "mode"), &SpidarG::set_drive_mode);
+    spidar::bind_checked<&SpidarG::set_drive_mode, "", "set_drive_mode", "mode">();
     ClassDB::bind_method(D_METHOD("get_drive_mode"), &SpidarG::get_drive_mode);
-    ClassDB::bind_method(D_METHOD("set_workspace_scale", "scale"), &SpidarG::set_workspace_scale);
+    spidar::bind_checked<&SpidarG::set_workspace_scale, "", "set_workspace_scale", "scale">();
     ClassDB::bind_method(D_METHOD("get_workspace_scale"), &SpidarG::get_workspace_scale);
 
     ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "config", godot::PROPERTY_HINT_RESOURCE_TYPE,
@@ -61,13 +63,13 @@ void SpidarG::bind_setup() {
     ClassDB::bind_method(D_METHOD("disarm"), &SpidarG::disarm);
     ClassDB::bind_method(D_METHOD("panic_stop"), &SpidarG::panic_stop);
     ClassDB::bind_method(D_METHOD("zero_at_home"), &SpidarG::zero_at_home);
-    ClassDB::bind_method(D_METHOD("set_release_on_focus_loss", "release"),
-                         &SpidarG::set_release_on_focus_loss);
+    spidar::bind_checked<&SpidarG::set_release_on_focus_loss, "", "set_release_on_focus_loss",
+                         "release">();
     ClassDB::bind_method(D_METHOD("is_release_on_focus_loss"), &SpidarG::is_release_on_focus_loss);
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "release_on_focus_loss"), "set_release_on_focus_loss",
                  "is_release_on_focus_loss");
     ClassDB::bind_method(D_METHOD("clear_fault"), &SpidarG::clear_fault);
-    ClassDB::bind_method(D_METHOD("advance_cycles", "cycles"), &SpidarG::advance_cycles);
+    spidar::bind_checked<&SpidarG::advance_cycles, "", "advance_cycles", "cycles">();
 
     ADD_SIGNAL(MethodInfo("device_connected"));
     ADD_SIGNAL(MethodInfo("device_lost", PropertyInfo(Variant::STRING, "reason")));
@@ -88,16 +90,16 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_state_text"), &SpidarG::get_state_text);
     ClassDB::bind_method(D_METHOD("get_fault_text"), &SpidarG::get_fault_text);
     ClassDB::bind_method(D_METHOD("get_grip_transform"), &SpidarG::get_grip_transform);
-    ClassDB::bind_method(D_METHOD("get_pole_transform", "pole"), &SpidarG::get_pole_transform);
-    ClassDB::bind_method(D_METHOD("get_pole_end", "target"), &SpidarG::get_pole_end);
-    ClassDB::bind_method(D_METHOD("get_string_start", "string"), &SpidarG::get_string_start);
-    ClassDB::bind_method(D_METHOD("get_string_end", "string"), &SpidarG::get_string_end);
+    spidar::bind_checked<&SpidarG::get_pole_transform, "", "get_pole_transform", "pole">();
+    spidar::bind_checked<&SpidarG::get_pole_end, "", "get_pole_end", "target">();
+    spidar::bind_checked<&SpidarG::get_string_start, "", "get_string_start", "string">();
+    spidar::bind_checked<&SpidarG::get_string_end, "", "get_string_end", "string">();
     ClassDB::bind_method(D_METHOD("get_grasp_angle"), &SpidarG::get_grasp_angle);
     ClassDB::bind_method(D_METHOD("get_grasp_rate"), &SpidarG::get_grasp_rate);
     ClassDB::bind_method(D_METHOD("get_grasp_phase"), &SpidarG::get_grasp_phase);
     ClassDB::bind_method(D_METHOD("get_jaw_gap"), &SpidarG::get_jaw_gap);
-    ClassDB::bind_method(D_METHOD("get_grasp_angle_for_gap", "gap_m"),
-                         &SpidarG::get_grasp_angle_for_gap);
+    spidar::bind_checked<&SpidarG::get_grasp_angle_for_gap, "", "get_grasp_angle_for_gap",
+                         "gap_m">();
     ClassDB::bind_method(D_METHOD("get_linear_velocity"), &SpidarG::get_linear_velocity);
     ClassDB::bind_method(D_METHOD("get_angular_velocity"), &SpidarG::get_angular_velocity);
     ClassDB::bind_method(D_METHOD("get_string_lengths"), &SpidarG::get_string_lengths);
@@ -111,21 +113,24 @@ void SpidarG::bind_state() {
 }
 
 void SpidarG::bind_requests() {
-    ClassDB::bind_method(
-        D_METHOD("request_wrench", "force", "moment", "grasp_torque", "duration_s"),
-        &SpidarG::request_wrench, DEFVAL(0.05));
-    ClassDB::bind_method(D_METHOD("set_contacts", "contacts"), &SpidarG::set_contacts);
-    ClassDB::bind_method(D_METHOD("clear_contacts"), &SpidarG::clear_contacts);
-    ClassDB::bind_method(D_METHOD("get_contact_impulses"), &SpidarG::get_contact_impulses);
-    ClassDB::bind_method(D_METHOD("get_touching_contacts"), &SpidarG::get_touching_contacts);
+    const godot::String script; // the owner that a script need not name
+    spidar::bind_checked<&SpidarG::request_wrench, "", "request_wrench", "force", "moment",
+                         "grasp_torque", "duration_s", "owner">(0.05, script);
+    spidar::bind_checked<&SpidarG::set_contacts, "", "set_contacts", "contacts", "owner">(script);
+    spidar::bind_checked<&SpidarG::clear_contacts, "", "clear_contacts", "owner">(script);
+    spidar::bind_checked<&SpidarG::get_free_contacts, "", "get_free_contacts", "owner">(script);
+    spidar::bind_checked<&SpidarG::get_contact_impulses, "", "get_contact_impulses", "owner">(
+        script);
+    spidar::bind_checked<&SpidarG::get_touching_contacts, "", "get_touching_contacts", "owner">(
+        script);
 }
 
 void SpidarG::bind_recording() {
-    ClassDB::bind_method(D_METHOD("start_recording", "path"), &SpidarG::start_recording);
+    spidar::bind_checked<&SpidarG::start_recording, "", "start_recording", "path">();
     ClassDB::bind_method(D_METHOD("stop_recording"), &SpidarG::stop_recording);
     ClassDB::bind_method(D_METHOD("is_recording"), &SpidarG::is_recording);
     ClassDB::bind_method(D_METHOD("get_recording_statistics"), &SpidarG::get_recording_statistics);
-    ClassDB::bind_method(D_METHOD("start_replay", "path"), &SpidarG::start_replay);
+    spidar::bind_checked<&SpidarG::start_replay, "", "start_replay", "path">();
     ClassDB::bind_method(D_METHOD("stop_replay"), &SpidarG::stop_replay);
     ClassDB::bind_method(D_METHOD("is_replaying"), &SpidarG::is_replaying);
     ClassDB::bind_method(D_METHOD("get_replay_statistics"), &SpidarG::get_replay_statistics);
@@ -135,15 +140,14 @@ void SpidarG::bind_recording() {
 }
 
 void SpidarG::bind_simulated() {
-    ClassDB::bind_method(D_METHOD("simulated_hand_target", "target", "grasp_angle"),
-                         &SpidarG::simulated_hand_target);
-    ClassDB::bind_method(D_METHOD("set_simulated_hand_firmness", "firmness"),
-                         &SpidarG::set_simulated_hand_firmness);
+    spidar::bind_checked<&SpidarG::simulated_hand_target, "", "simulated_hand_target", "target",
+                         "grasp_angle">();
+    spidar::bind_checked<&SpidarG::set_simulated_hand_firmness, "", "set_simulated_hand_firmness",
+                         "firmness">();
     ClassDB::bind_method(D_METHOD("get_simulated_truth"), &SpidarG::get_simulated_truth);
 #ifdef DEBUG_ENABLED
-    ClassDB::bind_method(
-        D_METHOD("inject_simulated_fault", "fault", "string", "start_s", "duration_s"),
-        &SpidarG::inject_simulated_fault, DEFVAL(0), DEFVAL(0.0), DEFVAL(0.0));
+    spidar::bind_checked<&SpidarG::inject_simulated_fault, "", "inject_simulated_fault", "fault",
+                         "string", "start_s", "duration_s">(0, 0.0, 0.0);
     ClassDB::bind_method(D_METHOD("clear_simulated_faults"), &SpidarG::clear_simulated_faults);
 #endif
 }
@@ -209,7 +213,17 @@ void SpidarG::bind_enums() {
 void SpidarG::bind_device() {
     ClassDB::bind_method(D_METHOD("zero_device"), &SpidarG::zero_device);
     ClassDB::bind_method(D_METHOD("get_device_info"), &SpidarG::get_device_info);
-    ClassDB::bind_method(D_METHOD("simulated_buttons", "mask"), &SpidarG::simulated_buttons);
+    ClassDB::bind_method(D_METHOD("is_simulated"), &SpidarG::is_simulated);
+    ClassDB::bind_method(D_METHOD("get_device_text"), &SpidarG::get_device_text);
+    ADD_PROPERTY(PropertyInfo(Variant::STRING, "device_text", godot::PROPERTY_HINT_NONE, "",
+                              godot::PROPERTY_USAGE_EDITOR | godot::PROPERTY_USAGE_READ_ONLY),
+                 "", "get_device_text");
+    ClassDB::bind_static_method(get_class_static(), D_METHOD("list_devices"),
+                                &SpidarG::list_devices);
+    ADD_SIGNAL(MethodInfo("device_chosen", PropertyInfo(Variant::BOOL, "simulated"),
+                          PropertyInfo(Variant::STRING, "device"),
+                          PropertyInfo(Variant::STRING, "reason")));
+    spidar::bind_checked<&SpidarG::simulated_buttons, "", "simulated_buttons", "mask">();
     ADD_SIGNAL(MethodInfo("button_changed", PropertyInfo(Variant::INT, "button"),
                           PropertyInfo(Variant::BOOL, "pressed")));
 }

@@ -10,6 +10,7 @@
 
 #include "device/hid/open_free_device.h"
 #include "godot/base/type_conversions.h"
+#include "godot/settings/plugged_in_devices.h"
 
 using godot::String;
 using godot::UtilityFunctions;
@@ -45,6 +46,7 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         choice = Choice::TRANSPORT_SIMULATED;
     }
     fallback_.clear();
+    tried_.clear();
     if (choice == Choice::TRANSPORT_DEVICE && drive_mode_ == DRIVE_STEPPED) {
         status = Status::invalid_settings;
         problem = "SpidarGConfig.transport = Device with drive_mode = Stepped: only a simulated "
@@ -53,6 +55,9 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         return nullptr;
     }
     if (choice != Choice::TRANSPORT_SIMULATED && drive_mode_ != DRIVE_STEPPED) {
+        // Before it is opened: what comes later is new to the watch.
+        (void)spidar::find_devices(*spidar::system_hid_bus(), config_or_default().hid_filter(),
+                                   tried_);
         auto transport = spidar::open_free_device(spidar::system_hid_bus(), hid_settings(),
                                                   name_for_messages(), claim_, status, problem);
         if (transport) {
@@ -61,6 +66,9 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
             use_strings({}, spidar::metres_per_count(hid_->capabilities().counts_per_turn,
                                                      settings_.motors.effective_radius_m[0],
                                                      plant_.metres_per_count));
+            tell_choice("transport = " +
+                        std::string(choice == Choice::TRANSPORT_DEVICE ? "Device" : "Automatic") +
+                        ", and it is the first that matches and is free.");
             return transport;
         }
         if (status == Status::invalid_settings) {
@@ -70,15 +78,74 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
             return nullptr;
         }
         fallback_ = problem;
-        const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +
-                                             "\": the simulated device is used. " + problem);
-        if (status == Status::no_device) {
-            UtilityFunctions::print_verbose(text); // the ordinary case of most who develop
-        } else {
-            UtilityFunctions::push_warning(text);
+        if (status != Status::no_device) { // no device is the ordinary case of most who develop
+            UtilityFunctions::push_warning(spidar::to_godot("SpidarG \"" + name_for_messages() +
+                                                            "\": the simulated device is used. " +
+                                                            problem));
         }
     }
-    return simulated_transport(status, problem);
+    auto transport = simulated_transport(status, problem);
+    if (transport) {
+        tell_choice(why_simulated());
+    }
+    return transport;
+}
+
+std::string SpidarG::why_simulated() const {
+    if (!fallback_.empty()) {
+        return fallback_ + " A device that is plugged in now is taken within a second.";
+    }
+    if (config_or_default().get_transport() == SpidarGConfig::TRANSPORT_SIMULATED) {
+        return "SpidarGConfig.transport = Simulated.";
+    }
+    return drive_mode_ == DRIVE_STEPPED
+               ? "drive_mode = Stepped: only a simulated device lives in simulated time."
+               : "The project setting spidar_g/device/use_hardware is off.";
+}
+
+String SpidarG::get_device_text() const {
+    if (simulated_ != nullptr) {
+        return "Simulated device.";
+    }
+    if (hid_ != nullptr) {
+        const spidar::HidDeviceInfo device = hid_->device();
+        return spidar::to_godot(
+            "Real device \"" + device.product + "\"" +
+            (device.serial.empty() ? ", no serial number" : ", serial " + device.serial) + ", " +
+            device.path + ".");
+    }
+    return replay_ != nullptr ? "Replay of a recording." : "No device is open.";
+}
+
+// In this frame, but after the scene's _ready().
+void SpidarG::tell_choice(const std::string &reason) {
+    const String device = get_device_text();
+    UtilityFunctions::print(spidar::to_godot("SpidarG \"" + name_for_messages() + "\": ") + device +
+                            String(" ") + spidar::to_godot(reason));
+    call_deferred("emit_signal", "device_chosen", is_simulated(), device, spidar::to_godot(reason));
+}
+
+void SpidarG::watch_for_devices() {
+    if (simulated_ != nullptr && !fallback_.empty()) {
+        hid_watch_ = std::make_unique<spidar::HidWatch>(spidar::system_hid_bus(),
+                                                        config_or_default().hid_filter(), tried_);
+    }
+}
+
+godot::Array SpidarG::list_devices() {
+    godot::Array list;
+    for (const spidar::HidDeviceInfo &device : spidar::plugged_in_devices()) {
+        godot::Dictionary shown;
+        shown["product"] = spidar::to_godot(device.product);
+        shown["serial"] = spidar::to_godot(device.serial);
+        shown["path"] = spidar::to_godot(device.path);
+        shown["vendor_id"] = static_cast<int>(device.vendor_id);
+        shown["product_id"] = static_cast<int>(device.product_id);
+        shown["owner"] =
+            spidar::to_godot(spidar::DeviceClaim::owner_of(spidar::claim_name(device)));
+        list.push_back(shown);
+    }
+    return list;
 }
 
 void SpidarG::use_strings(const spidar::CountArray &home_counts, double metres_per_count) {
@@ -116,6 +183,7 @@ godot::Dictionary SpidarG::get_device_info() const {
     const spidar::HidDeviceInfo device = real ? hid_->device() : spidar::HidDeviceInfo{};
     info["product"] = spidar::to_godot(device.product);
     info["serial"] = spidar::to_godot(device.serial);
+    info["path"] = spidar::to_godot(device.path);
     if (!real) {
         return info;
     }
@@ -143,6 +211,14 @@ godot::Dictionary SpidarG::get_device_info() const {
     info["round_trip_p99_us"] = times.round_trip_p99_us;
     info["write_p99_us"] = times.write_p99_us;
     return info;
+}
+
+void SpidarG::mask_buttons(const spidar::ServoSnapshot &before) {
+    if (before.state == spidar::DeviceState::closed) {
+        stale_buttons_ = snapshot_.buttons;
+    }
+    stale_buttons_ = static_cast<std::uint8_t>(stale_buttons_ & snapshot_.buttons);
+    snapshot_.buttons = static_cast<std::uint8_t>(snapshot_.buttons & ~stale_buttons_);
 }
 
 void SpidarG::emit_buttons(std::uint8_t before) {

@@ -43,9 +43,9 @@ spidar::DofGains same_gains(double linear, double angular, double grasp) {
 }
 
 // What of an effect makes no sense, with the remedy.
-std::string effect_problem(const Effect &effect) {
-    if (effect.dof_mask == 0 || effect.dof_mask > spidar::kAllDof) {
-        return "dof_mask = " + std::to_string(effect.dof_mask) +
+std::string effect_problem(const Effect &effect, int dof_mask) {
+    if (dof_mask < 1 || dof_mask > static_cast<int>(spidar::kAllDof)) {
+        return "dof_mask = " + std::to_string(dof_mask) +
                ": give a sum of SpidarG.DofMask, 1 to 127.";
     }
     if (!(effect.duration_s >= 0.0 && effect.duration_s <= spidar::kMaxWrenchDuration_s)) {
@@ -154,8 +154,9 @@ void SpidarG::clear_coupling() {
     }
 }
 
-bool SpidarG::take_effect(const char *method, Effect effect) {
-    std::string problem = effect_problem(effect);
+bool SpidarG::take_effect(const char *method, Effect effect, int dof_mask) {
+    effect.dof_mask = static_cast<std::uint8_t>(dof_mask & static_cast<int>(spidar::kAllDof));
+    std::string problem = effect_problem(effect, dof_mask);
     if (problem.empty() && !spidar::usable(spidar::validate_effect(effect))) {
         problem =
             "centre or grasp_angle (m, rad): give finite numbers and a basis that is a rotation.";
@@ -197,10 +198,9 @@ bool SpidarG::set_viscous_effect(int id, double linear, double angular, double g
     Effect effect;
     effect.kind = EffectKind::viscous;
     effect.id = id;
-    effect.dof_mask = static_cast<std::uint8_t>(std::clamp(dof_mask, 0, 255));
     effect.gain = same_gains(linear, angular, grasp);
     effect.duration_s = duration_s;
-    return take_effect("set_viscous_effect", effect);
+    return take_effect("set_viscous_effect", effect, dof_mask);
 }
 
 bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot::Vector3 &moment,
@@ -208,12 +208,11 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     Effect effect;
     effect.kind = EffectKind::constant;
     effect.id = id;
-    effect.dof_mask = spidar::kAllDof;
     // A force to give, or a wave's height, stands in the row of the gains.
     effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.duration_s = duration_s;
-    return take_effect("set_force_effect", effect);
+    return take_effect("set_force_effect", effect, DOF_ALL);
 }
 
 bool SpidarG::set_spring_effect(int id, const godot::Transform3D &centre, double grasp_angle,
@@ -223,14 +222,13 @@ bool SpidarG::set_spring_effect(int id, const godot::Transform3D &centre, double
     Effect effect;
     effect.kind = EffectKind::spring;
     effect.id = id;
-    effect.dof_mask = static_cast<std::uint8_t>(std::clamp(dof_mask, 0, 255));
     effect.gain = same_gains(linear, angular, grasp);
     effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
     effect.centre_rotation =
         glm::transpose(frame.rotation) * spidar::to_core(centre.basis.orthonormalized());
     effect.centre_grasp_rad = grasp_angle;
     effect.duration_s = duration_s;
-    return take_effect("set_spring_effect", effect);
+    return take_effect("set_spring_effect", effect, dof_mask);
 }
 
 bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
@@ -239,13 +237,12 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     Effect effect;
     effect.kind = EffectKind::vibration;
     effect.id = id;
-    effect.dof_mask = spidar::kAllDof;
     // A force to give, or a wave's height, stands in the row of the gains.
     effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.frequency_hz = frequency_hz;
     effect.duration_s = duration_s;
-    return take_effect("set_vibration_effect", effect);
+    return take_effect("set_vibration_effect", effect, DOF_ALL);
 }
 
 bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double grasp_angle,
@@ -254,7 +251,6 @@ bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double
     Effect effect;
     effect.kind = EffectKind::detents;
     effect.id = id;
-    effect.dof_mask = static_cast<std::uint8_t>(std::clamp(dof_mask, 0, 255));
     effect.gain.values.fill(strength);
     effect.spacing = same_gains(spacing / frame.scale, spacing, spacing);
     effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
@@ -262,7 +258,7 @@ bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double
         glm::transpose(frame.rotation) * spidar::to_core(centre.basis.orthonormalized());
     effect.centre_grasp_rad = grasp_angle;
     effect.duration_s = duration_s;
-    return take_effect("set_detent_effect", effect);
+    return take_effect("set_detent_effect", effect, dof_mask);
 }
 
 void SpidarG::clear_effect(int id) {
@@ -309,32 +305,26 @@ godot::PackedFloat64Array SpidarG::get_injected_energy() const {
 
 void SpidarG::bind_effects() {
     constexpr double kEffectDuration_s = 1.0;
-    ClassDB::bind_method(D_METHOD("set_coupling_gains", "stiffness", "damping", "max_force",
-                                  "max_moment", "max_grasp_torque"),
-                         &SpidarG::set_coupling_gains, DEFVAL(5.0), DEFVAL(0.2), DEFVAL(0.2));
-    ClassDB::bind_method(D_METHOD("set_coupling", "target", "grasp_angle", "linear_velocity",
-                                  "angular_velocity", "grasp_rate", "dof_mask"),
-                         &SpidarG::set_coupling, DEFVAL(godot::Vector3()), DEFVAL(godot::Vector3()),
-                         DEFVAL(0.0), DEFVAL(static_cast<int>(DOF_ALL)));
+    spidar::bind_checked<&SpidarG::set_coupling_gains, "", "set_coupling_gains", "stiffness",
+                         "damping", "max_force", "max_moment", "max_grasp_torque">(5.0, 0.2, 0.2);
+    spidar::bind_checked<&SpidarG::set_coupling, "", "set_coupling", "target", "grasp_angle",
+                         "linear_velocity", "angular_velocity", "grasp_rate", "dof_mask">(
+        godot::Vector3(), godot::Vector3(), 0.0, static_cast<int>(DOF_ALL));
     ClassDB::bind_method(D_METHOD("clear_coupling"), &SpidarG::clear_coupling);
-    ClassDB::bind_method(D_METHOD("set_viscous_effect", "id", "linear", "angular", "grasp",
-                                  "dof_mask", "duration_s"),
-                         &SpidarG::set_viscous_effect, DEFVAL(static_cast<int>(DOF_ALL)),
-                         DEFVAL(kEffectDuration_s));
-    ClassDB::bind_method(
-        D_METHOD("set_force_effect", "id", "force", "moment", "grasp_torque", "duration_s"),
-        &SpidarG::set_force_effect, DEFVAL(kEffectDuration_s));
-    ClassDB::bind_method(D_METHOD("set_spring_effect", "id", "centre", "grasp_angle", "linear",
-                                  "angular", "grasp", "dof_mask", "duration_s"),
-                         &SpidarG::set_spring_effect, DEFVAL(static_cast<int>(DOF_ALL)),
-                         DEFVAL(kEffectDuration_s));
-    ClassDB::bind_method(D_METHOD("set_vibration_effect", "id", "force", "moment", "grasp_torque",
-                                  "frequency_hz", "duration_s"),
-                         &SpidarG::set_vibration_effect, DEFVAL(kEffectDuration_s));
-    ClassDB::bind_method(D_METHOD("set_detent_effect", "id", "centre", "grasp_angle", "spacing",
-                                  "strength", "dof_mask", "duration_s"),
-                         &SpidarG::set_detent_effect, DEFVAL(kEffectDuration_s));
-    ClassDB::bind_method(D_METHOD("clear_effect", "id"), &SpidarG::clear_effect);
+    spidar::bind_checked<&SpidarG::set_viscous_effect, "", "set_viscous_effect", "id", "linear",
+                         "angular", "grasp", "dof_mask", "duration_s">(static_cast<int>(DOF_ALL),
+                                                                       kEffectDuration_s);
+    spidar::bind_checked<&SpidarG::set_force_effect, "", "set_force_effect", "id", "force",
+                         "moment", "grasp_torque", "duration_s">(kEffectDuration_s);
+    spidar::bind_checked<&SpidarG::set_spring_effect, "", "set_spring_effect", "id", "centre",
+                         "grasp_angle", "linear", "angular", "grasp", "dof_mask", "duration_s">(
+        static_cast<int>(DOF_ALL), kEffectDuration_s);
+    spidar::bind_checked<&SpidarG::set_vibration_effect, "", "set_vibration_effect", "id", "force",
+                         "moment", "grasp_torque", "frequency_hz", "duration_s">(kEffectDuration_s);
+    spidar::bind_checked<&SpidarG::set_detent_effect, "", "set_detent_effect", "id", "centre",
+                         "grasp_angle", "spacing", "strength", "dof_mask", "duration_s">(
+        kEffectDuration_s);
+    spidar::bind_checked<&SpidarG::clear_effect, "", "clear_effect", "id">();
     ClassDB::bind_method(D_METHOD("clear_effects"), &SpidarG::clear_effects);
     ClassDB::bind_method(D_METHOD("get_stiffness_limits"), &SpidarG::get_stiffness_limits);
     ClassDB::bind_method(D_METHOD("get_clamp_text"), &SpidarG::get_clamp_text);

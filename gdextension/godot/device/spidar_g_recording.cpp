@@ -20,10 +20,25 @@ namespace {
 } // namespace
 
 bool SpidarG::start_recording(const String &path) {
-    const std::string problem =
-        loop_ ? loop_->start_recording(system_path(path))
-              : std::string("no device is open. Add the node to the running scene, enabled.");
-    return problem.empty() || reject("start_recording: " + problem);
+    if (!loop_) {
+        return reject("start_recording: no device is open. Add the node to the running scene, "
+                      "enabled.");
+    }
+    if (is_recording()) {
+        return reject("start_recording: a recording runs already: stop_recording() first.");
+    }
+    const std::string place = system_path(path);
+    if (!recording_place_.take(place, name_for_messages())) {
+        return reject("start_recording: path = \"" + place + "\": the recording of node \"" +
+                      spidar::RecordingPlace::owner_of(place) +
+                      "\" writes into this file. Give another path.");
+    }
+    const std::string problem = loop_->start_recording(place);
+    if (!problem.empty()) {
+        recording_place_.release();
+        return reject("start_recording: " + problem);
+    }
+    return true;
 }
 
 void SpidarG::stop_recording() {
@@ -31,6 +46,7 @@ void SpidarG::stop_recording() {
         return;
     }
     loop_->stop_recording();
+    recording_place_.release();
     if (loop_->recording_statistics().failed) {
         tell_recording_failed();
     }
@@ -82,7 +98,7 @@ void SpidarG::stop_replay() {
     if (may_run()) {
         open_device();
     } else {
-        close_device();
+        close_device("The replay was stopped.");
     }
 }
 

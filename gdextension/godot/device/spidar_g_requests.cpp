@@ -75,7 +75,7 @@ std::string read_plane(const double *values, std::int64_t index, ContactPlane &p
 } // namespace
 
 bool SpidarG::request_wrench(const godot::Vector3 &force, const godot::Vector3 &moment,
-                             double grasp_torque, double duration_s) {
+                             double grasp_torque, double duration_s, const godot::String &owner) {
     const spidar::Wrench wrench{spidar::to_core(force), spidar::to_core(moment), grasp_torque};
     const Status status = spidar::validate_wrench(wrench, duration_s);
     if (!spidar::usable(status)) {
@@ -87,18 +87,29 @@ bool SpidarG::request_wrench(const godot::Vector3 &force, const godot::Vector3 &
             "request_wrench: force = " + text(force) + " N, moment = " + text(moment) +
             " N m, grasp_torque = " + std::to_string(grasp_torque) +
             " N m, duration_s = " + std::to_string(duration_s) + " s: " + spidar::describe(status) +
-            " Give finite numbers and a duration from 0 to 1 s; the last good request stands.");
+            " Give finite numbers and a duration from 0 to 60 s; the last good request stands.");
     }
-    command_.wrench = world().wrench_to_device(wrench);
-    command_.wrench_duration_s = duration_s;
-    ++command_.wrench_sequence;
-    if (loop_) {
-        loop_->publish(command_);
-    }
+    requests_.set_wrench(owner.utf8().get_data(), world().wrench_to_device(wrench), duration_s,
+                         snapshot_.time_s);
+    publish_wrench();
     return true;
 }
 
-bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts) {
+void SpidarG::publish_wrench() {
+    requests_.write_wrench(command_, snapshot_.time_s);
+    if (loop_) {
+        loop_->publish(command_);
+    }
+}
+
+void SpidarG::publish_contacts() {
+    requests_.write_contacts(command_, snapshot_.time_s); // the game saw this one
+    if (loop_) {
+        loop_->publish(command_);
+    }
+}
+
+bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts, const godot::String &owner) {
     const std::int64_t size = contacts.size();
     if (size % CONTACT_STRIDE != 0 || size > CONTACT_STRIDE * spidar::kMaxContacts) {
         return reject("set_contacts: " + std::to_string(size) +
@@ -116,16 +127,22 @@ bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts) {
         }
         plane = frame.contact_to_device(plane);
     }
-    command_.contacts = planes;
-    command_.contact_count = static_cast<int>(count);
-    command_.contacts_state_time_s = snapshot_.time_s; // the game saw this one
-    ++command_.contacts_sequence;
-    if (loop_) {
-        loop_->publish(command_);
+    const std::string name = owner.utf8().get_data();
+    const int free = requests_.free_contacts(name, snapshot_.time_s);
+    if (count > free) {
+        return reject("set_contacts: " + std::to_string(count) + " planes, but other owners use " +
+                      std::to_string(spidar::kMaxContacts - free) +
+                      " of the device's 8: give at most get_free_contacts() planes.");
     }
+    requests_.set_contacts(name, planes.data(), static_cast<int>(count), snapshot_.time_s);
+    publish_contacts();
     return true;
 }
 
-void SpidarG::clear_contacts() {
-    set_contacts(godot::PackedFloat64Array());
+void SpidarG::clear_contacts(const godot::String &owner) {
+    set_contacts(godot::PackedFloat64Array(), owner);
+}
+
+int SpidarG::get_free_contacts(const godot::String &owner) const {
+    return requests_.free_contacts(owner.utf8().get_data(), snapshot_.time_s);
 }

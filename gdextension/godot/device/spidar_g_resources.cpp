@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "godot/base/type_conversions.h"
+#include "godot/device/live_limits.h"
 
 using godot::Ref;
 using godot::String;
@@ -26,6 +27,46 @@ void SpidarG::read_project() {
 
 const SpidarGConfig &SpidarG::config_or_default() const {
     return config_.is_valid() ? *config_.ptr() : *default_config_.ptr();
+}
+
+Ref<SpidarGConfig> SpidarG::get_effective_config() const {
+    return config_.is_valid() ? config_ : default_config_;
+}
+
+std::uint64_t SpidarG::resources_revision() const {
+    return config_or_default().revision() +
+           (calibration_.is_valid() ? calibration_->revision() : 0U);
+}
+
+bool SpidarG::change_live(const std::string &problem) {
+    if (!loop_ || replay_ != nullptr || restart_pending_) {
+        return false;
+    }
+    if (!problem.empty()) {
+        refuse(problem + " The open device goes on with its last good settings.");
+        return true;
+    }
+    if (resources_revision() != opened_revision_) {
+        return false;
+    }
+    limits_from_ = spidar::between(limits_from_, limits_wanted_, limits_share_);
+    limits_wanted_ = spidar::live_limits(settings_);
+    limits_share_ = 0.0;
+    if (simulated_ != nullptr) {
+        simulated_->set_hand_firmness(plant_.firmness);
+    }
+    return true;
+}
+
+void SpidarG::move_limits(double dt_s) {
+    constexpr double kTime_s = 0.3;
+    if (limits_share_ >= 1.0) {
+        return;
+    }
+    limits_share_ = std::min(1.0, limits_share_ + dt_s / kTime_s);
+    command_.limits = spidar::between(limits_from_, limits_wanted_, limits_share_);
+    ++command_.limits_sequence;
+    loop_->publish(command_);
 }
 
 std::string SpidarG::read_resources() {
@@ -68,15 +109,28 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
             " N by the project setting spidar_g/safety/largest_force_n: lower the one or raise the "
             "other."));
     }
-    const godot::Basis basis = get_transform().basis;
+    const std::string odd = transform_problem();
+    if (!odd.empty()) {
+        warnings.push_back(spidar::to_godot(odd));
+    }
+    return warnings;
+}
+
+std::string SpidarG::transform_problem() const {
+    const godot::Basis basis = (is_inside_tree() ? get_global_transform() : get_transform()).basis;
+    if (basis.determinant() < 0.0) {
+        return "The node, or one of its parents, is mirrored (negative scale); a device is not, "
+               "and "
+               "its grip then moves and turns otherwise than the scene shows. Set every scale to "
+               "positive values.";
+    }
     for (int axis = 0; axis < 3; ++axis) {
         const double length = static_cast<double>(basis.get_column(axis).length());
         if (!(std::abs(length - 1.0) <= kNodeScaleTolerance)) {
-            warnings.push_back(
-                String("The node is scaled; a device is not. Set its scale to 1 and use "
-                       "workspace_scale to enlarge the device's movements."));
-            break;
+            return "The node, or one of its parents, is scaled; a device is not. Set every scale "
+                   "to "
+                   "1 and use workspace_scale to enlarge the device's movements.";
         }
     }
-    return warnings;
+    return {};
 }

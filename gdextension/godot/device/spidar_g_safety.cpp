@@ -1,7 +1,14 @@
 // Safety as the game sees it: panic stop, zero, signs of life, hand-off when the player looks away, events.
 #include "godot/device/spidar_g.h"
 
+#include <array>
+#include <cstdio>
+
+#include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_key.hpp>
+#include <godot_cpp/classes/input_map.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
+#include <godot_cpp/variant/callable_method_pointer.hpp>
 
 #include "godot/base/type_conversions.h"
 
@@ -10,14 +17,90 @@ namespace {
 // A loop that stands still for longer than any busy desktop makes it wait.
 constexpr double kStalled_s = 0.1;
 
+// The input action that stops every device. It exists while a panic key is set; a game may give it further events.
+constexpr const char *kPanicAction = "spidar_g_panic";
+
+void set_panic_key(int key) {
+    static int added = 0; // the key that the action has from us
+    godot::InputMap *const map = godot::InputMap::get_singleton();
+    const godot::StringName action(kPanicAction);
+    if (key != 0 && !map->has_action(action)) {
+        map->add_action(action);
+        added = 0;
+    }
+    if (key == added || !map->has_action(action)) {
+        return;
+    }
+    const auto event_of = [](int physical) {
+        godot::Ref<godot::InputEventKey> event;
+        event.instantiate();
+        event->set_device(-1); // of any keyboard
+        event->set_physical_keycode(static_cast<godot::Key>(physical));
+        return event;
+    };
+    if (added != 0) {
+        map->action_erase_event(action, event_of(added));
+    }
+    if (key != 0) {
+        map->action_add_event(action, event_of(key));
+    }
+    added = key;
+}
+
 } // namespace
 
 void SpidarG::panic_stop() {
-    if (loop_) {
+    panicked_.store(true); // also for a device that is closed now: it opens stopped
+    if (loop_ && replay_ == nullptr) {
         loop_->panic_stop();
     }
 }
 
+// A loop that was opened after the stop knows nothing of it.
+void SpidarG::keep_stopped() {
+    publish_forces();
+    const bool stopped = snapshot_.state == spidar::DeviceState::fault ||
+                         snapshot_.state == spidar::DeviceState::closed;
+    if (panicked_.load() && !stopped && replay_ == nullptr && loop_) {
+        loop_->panic_stop();
+    }
+}
+
+// The key is looked for in the state of the input, each frame of the scene tree: a pause, another viewport or window,
+// and nodes that mark events as handled change nothing of that.
+void SpidarG::watch_panic_key(bool watch) {
+    godot::SceneTree *const tree = get_tree();
+    const godot::Callable listener = callable_mp(this, &SpidarG::poll_panic_key);
+    const godot::StringName frame("process_frame");
+    if (watch) {
+        set_panic_key(options_.panic_key);
+    } else {
+        panic_key_down_ = false;
+    }
+    if (tree != nullptr && tree->is_connected(frame, listener) != watch) {
+        if (watch) {
+            tree->connect(frame, listener);
+        } else {
+            tree->disconnect(frame, listener);
+        }
+    }
+}
+
+void SpidarG::poll_panic_key() {
+    const godot::StringName action(kPanicAction);
+    if (!godot::InputMap::get_singleton()->has_action(action)) {
+        return;
+    }
+    const godot::Input *const input = godot::Input::get_singleton();
+    const bool was_down = panic_key_down_;
+    panic_key_down_ = input->is_action_pressed(action);
+    // A tap that is over within one frame is only in the second. A key that is down as the device opens stops it too.
+    if ((panic_key_down_ && !was_down) || input->is_action_just_pressed(action)) {
+        panic_stop();
+    }
+}
+
+// What is pushed into the node's own viewport by a script and is not in the state of the input.
 void SpidarG::_input(const godot::Ref<godot::InputEvent> &event) {
     const godot::Ref<godot::InputEventKey> key{godot::Variant(event)};
     if (key.is_valid() && key->is_pressed() && !key->is_echo() &&
@@ -53,7 +136,7 @@ void SpidarG::set_away(bool away) {
 }
 
 void SpidarG::publish_forces() {
-    const bool on = forces_wanted_ && !away_;
+    const bool on = forces_wanted_ && !away_ && !panicked_.load();
     if (on == command_.forces_enabled) {
         return;
     }
@@ -96,6 +179,39 @@ void SpidarG::emit_events() {
     }
 }
 
+std::string SpidarG::limited_request() const {
+    using Gain = spidar::GainClamp::Gain;
+    const spidar::GainClamp::Gain gain = snapshot_.clamp.gain;
+    if (gain != Gain::none && gain != Gain::wrench) {
+        return std::string(get_clamp_text().utf8().get_data());
+    }
+    std::string owners = requests_.describe_wrenches(snapshot_.time_s);
+    if (owners.empty()) {
+        owners = "Contacts, coupling and effects ask for more together";
+    }
+    const spidar::SafetySettings &limits = settings_.safety;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  ". All is kept within max_force = %.2f N, max_moment = %.3f N m, "
+                  "max_grasp_torque = %.3f N m of the SpidarGConfig.",
+                  limits.max_force_n, limits.max_moment_nm, limits.max_grasp_torque_nm);
+    return owners + text.data();
+}
+
+// The loop tells of a sum that is limited; of a single request or gain it only counts. Once a second, as events are.
+void SpidarG::tell_limited(const spidar::ServoSnapshot &before) {
+    constexpr double kApart_s = 1.0;
+    const bool limited = snapshot_.counters.clamped_requests > before.counters.clamped_requests;
+    if (!limited || before.state == spidar::DeviceState::closed ||
+        (limited_told_s_ >= 0.0 && snapshot_.time_s - limited_told_s_ < kApart_s)) {
+        return;
+    }
+    spidar::DeviceEvent event;
+    event.kind = spidar::DeviceEventKind::request_limited;
+    event.time_s = snapshot_.time_s;
+    tell(event);
+}
+
 void SpidarG::tell(const spidar::DeviceEvent &event) {
     const spidar::EventDescription &what = spidar::describe(event.kind);
     godot::Dictionary told;
@@ -105,7 +221,15 @@ void SpidarG::tell(const spidar::DeviceEvent &event) {
     told["string"] = static_cast<int>(event.string);
     told["value"] = event.value;
     told["unit"] = godot::String(what.unit);
-    told["message"] = godot::String(what.message);
+    std::string message = what.message;
+    if (event.kind == spidar::DeviceEventKind::request_limited) {
+        limited_told_s_ = event.time_s;
+        message += " " + limited_request();
+    } else if (event.kind == spidar::DeviceEventKind::device_connected) {
+        message += " " + std::string(get_device_text().utf8().get_data());
+    }
+    told["message"] = spidar::to_godot(message);
+    told["simulated"] = is_simulated();
     told["remedy"] = godot::String(what.remedy);
     told["time_s"] = event.time_s;
     told["repeated"] = static_cast<int>(event.repeated);

@@ -7,6 +7,14 @@
 #include "core/base/finite.h"
 #include "godot/base/type_conversions.h"
 
+namespace {
+
+// A hand beyond these is a mistake of units; the simulated arm would be torn to numbers without end.
+constexpr double kFarthestHand_m = 10.0;
+constexpr double kWidestGrasp_rad = 3.2;
+
+} // namespace
+
 std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &status,
                                                                 std::string &problem) {
     const std::string device_name = config_or_default().get_device_name().utf8().get_data();
@@ -35,12 +43,24 @@ bool SpidarG::simulated_hand_target(const godot::Transform3D &target, double gra
             "simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
             " rad is not finite: give finite numbers; the hand stays where it was.");
     }
+    const double away_m = glm::length(frame.point_to_device(origin));
+    if (!(away_m <= kFarthestHand_m) || std::abs(grasp_angle) > kWidestGrasp_rad) {
+        return reject(
+            "simulated_hand_target: the target is " + std::to_string(away_m) +
+            " device m from the frame's centre, grasp_angle = " + std::to_string(grasp_angle) +
+            " rad: give at most 10 m and -pi to pi; the hand stays where it was.");
+    }
     simulated_->set_hand_target(
         {frame.point_to_device(origin), glm::transpose(frame.rotation) * turn, grasp_angle});
     return true;
 }
 
 void SpidarG::set_simulated_hand_firmness(HandFirmness firmness) {
+    if (firmness < HAND_LIGHT || firmness > HAND_FIRM) {
+        refuse("simulated_hand_firmness = " + std::to_string(static_cast<int>(firmness)) +
+               ": give one of SpidarG.HandFirmness, 0 to 2; the old value stays.");
+        return;
+    }
     if (simulated_ != nullptr) {
         simulated_->set_hand_firmness(static_cast<spidar::HandFirmness>(firmness));
     }

@@ -1,6 +1,8 @@
 // What the newest snapshot says, in world coordinates.
 #include "godot/device/spidar_g.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include <godot_cpp/core/error_macros.hpp>
@@ -23,7 +25,14 @@ SpidarG::State SpidarG::get_state() const {
 }
 
 godot::String SpidarG::get_state_text() const {
-    return spidar::describe(snapshot_.state);
+    const std::string state = spidar::describe(snapshot_.state);
+    if (!loop_) {
+        return spidar::to_godot(state);
+    }
+    const char *const kind = simulated_ != nullptr ? "Simulated device: "
+                             : replay_ != nullptr  ? "Replay: "
+                                                   : "Real device: ";
+    return spidar::to_godot(kind + state);
 }
 
 godot::String SpidarG::get_fault_text() const {
@@ -48,6 +57,8 @@ godot::Transform3D SpidarG::get_pole_transform(int pole) const {
 }
 
 godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
+    ERR_FAIL_COND_V_MSG(target < CONTACT_CENTRE || target > CONTACT_TURN_STOP, godot::Vector3(),
+                        "SpidarG.get_pole_end: target is one of SpidarG.ContactTarget.");
     const spidar::GripPose &pose = snapshot_.grip.pose;
     Vec3 point = pose.position_m;
     switch (target) {
@@ -102,6 +113,8 @@ double SpidarG::get_jaw_gap() const {
 }
 
 double SpidarG::get_grasp_angle_for_gap(double gap_m) const {
+    ERR_FAIL_COND_V_MSG(!std::isfinite(gap_m), 0.0,
+                        "SpidarG.get_grasp_angle_for_gap: gap_m is a finite number in m.");
     return config_or_default().grasp_angle_for_gap(gap_m);
 }
 
@@ -138,13 +151,18 @@ godot::PackedFloat64Array SpidarG::get_wrench_bias() const {
         world().wrench_to_world(spidar::from_paper(tension_report(settings_, snapshot_).bias())));
 }
 
-godot::Dictionary SpidarG::get_contact_impulses() const {
+godot::Dictionary SpidarG::get_contact_impulses(const godot::String &owner) const {
     godot::Dictionary impulses;
+    const std::string name = owner.utf8().get_data();
     const spidar::WorldFrame frame = world();
     for (int i = 0; i < snapshot_.contact_count; ++i) {
         const spidar::ContactReport &contact = snapshot_.contacts[static_cast<std::size_t>(i)];
         const bool is_stop = contact.grasp_impulse_nms != 0.0;
-        impulses[contact.id] =
+        std::int32_t id = 0;
+        if (!requests_.id_of(name, contact.id, id)) {
+            continue;
+        }
+        impulses[id] =
             is_stop
                 ? godot::Vector3(static_cast<spidar::GodotReal>(contact.grasp_impulse_nms), 0, 0)
                 : spidar::to_godot(frame.turn_to_world(contact.impulse_ns));
@@ -152,12 +170,14 @@ godot::Dictionary SpidarG::get_contact_impulses() const {
     return impulses;
 }
 
-godot::PackedInt32Array SpidarG::get_touching_contacts() const {
+godot::PackedInt32Array SpidarG::get_touching_contacts(const godot::String &owner) const {
     godot::PackedInt32Array ids;
+    const std::string name = owner.utf8().get_data();
     for (int i = 0; i < snapshot_.contact_count; ++i) {
         const spidar::ContactReport &contact = snapshot_.contacts[static_cast<std::size_t>(i)];
-        if (contact.touching) {
-            ids.push_back(contact.id);
+        std::int32_t id = 0;
+        if (contact.touching && requests_.id_of(name, contact.id, id)) {
+            ids.push_back(id);
         }
     }
     return ids;

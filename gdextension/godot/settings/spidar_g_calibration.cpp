@@ -1,5 +1,7 @@
 #include "godot/settings/spidar_g_calibration.h"
 
+#include <godot_cpp/variant/utility_functions.hpp>
+
 #include "godot/base/type_conversions.h"
 
 namespace {
@@ -83,6 +85,10 @@ std::string SpidarGCalibration::strings_of(const godot::Ref<SpidarGCalibration> 
         strings = found;
     }
     return problem;
+}
+
+void SpidarGCalibration::refuse(const std::string &message) const {
+    godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGCalibration." + message));
 }
 
 godot::String SpidarGCalibration::get_problem() const {

@@ -16,7 +16,8 @@
 // Each array holds 8 values, string 0-7; an empty one means: as the ideal device (no winding, no stretch).
 class SpidarGCalibration : public godot::Resource {
     GDCLASS(SpidarGCalibration, godot::Resource)
-
+    SPIDAR_G_CHECKED_CALLS
+    SPIDAR_G_REVISION;
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_offsets); // m, at the zero count
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
@@ -31,6 +32,8 @@ class SpidarGCalibration : public godot::Resource {
 
 public:
     [[nodiscard]] godot::String get_problem() const;
+    // A value of a type that its property does not take: told, and not kept.
+    void refuse(const std::string &message) const;
 
     // The winding and stretch of `known`; an array stays empty where all are zero.
     void set_corrections(const spidar::LengthCorrections &known);

@@ -6,8 +6,14 @@
 #include "core/analysis/geometry_report.h"
 #include "core/presets/presets.h"
 #include "godot/base/type_conversions.h"
+#include "godot/settings/plugged_in_devices.h"
+
+#include <glm/common.hpp>
+
+#include <godot_cpp/classes/engine.hpp>
 
 #include <godot_cpp/variant/packed_string_array.hpp>
+#include <godot_cpp/variant/utility_functions.hpp>
 
 using godot::PROPERTY_HINT_NONE;
 using godot::PROPERTY_HINT_RANGE;
@@ -97,6 +103,10 @@ std::string SpidarGConfig::own_problem() const {
     return problem;
 }
 
+void SpidarGConfig::refuse(const std::string &message) const {
+    godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGConfig." + message));
+}
+
 godot::String SpidarGConfig::get_problem() const {
     std::string problem = own_problem();
     if (problem.empty()) {
@@ -106,6 +116,38 @@ godot::String SpidarGConfig::get_problem() const {
         problem = spidar::validate(plant_settings());
     }
     return spidar::to_godot(problem);
+}
+
+godot::Vector3 SpidarGConfig::get_effective_frame_size() const {
+    if (preset_ <= kPresetCustom || preset_ > spidar::kPresetCount) {
+        return frame_size_;
+    }
+    spidar::Vec3 low = preset_of(preset_).frame.motors_m[0];
+    spidar::Vec3 high = low;
+    for (const spidar::Vec3 &motor : preset_of(preset_).frame.motors_m) {
+        low = glm::min(low, motor);
+        high = glm::max(high, motor);
+    }
+    return spidar::to_godot(high - low);
+}
+
+double SpidarGConfig::get_effective_pole_half_length() const {
+    return servo_settings().grip.pole_half_length_m;
+}
+
+void SpidarGConfig::_validate_property(godot::PropertyInfo &property) const {
+    if (!godot::Engine::get_singleton()->is_editor_hint() ||
+        property.name != godot::StringName("device_serial")) {
+        return;
+    }
+    std::string serials;
+    for (const spidar::HidDeviceInfo &device : spidar::plugged_in_devices()) {
+        if (!device.serial.empty()) {
+            serials += (serials.empty() ? "" : ",") + device.serial;
+        }
+    }
+    property.hint = godot::PROPERTY_HINT_ENUM_SUGGESTION;
+    property.hint_string = spidar::to_godot(serials);
 }
 
 godot::Dictionary SpidarGConfig::check_geometry() const {
@@ -309,6 +351,10 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, reals, simulated_tension_gains, PROPERTY_HINT_NONE, "");
 
     godot::ClassDB::bind_method(godot::D_METHOD("get_problem"), &SpidarGConfig::get_problem);
+    godot::ClassDB::bind_method(godot::D_METHOD("get_effective_frame_size"),
+                                &SpidarGConfig::get_effective_frame_size);
+    godot::ClassDB::bind_method(godot::D_METHOD("get_effective_pole_half_length"),
+                                &SpidarGConfig::get_effective_pole_half_length);
     godot::ClassDB::bind_method(godot::D_METHOD("check_geometry"), &SpidarGConfig::check_geometry);
     BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
     BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);

@@ -21,11 +21,13 @@ inline constexpr int kPresetCustom = 0;
 
 class SpidarGConfig : public godot::Resource {
     GDCLASS(SpidarGConfig, godot::Resource)
+    SPIDAR_G_CHECKED_CALLS
 
 public:
     enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE };
 
-private:
+    SPIDAR_G_REVISION;
+
     // Frame and grip.
     SPIDAR_G_FIELD(int, preset, kPresetCustom);
     SPIDAR_G_FIELD(godot::Vector3, frame_size, godot::Vector3(0.48F, 0.48F, 0.48F));
@@ -38,7 +40,7 @@ private:
     SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
     SPIDAR_G_FIELD(int, device_vendor_id, 0);
     SPIDAR_G_FIELD(int, device_product_id, 0);
-    SPIDAR_G_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
+    SPIDAR_G_LIVE_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
 
     // Servo loop.
     SPIDAR_G_FIELD(int, rate_hz, 1000);
@@ -48,10 +50,11 @@ private:
     SPIDAR_G_FIELD(double, string_resonance_hz, spidar::RenderSettings{}.string_resonance_hz);
     SPIDAR_G_FIELD(double, delay_compensation, spidar::RenderSettings{}.delay_compensation_s);
     SPIDAR_G_FIELD(double, link_latency, spidar::RenderSettings{}.latency_s);
-    SPIDAR_G_FIELD(double, max_stiffness, spidar::RenderSettings{}.max_stiffness_n_m);
-    SPIDAR_G_FIELD(double, max_turn_stiffness, spidar::RenderSettings{}.max_turn_stiffness_nm_rad);
-    SPIDAR_G_FIELD(double, max_grasp_stiffness,
-                   spidar::RenderSettings{}.max_grasp_stiffness_nm_rad);
+    SPIDAR_G_LIVE_FIELD(double, max_stiffness, spidar::RenderSettings{}.max_stiffness_n_m);
+    SPIDAR_G_LIVE_FIELD(double, max_turn_stiffness,
+                        spidar::RenderSettings{}.max_turn_stiffness_nm_rad);
+    SPIDAR_G_LIVE_FIELD(double, max_grasp_stiffness,
+                        spidar::RenderSettings{}.max_grasp_stiffness_nm_rad);
     SPIDAR_G_FIELD(double, compensated_mass, spidar::RenderSettings{}.compensated_mass_kg);
     SPIDAR_G_FIELD(double, compensated_friction, spidar::RenderSettings{}.compensated_friction_n);
     SPIDAR_G_FIELD(double, compensated_viscous, spidar::RenderSettings{}.compensated_viscous_n_s_m);
@@ -68,9 +71,9 @@ private:
     // Safety.
     SPIDAR_G_FIELD(double, tension_slew, spidar::SafetySettings{}.tension_slew_n_per_ms);
     SPIDAR_G_FIELD(double, arming_time, spidar::SafetySettings{}.arming_time_s);
-    SPIDAR_G_FIELD(double, max_force, spidar::SafetySettings{}.max_force_n);
-    SPIDAR_G_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
-    SPIDAR_G_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
+    SPIDAR_G_LIVE_FIELD(double, max_force, spidar::SafetySettings{}.max_force_n);
+    SPIDAR_G_LIVE_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
+    SPIDAR_G_LIVE_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
 
     // Grasp (radians inside, degrees in the inspector).
     SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
@@ -78,15 +81,16 @@ private:
     SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
     SPIDAR_G_FIELD(double, over_closed_leave_angle, spidar::GraspSettings{}.over_closed_leave_rad);
     SPIDAR_G_FIELD(double, grasp_dwell, spidar::GraspSettings{}.dwell_s);
-    SPIDAR_G_FIELD(double, jaw_open, 0.08);
-    SPIDAR_G_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
+    SPIDAR_G_LIVE_FIELD(double, jaw_open, 0.08);
+    SPIDAR_G_LIVE_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
 
     // Simulated device.
     SPIDAR_G_FIELD(bool, simulated_elastic, true);
     SPIDAR_G_FIELD(double, simulated_string_stiffness,
                    spidar::PlantSettings{}.string_stiffness_ea_n);
     SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
-    SPIDAR_G_FIELD(int, simulated_hand_firmness, static_cast<int>(spidar::HandFirmness::normal));
+    SPIDAR_G_LIVE_FIELD(int, simulated_hand_firmness,
+                        static_cast<int>(spidar::HandFirmness::normal));
     // What a calibration has to find: 8 values, or none.
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
@@ -95,8 +99,14 @@ private:
 public:
     // Empty when usable; else one sentence with field, value, unit and remedy.
     [[nodiscard]] godot::String get_problem() const;
+    // Of the frame and grip that the device has: the preset's, or those of frame_size and pole_half_length (unit: m).
+    [[nodiscard]] godot::Vector3 get_effective_frame_size() const;
+    [[nodiscard]] double get_effective_pole_half_length() const;
     // Whether the strings of this frame and grip can hold and move it (core/analysis/geometry_report.h).
     [[nodiscard]] godot::Dictionary check_geometry() const;
+
+    // A value of a type that its property does not take: told, and not kept.
+    void refuse(const std::string &message) const;
 
     // The settings of the servo loop, all but the calibration.
     [[nodiscard]] spidar::ServoSettings servo_settings() const;
@@ -109,6 +119,9 @@ public:
     // Opening of the jaws (unit: device m): linear, jaw_open at 0, nothing at jaw_closed_angle.
     [[nodiscard]] double jaw_gap(double grasp_angle_rad) const;
     [[nodiscard]] double grasp_angle_for_gap(double gap_m) const;
+
+    // Offers the serial numbers of the devices that are plugged in, in the editor.
+    void _validate_property(godot::PropertyInfo &property) const;
 
 protected:
     static void _bind_methods();

@@ -263,34 +263,36 @@ PackedFloat64Array SpidarGWorkspace::get_given_wrench(const Transform3D &pose, d
     return spidar::to_godot(spidar::lanes(given));
 }
 
+void SpidarGWorkspace::refuse(const std::string &message) const {
+    godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGWorkspace." + message));
+}
+
 void SpidarGWorkspace::_bind_methods() {
     using godot::ClassDB;
     using godot::D_METHOD;
     using Self = SpidarGWorkspace;
-    ClassDB::bind_method(D_METHOD("set_config", "config"), &Self::set_config);
+    spidar::bind_checked<&Self::set_config, "", "set_config", "config">();
     ClassDB::bind_method(D_METHOD("get_config"), &Self::get_config);
     ADD_PROPERTY(godot::PropertyInfo(godot::Variant::OBJECT, "config",
                                      godot::PROPERTY_HINT_RESOURCE_TYPE, "SpidarGConfig"),
                  "set_config", "get_config");
     ClassDB::bind_method(D_METHOD("get_problem"), &Self::get_problem);
     ClassDB::bind_method(D_METHOD("get_motor_positions"), &Self::get_motor_positions);
-    ClassDB::bind_method(D_METHOD("get_attachment_points", "pose", "grasp_angle"),
-                         &Self::get_attachment_points);
+    spidar::bind_checked<&Self::get_attachment_points, "", "get_attachment_points", "pose",
+                         "grasp_angle">();
     ClassDB::bind_method(D_METHOD("get_box"), &Self::get_box);
-    ClassDB::bind_method(D_METHOD("get_closure_margin", "pose", "grasp_angle"),
-                         &Self::get_closure_margin);
-    ClassDB::bind_method(D_METHOD("get_closure_margins", "positions", "turn", "grasp_angle"),
-                         &Self::get_closure_margins);
-    ClassDB::bind_method(D_METHOD("get_force_capacity", "pose", "grasp_angle", "directions"),
-                         &Self::get_force_capacity);
-    ClassDB::bind_method(D_METHOD("get_moment_capacity", "pose", "grasp_angle", "axes"),
-                         &Self::get_moment_capacity);
-    ClassDB::bind_method(D_METHOD("get_grasp_capacity", "pose", "grasp_angle"),
-                         &Self::get_grasp_capacity);
-    ClassDB::bind_method(
-        D_METHOD("get_tensions", "pose", "grasp_angle", "force", "moment", "grasp_torque"),
-        &Self::get_tensions);
-    ClassDB::bind_method(
-        D_METHOD("get_given_wrench", "pose", "grasp_angle", "force", "moment", "grasp_torque"),
-        &Self::get_given_wrench);
+    spidar::bind_checked<&Self::get_closure_margin, "", "get_closure_margin", "pose",
+                         "grasp_angle">();
+    spidar::bind_checked<&Self::get_closure_margins, "", "get_closure_margins", "positions", "turn",
+                         "grasp_angle">();
+    spidar::bind_checked<&Self::get_force_capacity, "", "get_force_capacity", "pose", "grasp_angle",
+                         "directions">();
+    spidar::bind_checked<&Self::get_moment_capacity, "", "get_moment_capacity", "pose",
+                         "grasp_angle", "axes">();
+    spidar::bind_checked<&Self::get_grasp_capacity, "", "get_grasp_capacity", "pose",
+                         "grasp_angle">();
+    spidar::bind_checked<&Self::get_tensions, "", "get_tensions", "pose", "grasp_angle", "force",
+                         "moment", "grasp_torque">();
+    spidar::bind_checked<&Self::get_given_wrench, "", "get_given_wrench", "pose", "grasp_angle",
+                         "force", "moment", "grasp_torque">();
 }

@@ -20,10 +20,13 @@
 
 class SpidarGWorkspace : public godot::RefCounted {
     GDCLASS(SpidarGWorkspace, godot::RefCounted)
+    SPIDAR_G_CHECKED_CALLS
 
 public:
     SpidarGWorkspace();
 
+    // An argument of a type that the method does not take: told in the output.
+    void refuse(const std::string &message) const;
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
     [[nodiscard]] godot::String get_problem() const;

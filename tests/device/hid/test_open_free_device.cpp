@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "device/hid/open_free_device.h"
 #include "support/fake_hid_bus.h"
 
@@ -83,4 +86,75 @@ TEST_CASE("open free device: no device, or only another maker's") {
     CHECK(any.problem.starts_with("device_product"));
     const Opened first(bus, "one");
     CHECK(first.transport);
+}
+
+TEST_CASE("open free device: devices without a serial number are told apart by their paths") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    const auto left = bus->add("");
+    left->info.path = "/dev/hidraw0";
+    const auto right = bus->add("");
+    right->info.path = "/dev/hidraw1";
+    Opened first(bus, "one");
+    const Opened second(bus, "two");
+    REQUIRE(first.transport);
+    REQUIRE(second.transport);
+    CHECK(first.transport->device().path == "/dev/hidraw0");
+    CHECK(second.transport->device().path == "/dev/hidraw1");
+    const Opened third(bus, "three");
+    CHECK(third.status == Status::device_in_use);
+
+    // What one pulls, the other does not.
+    DeviceReading reading;
+    DriveCommand off;
+    for (int i = 0; i < 20; ++i) {
+        bus->tick();
+        first.transport->read(reading);
+        first.transport->write(off);
+    }
+    REQUIRE(first.transport->zero(CountArray{}) == Status::ok);
+    DriveCommand pull;
+    pull.motors_on = true;
+    pull.tensions_n.fill(2.0);
+    for (int i = 0; i < 300; ++i) {
+        bus->tick();
+        first.transport->read(reading);
+        first.transport->write(pull);
+    }
+    CHECK(left->firmware.motors_mn()[0] > 1000);
+    CHECK(right->firmware.motors_mn()[0] == 0);
+}
+
+TEST_CASE(
+    "open free device: one without a serial number that is unplugged takes no other's place") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    const auto left = bus->add("");
+    left->info.path = "/dev/hidraw0";
+    const auto right = bus->add("");
+    right->info.path = "/dev/hidraw1";
+    const Opened opened(bus, "one");
+    REQUIRE(opened.transport);
+    DeviceReading reading;
+    bus->tick();
+    REQUIRE(opened.transport->read(reading) == Status::ok);
+    FakeHidBus::unplug(*left);
+    bus->tick();
+    REQUIRE(opened.transport->read(reading) == Status::read_failed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700)); // two polls of the watcher
+    CHECK(opened.transport->counters().replugs == 0);
+    CHECK(opened.transport->device().path == "/dev/hidraw0");
+    FakeHidBus::plug(*left, "/dev/hidraw0");
+    for (int i = 0; i < 100 && opened.transport->counters().replugs == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    CHECK(opened.transport->counters().replugs == 1);
+}
+
+TEST_CASE("open free device: feature reports are read as Windows wants them") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    bus->add("windows/1")->wants_largest_buffer = true;
+    const Opened opened(bus, "one");
+    CHECK(opened.status == Status::ok);
+    REQUIRE(opened.transport);
+    CHECK(opened.transport->limits().max_tension_mn > 0);
+    CHECK(opened.transport->capabilities().motor_count == kStringCount);
 }

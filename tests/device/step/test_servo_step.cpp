@@ -264,3 +264,43 @@ TEST_CASE("step: what was asked before acknowledge() does not act after it") {
     CHECK(bench.now().state == DeviceState::arming);
     CHECK(glm::length(bench.now().requested.force_n) == 0.0);
 }
+
+TEST_CASE("step: limits change while forces are on; limits that make no sense do not") {
+    Bench bench;
+    bench.put(rest_pose(bench.settings.grip));
+    bench.activate();
+    bench.ask({Vec3(0.0, 6.0, 0.0), Vec3(0.0), 0.0}, 10.0);
+    bench.tick(100);
+    CHECK(bench.now().requested.force_n.y == doctest::Approx(6.0));
+    const LiveLimits lower{2.0, 0.4, 0.4, 500.0, 1.0, 0.25};
+    bench.command.limits = lower;
+    bench.tick(10);
+    CHECK(bench.now().requested.force_n.y == doctest::Approx(6.0)); // not without its number
+    ++bench.command.limits_sequence;
+    bench.tick(100);
+    CHECK(bench.now().requested.force_n.y == doctest::Approx(2.0));
+    CHECK(bench.now().state == DeviceState::active);
+    const std::uint64_t refused = bench.now().counters.rejected_requests;
+    for (double *const field :
+         {&bench.command.limits.max_force_n, &bench.command.limits.max_moment_nm,
+          &bench.command.limits.max_stiffness_n_m}) {
+        for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(),
+                                 std::numeric_limits<double>::infinity()}) {
+            bench.command.limits = lower;
+            *field = bad;
+            ++bench.command.limits_sequence;
+            bench.tick(2);
+        }
+    }
+    CHECK(bench.now().counters.rejected_requests == refused + 9);
+    CHECK(bench.now().requested.force_n.y == doctest::Approx(2.0));
+
+    // Caps of gains hold for what is asked from now on.
+    bench.command.limits = lower;
+    ++bench.command.limits_sequence;
+    bench.command.contact_count = 1;
+    bench.command.contacts[0].stiffness_n_m = 900.0;
+    ++bench.command.contacts_sequence;
+    bench.tick(1);
+    CHECK(bench.now().clamp.given == doctest::Approx(500.0));
+}

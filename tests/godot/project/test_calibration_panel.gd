@@ -9,12 +9,12 @@ const Plot := preload("res://addons/spidar_g/editor/calibration/residual_plot.gd
 const FRAME_S: float = 0.1
 
 
-func _practice_target(seed_number: int, history: UndoRedo) -> Target:
+func _practice_target(seed_number: int) -> Target:
 	var target := Target.new()
 	target.node = SpidarG.new()
 	var random := RandomNumberGenerator.new()
 	random.seed = seed_number
-	target.draw_practice_errors(history, random)
+	target.draw_practice_errors(random)
 	return target
 
 
@@ -40,7 +40,7 @@ func _update_until(session: Session, condition: Callable, limit_s: float) -> boo
 
 func test_the_steps_lead_to_a_calibration() -> void:
 	var history := UndoRedo.new()
-	var target: Target = _practice_target(11, history)
+	var target: Target = _practice_target(11)
 	var session: Session = _open(target)
 	session.check_wiring()
 	check(await _update_until(session, func() -> bool: return not session.is_task_running(), 60.0), "wiring ends")
@@ -101,6 +101,29 @@ func test_a_resource_takes_values_and_gives_them_back() -> void:
 	history.free()
 
 
+func test_practice_leaves_no_trace() -> void:
+	var target := Target.new()
+	target.node = SpidarG.new()
+	var own := SpidarGConfig.new()
+	own.transport = SpidarGConfig.TRANSPORT_DEVICE
+	own.frame_size = Vector3(0.5, 0.5, 0.5)
+	for config: SpidarGConfig in [own, null]:
+		target.node.config = config
+		var random := RandomNumberGenerator.new()
+		target.draw_practice_errors(random)
+		check(target.is_practice(), "practising")
+		check_equal(target.get_config().transport, SpidarGConfig.TRANSPORT_SIMULATED, "with a simulated device")
+		check_equal(target.get_config().simulated_offset_errors.size(), 8, "that has errors")
+		if config != null:
+			check_equal(target.get_config().frame_size, own.frame_size, "in the same frame")
+		check(target.node.config == config, "the node keeps its config")
+		check_equal(own.transport, SpidarGConfig.TRANSPORT_DEVICE, "and the config its transport")
+		check_equal(own.simulated_offset_errors.size(), 0, "and has no errors")
+		target.end_practice()
+		check(not target.is_practice() and target.get_config() == config, "over")
+	target.node.free()
+
+
 func test_a_preset_makes_a_config_and_takes_it_away_again() -> void:
 	var history := UndoRedo.new()
 	var target := Target.new()
@@ -119,7 +142,7 @@ func test_a_preset_makes_a_config_and_takes_it_away_again() -> void:
 
 func test_what_goes_wrong_is_said() -> void:
 	var history := UndoRedo.new()
-	var target: Target = _practice_target(4, history)
+	var target: Target = _practice_target(4)
 	target.get_config().simulated_gain_errors = PackedFloat64Array([1.0])
 	var session := Session.new()
 	session.stepped = true

@@ -21,17 +21,17 @@ func test_the_floor_stops_the_tool() -> void:
 
 func test_surfaces_are_published_before_contact_and_ids_stay() -> void:
 	await set_up(Vector3.ZERO)
-	check_equal(device.get_contact_impulses().size(), 0, "nothing near: no contact is published")
+	check_equal(device.get_contact_impulses(hand.name).size(), 0, "nothing near: no contact is published")
 	var above: float = FLOOR_Y + PAD_RADIUS + 0.02
 	await move_to(Vector3(0.0, above, 0.0), 0.0, 60)
 	await physics_frames(20)
-	check(device.get_contact_impulses().size() == 1, "one plane for the floor, not touching yet")
-	check_equal(device.get_touching_contacts().size(), 0, "20 mm above does not touch")
-	var id: int = device.get_contact_impulses().keys()[0]
+	check(device.get_contact_impulses(hand.name).size() == 1, "one plane for the floor, not touching yet")
+	check_equal(device.get_touching_contacts(hand.name).size(), 0, "20 mm above does not touch")
+	var id: int = device.get_contact_impulses(hand.name).keys()[0]
 	await move_to(Vector3(0.05, above - 0.03, 0.03), 0.0, 60)
 	await physics_frames(10)
-	check(device.get_contact_impulses().keys().has(id), "the same floor keeps its id")
-	check(device.get_touching_contacts().has(id), "and touches now")
+	check(device.get_contact_impulses(hand.name).keys().has(id), "the same floor keeps its id")
+	check(device.get_touching_contacts(hand.name).has(id), "and touches now")
 
 
 func test_a_wall_and_the_floor_give_two_planes() -> void:
@@ -43,7 +43,7 @@ func test_a_wall_and_the_floor_give_two_planes() -> void:
 	var felt: PackedFloat64Array = await mean_felt(20)
 	check(felt[0] < -0.5, "the wall pushes back: %f N" % felt[0])
 	check(felt[1] > 0.5, "the floor pushes up: %f N" % felt[1])
-	check_equal(device.get_touching_contacts().size(), 2, "both are touched")
+	check_equal(device.get_touching_contacts(hand.name).size(), 2, "both are touched")
 
 
 func test_a_body_outside_the_mask_is_not_felt() -> void:
@@ -51,7 +51,7 @@ func test_a_body_outside_the_mask_is_not_felt() -> void:
 	hand.collision_mask = 2
 	await move_to(Vector3(0.0, FLOOR_Y - 0.01, 0.0), 0.0, 60)
 	await physics_frames(20)
-	check_equal(device.get_contact_impulses().size(), 0, "no plane")
+	check_equal(device.get_contact_impulses(hand.name).size(), 0, "no plane")
 	var felt: PackedFloat64Array = await mean_felt(10)
 	check_near(felt[1], 0.0, 0.05, "no force")
 
@@ -110,7 +110,7 @@ func test_passing_an_edge_at_a_distance_touches_nothing() -> void:
 	var most: float = 0.0
 	for i: int in 30:  # 0.2 m in half a second
 		await move_to(Vector3(-0.1 + 0.2 * (i + 1) / 30.0, 0.02, 0.0), 0.0, 1)
-		touched += device.get_touching_contacts().size()
+		touched += device.get_touching_contacts(hand.name).size()
 		var asked: PackedFloat64Array = device.get_requested_wrench()
 		most = maxf(most, Vector3(asked[0], asked[1], asked[2]).length())
 	print("INFO passing an edge at 18 mm: %d touches, %.3f N" % [touched, most])

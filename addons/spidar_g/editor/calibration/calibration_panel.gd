@@ -115,7 +115,11 @@ func _build_device() -> void:
 	_preset.name = "Preset"
 	_preset.tooltip_text = "Which device it is: sets preset of the node's config, and makes one where there is none."
 	_preset.size_flags_horizontal = Control.SIZE_EXPAND_FILL
-	_preset.item_selected.connect(func(index: int) -> void: _target.set_preset(_history, index))
+	_preset.item_selected.connect(
+		func(index: int) -> void:
+			_target.end_practice()
+			_target.set_preset(_history, index)
+	)
 	choice.add_child(_preset)
 	_practice.text = "Practice: unknown errors"
 	_practice.name = "Practice"
@@ -167,12 +171,16 @@ func _wrap(label: Label) -> void:
 func _draw_errors() -> void:
 	var random: RandomNumberGenerator = RandomNumberGenerator.new()
 	random.randomize()
-	_target.draw_practice_errors(_history, random)
+	_target.draw_practice_errors(random)
+	_session.message_is_problem = false
+	_session.message = "Practice: open the device. Your scene keeps its settings; closing the device ends the practice."
+	_refresh()
 
 
 func _open_or_close() -> void:
 	if _session.is_busy():
 		_session.close_device()
+		_target.end_practice()
 	else:
 		_session.open_device(_target.get_config(), _target.get_calibration())
 	_refresh()
@@ -183,6 +191,8 @@ func _accept() -> void:
 	if made != null:
 		_target.accept(_history, made)
 		_session.message = "Accepted; Ctrl+Z undoes it. Save it for your other scenes."
+		if _target.is_practice():
+			_session.message = "Accepted, but of a simulated device: undo it with Ctrl+Z before a real device is used."
 		_refresh()
 
 
@@ -249,6 +259,8 @@ func _state_text() -> String:
 			return "opening ..."
 		SpidarGCalibrator.DEVICE_OPEN:
 			var motors: String = ", MOTORS ON" if _session.calibrator.get_live()["motors_on"] else ", motors off"
+			if _target.is_practice():
+				return "practice" + motors
 			return ("simulated" if _session.is_simulated() else "device") + motors
 		SpidarGCalibrator.DEVICE_FAILED:
 			return "not opened"

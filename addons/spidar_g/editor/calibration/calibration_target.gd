@@ -11,13 +11,32 @@ const PRACTICE_COMMON_GAIN: float = 0.03
 const PRACTICE_GAIN: float = 0.005
 const PRACTICE_TENSION: float = 0.12
 
+## Configs of practice by their nodes: of their own, so that nothing of practice is left in the scene.
+static var _practice: Dictionary[int, SpidarGConfig] = {}
+
 var node: SpidarG
 ## Edited by itself; null for a node.
 var resource: SpidarGCalibration
 
 
 func get_config() -> SpidarGConfig:
-	return node.config if is_instance_valid(node) else null
+	return config_of(node)
+
+
+## The config to calibrate with: of the practice, if the node is practised with.
+static func config_of(device: SpidarG) -> SpidarGConfig:
+	if not is_instance_valid(device):
+		return null
+	return _practice.get(device.get_instance_id(), device.config)
+
+
+func is_practice() -> bool:
+	return is_instance_valid(node) and _practice.has(node.get_instance_id())
+
+
+func end_practice() -> void:
+	if is_instance_valid(node):
+		_practice.erase(node.get_instance_id())
 
 
 func get_calibration() -> SpidarGCalibration:
@@ -42,8 +61,11 @@ func set_preset(history: Object, preset: int) -> void:
 	_change_config(history, "Choose SPIDAR-G Preset", {"preset": preset})
 
 
-## Errors that only the simulated device knows, for practice and for tests.
-func draw_practice_errors(history: Object, random: RandomNumberGenerator) -> void:
+## A simulated device with errors that only it knows, for practice and for tests, until end_practice(). The node keeps its
+## own config.
+func draw_practice_errors(random: RandomNumberGenerator) -> void:
+	if not is_instance_valid(node):
+		return
 	var offsets: PackedFloat64Array = []
 	var gains: PackedFloat64Array = []
 	var tensions: PackedFloat64Array = []
@@ -52,16 +74,13 @@ func draw_practice_errors(history: Object, random: RandomNumberGenerator) -> voi
 		offsets.append(clampf(random.randfn(0.0, PRACTICE_OFFSET_M), -4.0 * PRACTICE_OFFSET_M, 4.0 * PRACTICE_OFFSET_M))
 		gains.append(common + clampf(random.randfn(0.0, PRACTICE_GAIN), -4.0 * PRACTICE_GAIN, 4.0 * PRACTICE_GAIN))
 		tensions.append(1.0 + random.randf_range(-PRACTICE_TENSION, PRACTICE_TENSION))
-	_change_config(
-		history,
-		"Give the Simulated SPIDAR-G Unknown Errors",
-		{
-			"transport": SpidarGConfig.TRANSPORT_SIMULATED,
-			"simulated_offset_errors": offsets,
-			"simulated_gain_errors": gains,
-			"simulated_tension_gains": tensions,
-		}
-	)
+	var config: SpidarGConfig = node.get_effective_config().duplicate()
+	config.transport = SpidarGConfig.TRANSPORT_SIMULATED
+	config.device_name = ""
+	config.simulated_offset_errors = offsets
+	config.simulated_gain_errors = gains
+	config.simulated_tension_gains = tensions
+	_practice[node.get_instance_id()] = config
 
 
 func _change_config(history: Object, action: String, values: Dictionary[String, Variant]) -> void:

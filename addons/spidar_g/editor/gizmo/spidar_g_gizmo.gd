@@ -69,7 +69,7 @@ func _redraw() -> void:
 	clear()
 	draw_count += 1
 	var device: SpidarG = get_node_3d() as SpidarG
-	_workspace.config = device.config
+	_workspace.config = device.get_effective_config()
 	if _workspace.get_problem() != "":
 		return  # The node's configuration warning says what.
 	var scale: float = device.workspace_scale

@@ -11,7 +11,8 @@ namespace spidar {
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 20, "HapticCommand changed: list its fields here");
+static_assert(count_members<LiveLimits>() == 6, "LiveLimits changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 22, "HapticCommand changed: list its fields here");
 
 template <typename Matrix, typename Visit>
 void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
@@ -90,6 +91,13 @@ void for_each_field(Command &command, Visit &&visit) requires
         visit("effect.renewal", i, effect.renewal);
         ++i;
     }
+    visit("limits_sequence", 0, command.limits_sequence);
+    visit("limits.max_force_n", 0, command.limits.max_force_n);
+    visit("limits.max_moment_nm", 0, command.limits.max_moment_nm);
+    visit("limits.max_grasp_torque_nm", 0, command.limits.max_grasp_torque_nm);
+    visit("limits.max_stiffness_n_m", 0, command.limits.max_stiffness_n_m);
+    visit("limits.max_turn_stiffness_nm_rad", 0, command.limits.max_turn_stiffness_nm_rad);
+    visit("limits.max_grasp_stiffness_nm_rad", 0, command.limits.max_grasp_stiffness_nm_rad);
 }
 
 } // namespace spidar

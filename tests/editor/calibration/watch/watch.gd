@@ -3,6 +3,8 @@ extends EditorPlugin
 ## Writes five times a second what a user of the editor sees: where the controls of the calibration panel and of open
 ## dialogs are, what they say, and what the edited scene holds. Changes nothing.
 
+const Target := preload("res://addons/spidar_g/editor/calibration/calibration_target.gd")
+
 const INTERVAL_S: float = 0.2
 
 var _path: String = ""
@@ -84,9 +86,10 @@ func _tell_nodes(node: Node, into: Dictionary) -> void:
 		var told: Dictionary = {"preset": -1, "calibrated": device.calibration != null}
 		if device.config != null:
 			told["preset"] = device.config.preset
-			told["offset_errors"] = Array(device.config.simulated_offset_errors)
-			told["gain_errors"] = Array(device.config.simulated_gain_errors)
-			told["tension_gains"] = Array(device.config.simulated_tension_gains)
+			var config: SpidarGConfig = Target.config_of(device)
+			told["offset_errors"] = Array(config.simulated_offset_errors)
+			told["gain_errors"] = Array(config.simulated_gain_errors)
+			told["tension_gains"] = Array(config.simulated_tension_gains)
 		if device.calibration != null:
 			told["path"] = device.calibration.resource_path
 			told["offsets"] = Array(device.calibration.string_offsets)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <godot_cpp/internal/global_enums.gen.hpp>
+#include <godot_cpp/internal/own_arguments.hpp>
 
 namespace godot::internal {
 

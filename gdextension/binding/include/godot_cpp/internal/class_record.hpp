@@ -23,6 +23,7 @@ struct MethodRecord {
     GDExtensionClassMethodArgumentMetadata return_metadata =
         GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
     std::vector<PropertyInfo> arguments;
+    std::vector<Variant::Type> insisted_types; // of the arguments; nil: the method checks it itself
     std::vector<GDExtensionClassMethodArgumentMetadata> argument_metadata;
     uint32_t flags = GDEXTENSION_METHOD_FLAGS_DEFAULT;
     GDExtensionClassMethodCall call = nullptr;

@@ -3,6 +3,7 @@
 // Not part of the godot-cpp API: a bound method, as the engine calls it.
 
 #include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/internal/own_arguments.hpp>
 
 namespace godot::internal {
 
@@ -46,6 +47,7 @@ struct BoundMethod : MethodRecord {
         [&]<class... A>(std::tuple<A...> *) {
             (arguments.push_back(Border<A>::info()), ...);
             (argument_metadata.push_back(Border<A>::metadata), ...);
+            (insisted_types.push_back(insisted_type<A>()), ...);
         }(static_cast<Arguments *>(nullptr));
         call = &call_with_variants;
         pointer_call = &call_with_pointers;

@@ -1,0 +1,45 @@
+// Looks for a device that is plugged in later, in a thread of its own: listing devices may take many milliseconds.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "device/hid/hid_bus.h"
+#include "device/hid/hid_device_filter.h"
+
+namespace spidar {
+
+class HidWatch {
+public:
+    // Those of `known` are passed over while they stay plugged in: they were tried.
+    HidWatch(std::shared_ptr<HidBus> bus, HidDeviceFilter filter, std::vector<HidDeviceInfo> known,
+             std::chrono::milliseconds period = std::chrono::milliseconds(500));
+    ~HidWatch();
+    HidWatch(const HidWatch &) = delete;
+    HidWatch &operator=(const HidWatch &) = delete;
+
+    // True once a new device that matches, and that nobody in this process owns, has been seen.
+    [[nodiscard]] bool found() const noexcept { return found_.load(); }
+
+private:
+    void run();
+    [[nodiscard]] bool look();
+
+    const std::shared_ptr<HidBus> bus_;
+    const HidDeviceFilter filter_;
+    const std::chrono::milliseconds period_;
+    std::vector<HidDeviceInfo> known_; // the thread's own
+    std::atomic<bool> found_{false};
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    std::thread thread_;
+};
+
+} // namespace spidar

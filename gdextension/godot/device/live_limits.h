@@ -1,0 +1,31 @@
+// The limits that change while a device is open, out of its settings and back.
+#pragma once
+
+#include <cmath>
+
+#include "device/contract/haptic_command.h"
+#include "godot/settings/spidar_g_config.h"
+
+namespace spidar {
+
+[[nodiscard]] inline LiveLimits live_limits(const ServoSettings &settings) noexcept {
+    return {settings.safety.max_force_n,
+            settings.safety.max_moment_nm,
+            settings.safety.max_grasp_torque_nm,
+            settings.render.max_stiffness_n_m,
+            settings.render.max_turn_stiffness_nm_rad,
+            settings.render.max_grasp_stiffness_nm_rad};
+}
+
+// share 0: a, 1: b.
+[[nodiscard]] inline LiveLimits between(const LiveLimits &a, const LiveLimits &b,
+                                        double share) noexcept {
+    return {std::lerp(a.max_force_n, b.max_force_n, share),
+            std::lerp(a.max_moment_nm, b.max_moment_nm, share),
+            std::lerp(a.max_grasp_torque_nm, b.max_grasp_torque_nm, share),
+            std::lerp(a.max_stiffness_n_m, b.max_stiffness_n_m, share),
+            std::lerp(a.max_turn_stiffness_nm_rad, b.max_turn_stiffness_nm_rad, share),
+            std::lerp(a.max_grasp_stiffness_nm_rad, b.max_grasp_stiffness_nm_rad, share)};
+}
+
+} // namespace spidar

@@ -1,0 +1,105 @@
+// What the node tells: signals on the edges that the newest snapshot shows, faults in words, refusals.
+#include "godot/device/spidar_g.h"
+
+#include <godot_cpp/variant/utility_functions.hpp>
+
+#include "godot/base/type_conversions.h"
+
+using godot::String;
+using godot::UtilityFunctions;
+using spidar::DeviceState;
+using spidar::Status;
+
+void SpidarG::pull_snapshot() {
+    if (!loop_) {
+        return;
+    }
+    const spidar::ServoSnapshot before = snapshot_;
+    if (loop_->latest(snapshot_)) {
+        if (snapshot_.state == DeviceState::closed) {
+            forget_player();
+        }
+        mask_buttons(before);
+        emit_edges(before, spidar::to_godot(fault_message()));
+        emit_buttons(before.buttons);
+    }
+    emit_events();
+    tell_limited(before);
+    if (loop_) {
+        watch_loop();
+    }
+    watch_recordings();
+}
+
+// A listener may close or open the device: what is told next is taken from copies.
+void SpidarG::emit_edges(const spidar::ServoSnapshot &before, const String &reason) {
+    const spidar::ServoSnapshot after = snapshot_;
+    const DeviceState now = after.state;
+    if (now != before.state && before.state == DeviceState::closed) {
+        is_connected_told_ = true;
+        emit_signal("device_connected");
+    }
+    if (after.grasp != before.grasp) {
+        switch (after.grasp) {
+        case spidar::GraspPhase::open:
+            emit_signal("released");
+            break;
+        case spidar::GraspPhase::grasped:
+            emit_signal("grasped");
+            break;
+        case spidar::GraspPhase::over_closed:
+            emit_signal("over_closed");
+            break;
+        }
+    }
+    if (now != before.state) {
+        if (now == DeviceState::active) {
+            emit_signal("armed");
+        } else if (before.state == DeviceState::active) {
+            emit_signal("disarmed");
+        }
+        if (now == DeviceState::fault) {
+            emit_signal("fault_raised", static_cast<int>(after.fault), reason);
+        }
+        if (now == DeviceState::closed) {
+            is_connected_told_ = false;
+            emit_signal("device_lost", reason);
+        }
+    }
+    if (after.tension_status == Status::wrench_limited &&
+        before.tension_status != Status::wrench_limited) {
+        emit_signal("tension_saturated");
+    }
+}
+
+std::string SpidarG::fault_message() const {
+    if (panicked_.load() && !loop_ && problem_.empty()) {
+        return std::string(spidar::describe(Status::panic_stopped)) +
+               " The device opens stopped: clear_fault() and arm() lead back.";
+    }
+    if (snapshot_.fault == Status::ok) {
+        return problem_;
+    }
+    std::string message = spidar::describe(snapshot_.fault);
+    if (snapshot_.fault_string >= 0) {
+        message += " String " + std::to_string(snapshot_.fault_string + 1) + " (of 1-8).";
+    }
+    return message;
+}
+
+// A device that is closed has no grasp and no pressed button.
+void SpidarG::forget_player() {
+    snapshot_.grasp = spidar::GraspPhase::open;
+    snapshot_.buttons = 0;
+}
+
+void SpidarG::refuse(const std::string &message) const {
+    const String text = spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
+    UtilityFunctions::push_error(text);
+    const_cast<SpidarG *>(this)->emit_signal("request_rejected", text); // changes nothing of ours
+}
+
+bool SpidarG::reject(const std::string &message) {
+    refuse(message);
+    return false;
+}

@@ -1,0 +1,24 @@
+#include "godot/settings/plugged_in_devices.h"
+
+#include <chrono>
+
+#include "device/hid/hid_device_filter.h"
+
+namespace spidar {
+
+const std::vector<HidDeviceInfo> &plugged_in_devices() {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto kGood = std::chrono::seconds(1);
+    static std::vector<HidDeviceInfo> devices;
+    static Clock::time_point asked;
+    static bool ever = false;
+    if (!ever || Clock::now() - asked > kGood) {
+        // What the system cannot list is told when a device is opened.
+        (void)find_devices(*system_hid_bus(), HidDeviceFilter(), devices);
+        asked = Clock::now();
+        ever = true;
+    }
+    return devices;
+}
+
+} // namespace spidar
