@@ -21,10 +21,10 @@ void HapticRenderer::configure(const ServoSettings &settings) noexcept {
 }
 
 void HapticRenderer::retune(const ServoSettings &settings) noexcept {
-    contacts_.retune(settings);
-    coupling_.retune(settings);
-    effects_.retune(settings);
-    wrench_.retune(settings.safety);
+    parts_.contacts.retune(settings);
+    parts_.coupling.retune(settings);
+    parts_.effects.retune(settings);
+    parts_.wrench.retune(settings.safety);
 }
 
 void HapticRenderer::acknowledge(const HapticCommand &command) noexcept {
