@@ -2,7 +2,6 @@ extends "res://tasks/base/demo_task.gd"
 ## The start: three tasks, free play and settings, chosen by mouse, by keyboard, or with the grip itself, which
 ## touches a knob and closes on it.
 
-const DemoPalette := preload("res://scene/demo_palette.gd")
 const HubKnob := preload("res://hub/hub_knob.gd")
 const HubMenu := preload("res://hub/hub_menu.gd")
 

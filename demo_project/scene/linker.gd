@@ -79,23 +79,6 @@ func add_carrier(carrier: CollisionObject3D) -> void:
 			_sockets.append(child as LinkSocket)
 
 
-func add_link(one: LinkSocket, other: LinkSocket) -> void:
-	var link := Link.make(one, other)
-	_exclude(link, true)
-	link.lock(self)
-	links.append(link)
-
-
-## Whether these two hold each other, in a hand or out of it.
-func are_linked(one: LinkSocket, other: LinkSocket) -> bool:
-	if _latched.get(one) == other or _latched.get(other) == one:
-		return true
-	for link in links:
-		if (link.one == one and link.other == other) or (link.one == other and link.other == one):
-			return true
-	return false
-
-
 ## How many sockets of `body` would find a mate if it were at `pose`.
 func mates_at(body: CollisionObject3D, pose: Transform3D) -> int:
 	var count := 0

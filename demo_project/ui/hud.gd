@@ -75,10 +75,6 @@ func toggle_help() -> void:
 	_help.visible = not _help.visible
 
 
-func show_help(shown: bool) -> void:
-	_help.visible = shown
-
-
 func show_notice(text: String) -> void:
 	_notice = text
 	_shown_for_s = INF
