@@ -30,7 +30,9 @@ struct GetTypeInfo {
 namespace internal {
 
 template <class T>
-concept OwnArgument = requires { typename T::BoundAs; };
+concept OwnArgument = requires {
+    typename T::BoundAs;
+};
 
 template <OwnArgument T>
 struct Border<T> {
