@@ -47,8 +47,8 @@ class Combine(unittest.TestCase):
         self.assertEqual(verdicts["tensions, S1 cold / DAQP"], (0.25, 0.25))
         self.assertIsNone(verdicts["tensions, S3 cold / DAQP"][1])
         text = run_bench.bars_as_markdown(bench_rows.judge(runs))
-        self.assertIn("| tensions, S1 cold / DAQP | 0.3 | 0.250 | met |", text)
-        self.assertIn("| tensions, S3 cold / DAQP | 0.11 | - | not measured |", text)
+        self.assertIn("| tensions, S1 cold / DAQP | 0.25 | 0.250 | met |", text)
+        self.assertIn("| tensions, S3 cold / DAQP | 0.145 | - | not measured |", text)
         self.assertIn("| the same, p99.9 / p99.9 | 1 | 1.500 | missed |", text)
 
 
