@@ -86,3 +86,16 @@ TEST_CASE("grasp: validate names field, value, unit and remedy") {
     bad.enter_rad = std::numeric_limits<double>::quiet_NaN();
     CHECK(validate(bad).find("enter_rad is nan rad") == 0);
 }
+
+TEST_CASE("grasp: settings of one's own count in place of the defaults") {
+    GraspDetector detector;
+    GraspSettings settings;
+    settings.enter_rad = 10.0 * kDegree_rad;
+    settings.leave_rad = 5.0 * kDegree_rad;
+    settings.dwell_s = 0.010;
+    detector.configure(settings);
+    CHECK(hold(detector, 12.0, 8) == GraspPhase::open);
+    CHECK(hold(detector, 12.0, 4) == GraspPhase::grasped);
+    CHECK(hold(detector, 7.0, 100) == GraspPhase::grasped);
+    CHECK(hold(detector, 4.0, 20) == GraspPhase::open);
+}
