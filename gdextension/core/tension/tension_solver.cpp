@@ -98,8 +98,11 @@ Fault find_fault(const TensionSettings &s) noexcept {
 
 TensionSolution solve_tension_problem(const TensionProblem &problem,
                                       const ActiveSet *warm) noexcept {
-    TensionSolution fast;
-    return solve_fast(FastInput::of(problem), warm, fast) ? fast : solve_exactly(problem, warm);
+    TensionSolution solution; // the one that is returned: no copy
+    if (!solve_fast(FastInput::of(problem), warm, solution)) {
+        solution = solve_exactly(problem, warm);
+    }
+    return solution;
 }
 
 Status TensionSolver::configure(const TensionSettings &settings) noexcept {

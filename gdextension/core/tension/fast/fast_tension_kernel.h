@@ -32,9 +32,11 @@ public:
         int inversions = 0;
         int passes = 0;
         while (inversions < kTables) {
-            ++inversions;
+            if (inversions++ > 0) { // read() has done it for the first
+                table_.set_rows(rows_, table);
+            }
             gradient();
-            table_.invert(rows_, p_.proximal_weight, table);
+            table_.invert(p_.proximal_weight, table);
             const double mean = stiffness_ * 0.125;
             if (!(table_.smallest_pivot() > kCancelled * mean * mean)) {
                 return false;
@@ -113,31 +115,35 @@ private:
         Row{Four::select(at_low.a, lower.a, Four::select(at_high.a, upper.a, start_a)),
             Four::select(at_low.b, lower.b, Four::select(at_high.b, upper.b, start_b))}
             .store(x_);
-        read_half(0);
-        read_half(4);
-        stiffness_ = table_.trace(rows_, p_.proximal_weight);
+        const Row in_table = Row::strings(movable_ & ~(low_ | high_));
+        const Four even = read_half(0, in_table.a);
+        const Four odd = read_half(4, in_table.b);
+        stiffness_ = (even + odd).sum() + 8.0 * p_.proximal_weight;
         return stiffness_ <= kWorstCondition * p_.proximal_weight;
     }
 
-    void read_half(std::size_t first) noexcept {
-        Four c0 = Four::load(&matrix_.columns[first][0]);
-        Four c1 = Four::load(&matrix_.columns[first + 1][0]);
-        Four c2 = Four::load(&matrix_.columns[first + 2][0]);
-        Four c3 = Four::load(&matrix_.columns[first + 3][0]);
-        Four d0 = Four::load(&matrix_.columns[first][3]);
-        Four d1 = Four::load(&matrix_.columns[first + 1][3]);
-        Four d2 = Four::load(&matrix_.columns[first + 2][3]);
-        Four d3 = Four::load(&matrix_.columns[first + 3][3]);
-        Four::transpose(c0, c1, c2, c3);
-        Four::transpose(d0, d1, d2, d3);
+    // R of four strings, for the table too: there without those outside it. The squares of its elements, summed over DOF.
+    [[gnu::always_inline]] Four read_half(std::size_t first, Four in_table) noexcept {
+        const double *const columns[] = {&matrix_.columns[first][0], &matrix_.columns[first + 1][0],
+                                         &matrix_.columns[first + 2][0],
+                                         &matrix_.columns[first + 3][0]};
+        Four c0, c1, c2, c3; // DOF 0-3
+        Four d0, d1, d2, d3; // DOF 3-6
+        Four::load_transposed(columns[0], columns[1], columns[2], columns[3], c0, c1, c2, c3);
+        Four::load_transposed(columns[0] + 3, columns[1] + 3, columns[2] + 3, columns[3] + 3, d0,
+                              d1, d2, d3);
         const PaperWeights &w = p_.weights;
-        (c0 * Four::all(w[0])).store(&rows_[0][first]);
-        (c1 * Four::all(w[1])).store(&rows_[1][first]);
-        (c2 * Four::all(w[2])).store(&rows_[2][first]);
-        (c3 * Four::all(w[3])).store(&rows_[3][first]);
-        (d1 * Four::all(w[4])).store(&rows_[4][first]);
-        (d2 * Four::all(w[5])).store(&rows_[5][first]);
-        (d3 * Four::all(w[6])).store(&rows_[6][first]);
+        const Four rows[kFastDofs] = {
+            c0 * Four::all(w[0]), c1 * Four::all(w[1]), c2 * Four::all(w[2]), c3 * Four::all(w[3]),
+            d1 * Four::all(w[4]), d2 * Four::all(w[5]), d3 * Four::all(w[6])};
+        Four squares = Four::all(0.0);
+#pragma GCC unroll 7
+        for (std::size_t k = 0; k < kFastDofs; ++k) {
+            rows[k].store(&rows_[k][first]);
+            (rows[k] & in_table).store(table_.rows(k) + first);
+            squares = Four::mul_add(rows[k], rows[k], squares);
+        }
+        return squares;
     }
 
     // Two strings' share of A x.
@@ -163,7 +169,7 @@ private:
     }
 
     // Half the gradient at x_, every string, from A itself.
-    void gradient() noexcept {
+    [[gnu::always_inline]] void gradient() noexcept { // else x_ and its results go through memory
         const Row x = Row::load(x_);
         Four f0 = Four::all(0.0) - Four::load(&wrench_[0]);
         Four f1 = Four::all(0.0);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "core/base/simd_level.h"
 #include "core/tension/fast/simd_four_plain.h"

@@ -86,6 +86,27 @@ public:
         const Pair pair = {x.a_[0], y.a_[0]};
         return kLane == 0 ? FourPlain{pair, b_} : FourPlain{a_, pair};
     }
+    // The same two lanes become zero.
+    template <int kLane>
+    [[nodiscard]] FourPlain without_pair() const noexcept {
+        return kLane == 0 ? FourPlain{Pair{}, b_} : FourPlain{a_, Pair{}};
+    }
+    // Lane kLane becomes that of x.
+    template <int kLane>
+    [[nodiscard]] FourPlain with_lane(FourPlain x) const noexcept {
+        FourPlain made = *this;
+        (kLane < 2 ? made.a_ : made.b_)[kLane & 1] = (kLane < 2 ? x.a_ : x.b_)[kLane & 1];
+        return made;
+    }
+    static void load_transposed(const double *p0, const double *p1, const double *p2,
+                                const double *p3, FourPlain &r0, FourPlain &r1, FourPlain &r2,
+                                FourPlain &r3) noexcept {
+        r0 = load(p0);
+        r1 = load(p1);
+        r2 = load(p2);
+        r3 = load(p3);
+        transpose(r0, r1, r2, r3);
+    }
     static void transpose(FourPlain &r0, FourPlain &r1, FourPlain &r2, FourPlain &r3) noexcept {
         const FourPlain c0{Pair{r0.a_[0], r1.a_[0]}, Pair{r2.a_[0], r3.a_[0]}};
         const FourPlain c1{Pair{r0.a_[1], r1.a_[1]}, Pair{r2.a_[1], r3.a_[1]}};

@@ -65,27 +65,20 @@ class SweepTable {
 public:
     using Row = StringRow<Four>;
 
-    // Trace of H: a bound on its largest element and eigenvalue.
-    static double trace(const double (&rows)[kFastDofs][kFastStrings], double weight) noexcept {
-        Four even = Four::all(0.0);
-        Four odd = even;
-        for (const auto &row : rows) {
-            const Row r = Row::load(row);
-            even = Four::mul_add(r.a, r.a, even);
-            odd = Four::mul_add(r.b, r.b, odd);
+    // R of one DOF for the next invert(): zero for strings outside its table.
+    [[nodiscard]] double *rows(std::size_t dof) noexcept { return rows_[dof]; }
+    void set_rows(const double (&rows)[kFastDofs][kFastStrings], unsigned table) noexcept {
+        const Row mask = Row::strings(table);
+        for (std::size_t k = 0; k < kFastDofs; ++k) {
+            const Row r = Row::load(rows[k]);
+            Row{r.a & mask.a, r.b & mask.b}.store(rows_[k]);
         }
-        return (even + odd).sum() + 8.0 * weight;
     }
 
     // The table of H swept on `table`: -H^-1 there, unit rows elsewhere.
-    void invert(const double (&rows)[kFastDofs][kFastStrings], double weight,
-                unsigned table) noexcept {
+    void invert(double weight, unsigned table) noexcept {
         const Row mask = Row::strings(table);
-        alignas(32) double m[kFastDofs][kFastStrings];
-        for (std::size_t k = 0; k < kFastDofs; ++k) {
-            const Row r = Row::load(rows[k]);
-            Row{r.a & mask.a, r.b & mask.b}.store(m[k]);
-        }
+        const auto &m = rows_;
         const Four w = Four::all(weight);
         const Four one = Four::all(1.0);
         const Row diagonal{Four::select(mask.a, w, one), Four::select(mask.b, w, one)};
@@ -129,6 +122,7 @@ public:
         sweep_pair<4>(t, smallest);
         sweep_pair<6>(t, smallest);
         smallest_pivot_ = smallest.first();
+#pragma GCC unroll 8 // else the rows go through memory twice
         for (std::size_t i = 0; i < kFastStrings; ++i) {
             t[i].store(table_[i]);
         }
@@ -174,13 +168,13 @@ public:
     // Largest diagonal element within the mask.
     [[nodiscard]] double softest(const Row &mask) const noexcept {
         Four a = Four::load(table_[0]);
-        a = Four::select(Row::lanes(2), Four::load(table_[1]), a);
-        a = Four::select(Row::lanes(4), Four::load(table_[2]), a);
-        a = Four::select(Row::lanes(8), Four::load(table_[3]), a);
+        a = a.template with_lane<1>(Four::load(table_[1]));
+        a = a.template with_lane<2>(Four::load(table_[2]));
+        a = a.template with_lane<3>(Four::load(table_[3]));
         Four b = Four::load(table_[4] + 4);
-        b = Four::select(Row::lanes(2), Four::load(table_[5] + 4), b);
-        b = Four::select(Row::lanes(4), Four::load(table_[6] + 4), b);
-        b = Four::select(Row::lanes(8), Four::load(table_[7] + 4), b);
+        b = b.template with_lane<1>(Four::load(table_[5] + 4));
+        b = b.template with_lane<2>(Four::load(table_[6] + 4));
+        b = b.template with_lane<3>(Four::load(table_[7] + 4));
         return Four::max(a.absolute() & mask.a, b.absolute() & mask.b).largest();
     }
 
@@ -200,6 +194,15 @@ private:
         return kPair < 4 ? r.a : r.b;
     }
 
+    // Rows kPair and kPair + 1 as they were, and adj(T_PP) T_PR: what a sweep of the pair takes off the other rows.
+    struct Sweep {
+        Row p;
+        Row q;
+        Row u;
+        Row v;
+        Four inverse; // of the pair's determinant
+    };
+
     // Sweeps rows kPair and kPair + 1 together. T_RR - T_RP adj(T_PP) T_PR / det: the products do not wait for 1 / det.
     template <int kPair>
     static void sweep_pair(Row (&t)[kFastStrings], Four &smallest) noexcept {
@@ -217,32 +220,33 @@ private:
         Row v{Four::sub_mul(b, p.a, a * q.a), Four::sub_mul(b, p.b, a * q.b)};
         half<kPair>(u) = half<kPair>(u).template with_pair<kLane>(zero - c, b);
         half<kPair>(v) = half<kPair>(v).template with_pair<kLane>(b, zero - a);
-#pragma GCC unroll 8
-        for (int r = 0; r < 8; ++r) {
-            if (r == kPair || r == kPair + 1 || (kPair < 4 && r >= 4)) {
-                continue;
-            }
-            const Four x = half<kPair>(t[r]).template lane<kLane>();
-            const Four y = half<kPair>(t[r]).template lane<kLane + 1>();
-            half<kPair>(t[r]) = half<kPair>(t[r]).template with_pair<kLane>(zero, zero);
-            t[r].a = Four::sub_mul(inverse, Four::mul_add(x, u.a, y * v.a), t[r].a);
-            t[r].b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), t[r].b);
-        }
-        if (kPair < 4) { // T_rP = T_Pr
-            sweep_lower<0>(t[4].b, p.b, q.b, u.b, v.b, inverse);
-            sweep_lower<1>(t[5].b, p.b, q.b, u.b, v.b, inverse);
-            sweep_lower<2>(t[6].b, p.b, q.b, u.b, v.b, inverse);
-            sweep_lower<3>(t[7].b, p.b, q.b, u.b, v.b, inverse);
-        }
+        sweep_rows<kPair>(t, {p, q, u, v, inverse}, std::make_integer_sequence<int, 6>());
         t[kPair] = {inverse * u.a, inverse * u.b};
         t[kPair + 1] = {inverse * v.a, inverse * v.b};
     }
 
-    template <int kLane>
-    static void sweep_lower(Four &row, Four p, Four q, Four u, Four v, Four inverse) noexcept {
-        const Four x = p.template lane<kLane>();
-        const Four y = q.template lane<kLane>();
-        row = Four::sub_mul(inverse, Four::mul_add(x, u, y * v), row);
+    // The other six, those of the next pair first: the next division then waits for nothing else.
+    template <int kPair, int... kStep>
+    static void sweep_rows(Row (&t)[kFastStrings], const Sweep &sweep,
+                           std::integer_sequence<int, kStep...>) noexcept {
+        (sweep_row<kPair, (kPair + 2 + kStep) & 7>(t[(kPair + 2 + kStep) & 7], sweep), ...);
+    }
+
+    template <int kPair, int kRow>
+    static void sweep_row(Row &row, const Sweep &sweep) noexcept {
+        constexpr int kLane = kPair & 3;
+        const auto &[p, q, u, v, inverse] = sweep;
+        if constexpr (kPair < 4 && kRow >= 4) { // the lower left quarter is left out: T_rP = T_Pr
+            const Four x = p.b.template lane<kRow & 3>();
+            const Four y = q.b.template lane<kRow & 3>();
+            row.b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), row.b);
+        } else {
+            const Four x = half<kPair>(row).template lane<kLane>();
+            const Four y = half<kPair>(row).template lane<kLane + 1>();
+            half<kPair>(row) = half<kPair>(row).template without_pair<kLane>();
+            row.a = Four::sub_mul(inverse, Four::mul_add(x, u.a, y * v.a), row.a);
+            row.b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), row.b);
+        }
     }
 
     template <int kFirst, int kLane>
@@ -255,6 +259,7 @@ private:
         odd.b = Four::mul_add(Four::load(&table_[kFirst + 1][4]), v, odd.b);
     }
 
+    alignas(32) double rows_[kFastDofs][kFastStrings];
     alignas(32) double table_[kFastStrings][kFastStrings];
     double smallest_pivot_ = 0.0;
 };

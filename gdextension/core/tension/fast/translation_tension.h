@@ -110,11 +110,10 @@ private:
     }
 
     void read_half(std::size_t first) noexcept {
-        Four c0 = Four::load(&matrix_.columns[first][0]);
-        Four c1 = Four::load(&matrix_.columns[first + 1][0]);
-        Four c2 = Four::load(&matrix_.columns[first + 2][0]);
-        Four c3 = Four::load(&matrix_.columns[first + 3][0]);
-        Four::transpose(c0, c1, c2, c3);
+        Four c0, c1, c2, c3; // the fourth is not needed
+        Four::load_transposed(&matrix_.columns[first][0], &matrix_.columns[first + 1][0],
+                              &matrix_.columns[first + 2][0], &matrix_.columns[first + 3][0], c0,
+                              c1, c2, c3);
         (first == 0 ? row_[0].a : row_[0].b) = c0 * Four::all(p_.weights[0]);
         (first == 0 ? row_[1].a : row_[1].b) = c1 * Four::all(p_.weights[1]);
         (first == 0 ? row_[2].a : row_[2].b) = c2 * Four::all(p_.weights[2]);
