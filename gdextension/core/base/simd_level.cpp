@@ -10,13 +10,9 @@ SimdLevel best_level() noexcept {
     return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
 }
 
-std::atomic<SimdLevel> &current_level() noexcept {
-    static std::atomic<SimdLevel> level{best_level()};
-    return level;
-}
-
-// Found when the program starts: no step of the servo loop pays for the first look.
-[[maybe_unused]] const SimdLevel kLevelAtStart = simd_level();
+// Set before main() and known without a look at whether it is: a solve reads it.
+constinit std::atomic<SimdLevel> current_level{SimdLevel::plain};
+[[maybe_unused]] const bool kBestAtStart = set_simd_level(best_level());
 
 } // namespace
 
@@ -33,14 +29,14 @@ bool supports(SimdLevel level) noexcept {
 }
 
 SimdLevel simd_level() noexcept {
-    return current_level().load(std::memory_order_relaxed);
+    return current_level.load(std::memory_order_relaxed);
 }
 
 bool set_simd_level(SimdLevel level) noexcept {
     if (!supports(level)) {
         return false;
     }
-    current_level().store(level, std::memory_order_relaxed);
+    current_level.store(level, std::memory_order_relaxed);
     return true;
 }
 
