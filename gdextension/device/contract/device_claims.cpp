@@ -25,16 +25,6 @@ DeviceClaim::~DeviceClaim() {
     release();
 }
 
-DeviceClaim::DeviceClaim(DeviceClaim &&other) noexcept : name_(std::exchange(other.name_, {})) {}
-
-DeviceClaim &DeviceClaim::operator=(DeviceClaim &&other) noexcept {
-    if (this != &other) {
-        release();
-        name_ = std::exchange(other.name_, {});
-    }
-    return *this;
-}
-
 bool DeviceClaim::take(const std::string &name, const std::string &owner) {
     if (!name_.empty() && name == name_) {
         return true;

@@ -10,8 +10,6 @@ class DeviceClaim {
 public:
     DeviceClaim() = default;
     ~DeviceClaim();
-    DeviceClaim(DeviceClaim &&other) noexcept;
-    DeviceClaim &operator=(DeviceClaim &&other) noexcept;
     DeviceClaim(const DeviceClaim &) = delete;
     DeviceClaim &operator=(const DeviceClaim &) = delete;
 

@@ -10,7 +10,6 @@ namespace spidar {
 // The work is exact for a wrench that is held over each cycle: force of the last cycle times the move since.
 class EnergyObserver {
 public:
-    void reset() noexcept { *this = EnergyObserver(); }
     // moved: in the cycle during which the last held() acted.
     void update(const Displacement &moved) noexcept;
     // What acts until the next update.

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <utility>
-
 #include "device/contract/device_claims.h"
 
 using spidar::DeviceClaim;
@@ -37,16 +35,10 @@ TEST_CASE("device claims: the empty name is private and always granted") {
     CHECK(DeviceClaim::owner_of("").empty());
 }
 
-TEST_CASE("device claims: moving carries the claim, the end of a life gives it back") {
+TEST_CASE("device claims: the end of a life gives the claim back") {
     {
         DeviceClaim inner;
         REQUIRE(inner.take("claims/e", "Inner"));
-        DeviceClaim moved(std::move(inner));
-        CHECK(DeviceClaim::owner_of("claims/e") == "Inner");
-        DeviceClaim assigned;
-        REQUIRE(assigned.take("claims/f", "Assigned"));
-        assigned = std::move(moved);
-        CHECK(DeviceClaim::owner_of("claims/f").empty());
         CHECK(DeviceClaim::owner_of("claims/e") == "Inner");
     }
     CHECK(DeviceClaim::owner_of("claims/e").empty());

@@ -160,3 +160,26 @@ TEST_CASE("rest: each part that evolves is seen awake, and then nothing is skipp
     CHECK(seen.parts.renderer == all_of(7));
     CHECK(seen.parts.monitor == all_of(6));
 }
+
+TEST_CASE("rest: a hand's last move grows older while steps are skipped") {
+    // A real device arms only when the grip moved lately; it lies still here for much longer than that.
+    Bench bench;
+    bench.simulated = false;
+    bench.settings.safety.hand_presence_s = 2.0;
+    bench.start();
+    const auto arms = [](Bench lying) {
+        lying.command.forces_enabled = true;
+        ++lying.command.arm_count;
+        lying.tick(2);
+        return lying.now().state == DeviceState::arming;
+    };
+    put_at(bench, {0.0, 0.01, 0.0});
+    bench.tick(2);
+    put_at(bench, Vec3(0.0));
+    bench.tick(100);
+    CHECK(arms(bench));
+    bench.tick(kSettle);
+    const std::uint64_t skipped = bench.now().counters.steps_skipped;
+    CHECK(skipped > static_cast<std::uint64_t>(kSettle) / 2);
+    CHECK_FALSE(arms(bench));
+}

@@ -49,11 +49,6 @@ inline constexpr std::uint8_t kHold = 0x08;        // minimum tension
 inline constexpr std::uint8_t kAll = 0x0F;
 } // namespace command_flag
 
-namespace capability {
-inline constexpr std::uint16_t kMeasuresTension = 0x0001;
-inline constexpr std::uint16_t kLocalImpedance = 0x0002; // reserved: OUT report 0x03
-} // namespace capability
-
 inline constexpr std::uint16_t kNotMeasured = 0xFFFF;
 
 struct StateReport {
@@ -83,7 +78,7 @@ struct CommandReport {
 struct HidCapabilities {
     std::uint8_t protocol_version = kHidProtocolVersion;
     std::uint8_t motor_count = kStringCount;
-    std::uint16_t capabilities = 0; // capability
+    std::uint16_t capabilities = 0; // bit 0 measures tension, bit 1 has a local impedance
     std::uint16_t firmware_version = 0;
     std::array<std::uint8_t, 12> unique_id{};
     std::uint32_t counts_per_turn = 0;
