@@ -4,6 +4,7 @@ run_stages() { # run_stages NAME_OR_GROUP...
     need python3:python3
     python3 tools/dev/run_stages.py check "$@" # a wrong name is told before anything is installed
     need "${build_needs[@]}" "${test_needs[@]}"
+    need_tidy
     find_godot
     echo "Godot: $GODOT"
     exec python3 tools/dev/run_stages.py run "$@"

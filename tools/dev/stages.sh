@@ -27,7 +27,9 @@ stage_tidy() {
 }
 
 tidy() { # without its count of what it found in other people's headers
-    xargs -a "$1" -P "$jobs" -n 2 clang-tidy -p . --quiet 2>&1 |
+    local program
+    program=$(command -v clang-tidy-22 || command -v clang-tidy)
+    xargs -a "$1" -P "$jobs" -n 2 "$program" -p . --quiet 2>&1 |
         { grep -v 'warnings\? generated' || true; }
 }
 

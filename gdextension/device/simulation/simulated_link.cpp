@@ -65,9 +65,12 @@ StringArray SimulatedLink::receive() noexcept {
 
 bool SimulatedLink::deliver(DeviceReading &report, const ActiveFaults &faults) noexcept {
     ++made_;
-    if (held_for_ > 0 && --held_for_ == 0) { // the one that was overtaken, in place of this one
-        report = held_;
-        return true;
+    if (held_for_ > 0) {
+        --held_for_;
+        if (held_for_ == 0) { // the one that was overtaken, in place of this one
+            report = held_;
+            return true;
+        }
     }
     if (loss_ > 0.0 && random() < loss_) {
         return false;

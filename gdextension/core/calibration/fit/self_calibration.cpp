@@ -164,6 +164,7 @@ System equations(const DeviceModel &model, const SelfCalibrationSettings &settin
         return system;
     }
     std::vector<double> sizes;
+    sizes.reserve(system.errors_m.size());
     for (const double error : system.errors_m) {
         sizes.push_back(std::fabs(error));
     }
