@@ -16,10 +16,6 @@ const char *describe(Status status) noexcept {
         return "This sample was refused; the last good pose stands.";
     case Status::wrench_limited:
         return "Strings are at a tension bound; the wrench given differs from the one asked for.";
-    case Status::request_clamped:
-        return "A request exceeded its limit and was brought down to it, direction kept.";
-    case Status::request_expired:
-        return "The request was not renewed in time and has faded out.";
     case Status::weakly_observed:
         return "The motion leaves some combination of the calibration open; move and turn the grip "
                "more widely.";
@@ -64,10 +60,6 @@ const char *describe(Status status) noexcept {
         return "Writing to the device failed; check the cable.";
     case Status::over_speed:
         return "The grip moved faster than the safety limit; the motors are off.";
-    case Status::fault_latched:
-        return "A fault is latched; clear it, then arm again.";
-    case Status::not_armed:
-        return "The device is not armed; arm it to feel forces.";
     case Status::string_fault:
         return "The string lengths contradict each other; check for a slack, slipped or broken "
                "string and zero the device again.";

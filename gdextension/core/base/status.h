@@ -12,8 +12,6 @@ enum class Status : std::int32_t {
     near_singular = 2,   // usable, but the lengths barely determine one direction
     held_last_pose = 3,  // this sample was refused; the last good pose stands
     wrench_limited = 4,  // strings at a bound: the wrench given differs from the one asked for
-    request_clamped = 5, // a finite request was brought down to its limit, direction kept
-    request_expired = 6, // the game stopped asking; the request faded out
     weakly_observed = 7, // calibration: the motion leaves some combination of values open
     grasp_unavailable = 8, // a grasp torque was asked of a rigid grip, which cannot give one
     // Bad input: nothing moved, state unchanged.
@@ -36,8 +34,6 @@ enum class Status : std::int32_t {
     read_failed = -24,
     write_failed = -25,
     over_speed = -26,
-    fault_latched = -27, // clear_fault() and arm() are needed
-    not_armed = -28,
     string_fault = -29, // the eight lengths contradict each other: slack, slipped, stuck, broken
     overheated = -30,   // a motor's thermal budget is spent
     unstable = -31,     // the rendered forces shake the grip

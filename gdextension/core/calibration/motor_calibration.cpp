@@ -44,8 +44,8 @@ bool in_range(double value, double highest) {
 
 } // namespace
 
-MotorCommand currents_from_tensions(const MotorCalibration &calibration,
-                                    const StringArray &tensions_n) noexcept {
+StringArray currents_from_tensions(const MotorCalibration &calibration,
+                                   const StringArray &tensions_n) noexcept {
     return currents_from_tensions(motor_scale(calibration), tensions_n);
 }
 
@@ -58,9 +58,9 @@ MotorScale motor_scale(const MotorCalibration &calibration) noexcept {
     return scale;
 }
 
-MotorCommand currents_from_tensions(const MotorScale &scale,
-                                    const StringArray &tensions_n) noexcept {
-    MotorCommand command;
+StringArray currents_from_tensions(const MotorScale &scale,
+                                   const StringArray &tensions_n) noexcept {
+    StringArray currents_a{};
     StringArray wanted_a{};
     for (std::size_t i = 0; i < kStringCount; ++i) {
         wanted_a[i] = tensions_n[i] / scale.tension_per_ampere_n_a[i];
@@ -69,10 +69,9 @@ MotorCommand currents_from_tensions(const MotorScale &scale,
         // No tension, or no calibration: 0 A, whatever the division gave.
         const bool pulls = tensions_n[i] >= 0.0 && scale.tension_per_ampere_n_a[i] > 0.0;
         const bool within = wanted_a[i] <= scale.limit_a[i];
-        command.current_a[i] = !pulls ? 0.0 : within ? wanted_a[i] : scale.limit_a[i];
-        command.current_limited = command.current_limited || (pulls && !within);
+        currents_a[i] = !pulls ? 0.0 : within ? wanted_a[i] : scale.limit_a[i];
     }
-    return command;
+    return currents_a;
 }
 
 StringArray max_tensions(const MotorCalibration &calibration) noexcept {

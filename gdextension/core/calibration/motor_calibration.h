@@ -19,11 +19,6 @@ struct MotorCalibration {
     StringArray max_current_a{4, 4, 4, 4, 4, 4, 4, 4};
 };
 
-struct MotorCommand {
-    StringArray current_a{};
-    bool current_limited = false; // one or more motors at max_current_a
-};
-
 // What currents_from_tensions() makes of a calibration, once: newtons of real tension an ampere gives (0 where the calibration
 // is no positive number) and the current's limit.
 struct MotorScale {
@@ -32,11 +27,11 @@ struct MotorScale {
 };
 [[nodiscard]] MotorScale motor_scale(const MotorCalibration &calibration) noexcept;
 
-// Never NaN, never negative, never above max_current_a: a tension that is not >= 0 gives 0 A.
-[[nodiscard]] MotorCommand currents_from_tensions(const MotorCalibration &calibration,
-                                                  const StringArray &tensions_n) noexcept;
-[[nodiscard]] MotorCommand currents_from_tensions(const MotorScale &scale,
-                                                  const StringArray &tensions_n) noexcept;
+// Unit: A. Never NaN, never negative, never above max_current_a: a tension that is not >= 0 gives 0 A.
+[[nodiscard]] StringArray currents_from_tensions(const MotorCalibration &calibration,
+                                                 const StringArray &tensions_n) noexcept;
+[[nodiscard]] StringArray currents_from_tensions(const MotorScale &scale,
+                                                 const StringArray &tensions_n) noexcept;
 // Largest tension each motor can pull (unit: N).
 [[nodiscard]] StringArray max_tensions(const MotorCalibration &calibration) noexcept;
 

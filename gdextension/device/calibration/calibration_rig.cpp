@@ -12,6 +12,7 @@
 #include "device/threads/real_time_thread.h"
 #include "device/threads/spsc_ring.h"
 #include "device/threads/triple_buffer.h"
+#include "device/threads/writer_thread.h"
 
 namespace spidar {
 
@@ -19,8 +20,11 @@ namespace {
 
 constexpr double kLongestAdvance_s = 60.0;
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
-// A thread that fell behind by more than this begins its time anew.
+// A thread that fell behind by more than this begins its time anew, and the task of a real device ends: what it saw of
+// the strings is too old to go on pulling them.
 constexpr std::int64_t kGiveUpLag_ns = 50'000'000;
+// Measured cycles are no shorter than this part of the period: a wake-up came too early.
+constexpr double kShortestCyclePart = 0.25;
 // A device that says nothing for so long cannot pull.
 constexpr double kSilent_s = 0.1;
 // How near the simulated grip comes to a place before it counts as there (unit: m), and how still (unit: m/s).
@@ -33,6 +37,7 @@ struct CalibrationRig::Impl {
     RigSettings settings;
     MakeTransport make_transport;
     std::unique_ptr<Transport> transport;
+    std::unique_ptr<WriterThread> writer;    // threaded, of a transport whose write may block
     SimulatedTransport *simulated = nullptr; // the transport, when it is one
     CalibrationTasks tasks;
     SafetyGate gate;
@@ -60,7 +65,13 @@ struct CalibrationRig::Impl {
     void move_hand(double dt_s) noexcept;
     void drive(double dt_s) noexcept;
     void keep_sample(double dt_s) noexcept;
+    void stop_task(TaskVerdict verdict) noexcept;
+    Status write(const DriveCommand &command) noexcept;
+    // Threaded: the device may have stopped to take commands, or this thread to give them.
+    void watch_writer() noexcept;
+    bool start_writer() noexcept;
     void run() noexcept;
+    void run_cycles() noexcept;
 };
 
 bool CalibrationRig::Impl::open() noexcept {
@@ -87,7 +98,12 @@ bool CalibrationRig::Impl::open() noexcept {
 
 void CalibrationRig::Impl::shut() noexcept {
     if (transport) {
-        transport->write({}); // motors off
+        if (writer) {
+            writer->stop(); // motors off
+            writer.reset();
+        } else {
+            transport->write({});
+        }
         transport->close();
         transport.reset();
         simulated = nullptr;
@@ -99,6 +115,9 @@ void CalibrationRig::Impl::shut() noexcept {
 
 void CalibrationRig::Impl::cycle(double dt_s) noexcept {
     take_orders(dt_s);
+    if (writer) {
+        watch_writer();
+    }
     since_report_s += dt_s;
     news.status = transport->read(reading);
     if (usable(news.status)) {
@@ -130,6 +149,32 @@ void CalibrationRig::Impl::take_orders(double dt_s) noexcept {
     }
 }
 
+// No slew down: off now.
+void CalibrationRig::Impl::stop_task(TaskVerdict verdict) noexcept {
+    tasks.abort(verdict);
+    gate.shut();
+}
+
+void CalibrationRig::Impl::watch_writer() noexcept {
+    if (writer->take_stalled()) {
+        stop_task(TaskVerdict::stopped);
+    }
+    if (writer->blocked_ns(monotonic_ns()) > WriterThread::kBlockedForGood_ns) {
+        stop_task(TaskVerdict::not_ready);
+    }
+}
+
+Status CalibrationRig::Impl::write(const DriveCommand &command) noexcept {
+    if (!writer) {
+        return transport->write(command);
+    }
+    writer->post(command);
+    if (!command.motors_on) {
+        writer->allow(); // after it had stopped the motors itself
+    }
+    return writer->take_result();
+}
+
 void CalibrationRig::Impl::drive(double dt_s) noexcept {
     TaskInput input;
     input.dt_s = dt_s;
@@ -154,21 +199,20 @@ void CalibrationRig::Impl::drive(double dt_s) noexcept {
     const TaskVerdict verdict = tasks.result().verdict;
     if (verdict == TaskVerdict::moved_too_fast || verdict == TaskVerdict::stopped ||
         verdict == TaskVerdict::not_ready) {
-        gate.shut(); // no slew down: off now
+        gate.shut();
     }
     const SafetyGate::Output output = gate.pass(wanted_n, dt_s);
     DriveCommand command;
     command.tensions_n = output.tensions_n;
-    command.currents_a = currents_from_tensions(settings.motors, output.tensions_n).current_a;
+    command.currents_a = currents_from_tensions(settings.motors, output.tensions_n);
     bool pulling = tasks.active();
     for (const double tension : output.tensions_n) {
         pulling = pulling || tension > 0.0;
     }
     command.motors_on = pulling;
-    const Status written = transport->write(command);
+    const Status written = write(command);
     if (pulling && !usable(written)) {
-        tasks.abort(TaskVerdict::not_ready);
-        gate.shut();
+        stop_task(TaskVerdict::not_ready);
     }
     news.motors_on = pulling;
     news.tensions_n = output.tensions_n;
@@ -193,23 +237,55 @@ void CalibrationRig::Impl::keep_sample(double dt_s) noexcept {
     }
 }
 
+bool CalibrationRig::Impl::start_writer() noexcept {
+    if (!transport->write_may_block()) {
+        return true;
+    }
+    writer = std::make_unique<WriterThread>(*transport);
+    if (usable(writer->start())) {
+        return true;
+    }
+    writer.reset();
+    problem = "The system has no thread left.";
+    state.store(RigState::failed, std::memory_order_release);
+    return false;
+}
+
 void CalibrationRig::Impl::run() noexcept {
-    if (open()) {
-        const auto period_ns =
-            static_cast<std::int64_t>(static_cast<double>(kNanoseconds) / settings.rate_hz);
-        const double period_s = 1.0 / settings.rate_hz;
-        const FlushDenormals flush;
-        std::int64_t next_ns = monotonic_ns();
-        while (!close_asked.load(std::memory_order_acquire)) {
-            cycle(period_s);
-            next_ns += period_ns;
-            if (monotonic_ns() - next_ns > kGiveUpLag_ns) {
-                next_ns = monotonic_ns();
-            }
-            sleep_until_ns(next_ns);
-        }
+    name_thread("spidar_rig");
+    (void)request_real_time(); // the writer thread takes a late rig for one that stands still
+    if (open() && start_writer()) {
+        run_cycles();
     }
     shut();
+}
+
+void CalibrationRig::Impl::run_cycles() noexcept {
+    const double period_s = 1.0 / settings.rate_hz;
+    const auto period_ns = static_cast<std::int64_t>(static_cast<double>(kNanoseconds) * period_s);
+    const FlushDenormals flush;
+    std::int64_t last_ns = monotonic_ns();
+    std::int64_t next_ns = last_ns + period_ns;
+    while (!close_asked.load(std::memory_order_acquire)) {
+        sleep_until_ns(next_ns);
+        const std::int64_t now_ns = monotonic_ns();
+        const std::int64_t passed_ns = now_ns - last_ns;
+        last_ns = now_ns;
+        if (simulated != nullptr) {
+            cycle(period_s); // its time is the thread's own
+        } else {
+            if (passed_ns > kGiveUpLag_ns) {
+                stop_task(TaskVerdict::stopped);
+            }
+            const double passed_s =
+                static_cast<double>(passed_ns) / static_cast<double>(kNanoseconds);
+            cycle(std::fmax(passed_s, kShortestCyclePart * period_s));
+        }
+        next_ns += period_ns;
+        if (monotonic_ns() - next_ns > kGiveUpLag_ns) {
+            next_ns = monotonic_ns();
+        }
+    }
 }
 
 CalibrationRig::CalibrationRig(const RigSettings &settings, MakeTransport make_transport)

@@ -1,6 +1,7 @@
 // A device on the bench: opened for calibration alone, read by a thread of its own, its motors moved by one
 // CalibrationTask at a time and never by a game. Weak and slow (kTaskMaxTension_n, kTaskSlew_n_per_ms), off unless a task
-// runs, and off when the one who gave it stops looking for kUnwatched_s. No call here waits for the device, but the
+// runs, and off when the one who gave it stops looking for kUnwatched_s. Time is measured, and a device whose write may
+// block is written by a WriterThread, so that a slow endpoint delays nothing. No call here waits for the device, but the
 // destructor waits for the call to the device that is under way.
 #pragma once
 
@@ -73,7 +74,7 @@ public:
     // One of both, once. threaded: false when the system has no thread left.
     bool start_threaded();
     void start_stepped();
-    // Stepped: simulated time moves on. At most a minute a call.
+    // Stepped: time moves on. At most a minute a call.
     void advance(double seconds) noexcept;
     // The thread switches the motors off, closes the device and ends; state() tells when.
     void ask_close() noexcept;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "core/base/status.h"
 #include "core/base/types.h"
@@ -18,6 +19,7 @@ struct DeviceReading {
     bool zeroed = true;
     // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
     Status device_status = Status::ok;
+    std::uint8_t fault_strings = 0; // bit i: string i, where an encoder fault says which
 };
 
 // What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and
@@ -65,6 +67,10 @@ public:
         (void)until_ns;
         return false;
     }
+
+    // Under which name this device's motors are known while it is open, whoever opens it: its serial number, or its place.
+    // Empty: its motors are new each time, as those of a simulated device are.
+    [[nodiscard]] virtual std::string device_name() const { return {}; }
 
     // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
     virtual void advance(double dt_s) noexcept { (void)dt_s; }

@@ -25,6 +25,11 @@ bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device) {
            device.product.compare(0, filter.product.size(), filter.product) == 0;
 }
 
+std::string claim_name(const HidDeviceInfo &device) {
+    const std::string &name = device.serial.empty() ? device.path : device.serial;
+    return name.empty() ? std::string() : "hid:" + name;
+}
+
 Status find_devices(HidBus &bus, const HidDeviceFilter &filter, std::vector<HidDeviceInfo> &found) {
     found.clear();
     std::vector<HidDeviceInfo> all;

@@ -20,6 +20,10 @@ struct HidDeviceFilter {
 
 [[nodiscard]] bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device);
 
+// Under which name a device is claimed and its motors' heat is kept: its serial number, or its path where it has none.
+// Empty of no device.
+[[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
+
 // Those that match, in the order of their serial numbers, each path once. no_device when there is none.
 [[nodiscard]] Status find_devices(HidBus &bus, const HidDeviceFilter &filter,
                                   std::vector<HidDeviceInfo> &found);

@@ -40,6 +40,7 @@ public:
     Status write(const DriveCommand &command) noexcept override;
     [[nodiscard]] bool write_may_block() const noexcept override { return true; }
     [[nodiscard]] bool wait_report(std::int64_t until_ns) noexcept override;
+    [[nodiscard]] std::string device_name() const override { return claim_name(device()); }
 
     // From the controlling thread.
     // The grip is at its home pose and its strings are taut: the encoders are to read `home_counts` here. Refused while

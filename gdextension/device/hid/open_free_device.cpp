@@ -4,10 +4,6 @@
 
 namespace spidar {
 
-std::string claim_name(const HidDeviceInfo &device) {
-    return "hid:" + (device.serial.empty() ? device.path : device.serial);
-}
-
 std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,
                                                HidTransportSettings settings,
                                                const std::string &owner, DeviceClaim &claim,

@@ -9,9 +9,6 @@
 
 namespace spidar {
 
-// Under which name a device is claimed: by its serial number, or by its path where it has none.
-[[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
-
 // The first that matches settings.filter, is free and opens; `claim` then owns it in the name of `owner`. Null: `status`
 // and `problem` say why; invalid_settings: a field of the filter, which `problem` begins with.
 [[nodiscard]] std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,

@@ -97,6 +97,8 @@ void ReportIntake::fill(DeviceReading &reading, std::uint32_t zero_number,
     reading.zeroed =
         zero_counts && (newest_.flags & state_flag::kZeroed) != 0 && device_us >= settled_at_us_;
     reading.device_status = device_status(newest_.flags);
+    reading.fault_strings =
+        reading.device_status == Status::device_encoder_fault ? newest_.fault_strings : 0;
 }
 
 } // namespace spidar

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "device/loop/host_watchdogs.h"
@@ -27,15 +28,18 @@ public:
         is_open_ = false;
     }
     Status begin(bool threaded) noexcept override {
-        watchdogs_.restart();
         use_writer_ = threaded && transport_->write_may_block();
         return use_writer_ ? writer_.start() : Status::ok;
     }
     void motors_off() noexcept override {
         if (use_writer_) {
             writer_.stop();
-        } else if (is_open_) {
-            transport_->write(DriveCommand());
+            return;
+        }
+        for (int tries = 0; is_open_ && tries < kOffTries; ++tries) {
+            if (usable(transport_->write(DriveCommand()))) {
+                return;
+            }
         }
     }
     [[nodiscard]] bool simulated() const noexcept override { return transport_->simulated(); }
@@ -52,6 +56,7 @@ public:
         given.input.read_status = transport_->read(given.input.reading);
         return true;
     }
+    [[nodiscard]] std::string device_name() const override { return transport_->device_name(); }
     Status write(const DriveCommand &drive) noexcept override {
         if (!use_writer_) {
             return transport_->write(drive);
@@ -68,13 +73,18 @@ public:
     }
 
     void publish(const HapticCommand &command) noexcept override { commands_.write(command); }
-    bool read_command(HapticCommand &command) noexcept override { return commands_.read(command); }
+    void restart(HapticCommand &command) noexcept override {
+        (void)commands_.read(command);
+        watchdogs_.restart(command);
+    }
     void panic() noexcept override {
         watchdogs_.panic();
         writer_.forbid();
     }
 
 private:
+    static constexpr int kOffTries = 10; // of a write that does not wait
+
     std::unique_ptr<Transport> transport_;
     WriterThread writer_;
     bool use_writer_ = false;

@@ -17,19 +17,22 @@ public:
     // From any thread.
     void panic() noexcept { panics_.fetch_add(1, std::memory_order_acq_rel); }
 
-    // Before the first cycle: what happened until now is over.
-    void restart() noexcept {
-        panics_seen_ = panics_.load(std::memory_order_acquire);
-        stops_ = 0;
+    // Before the first cycle, with the newest command, which is acknowledged as filled in here. What an earlier run met
+    // is over, but a panic is latched until the fault was cleared after it: then the first cycle has a reason to stop.
+    void restart(HapticCommand &newest) noexcept {
         write_is_blocked_ = false;
+        hear(newest);
+        newest.stop_count = stops_;
+        newest.stop_reason = stop_reason_;
+        if (panicked_) {
+            stop(Status::panic_stopped);
+        }
     }
     // Once a cycle. Fills in the command's stop_count and stop_reason. writer: null when the loop writes by itself.
     // True: there is a new reason.
     bool watch(WriterThread *writer, HapticCommand &command, EventLog &events) noexcept {
         const std::uint32_t before = stops_;
-        const std::uint32_t panics = panics_.load(std::memory_order_acquire);
-        if (panics != panics_seen_) {
-            panics_seen_ = panics;
+        if (hear(command)) {
             stop(Status::panic_stopped);
         }
         if (writer != nullptr) {
@@ -41,10 +44,19 @@ public:
     }
 
 private:
-    // A write that waits so long is told; one that waits longer is a device lost, whose firmware has let go by itself.
+    // A write that waits so long is told.
     static constexpr std::int64_t kBlocked_ns = 20'000'000;
-    static constexpr std::int64_t kBlockedForGood_ns = 50'000'000;
 
+    // True: there was a panic since the last call. One that comes with a clear_fault() counts as the later of the two.
+    bool hear(const HapticCommand &command) noexcept {
+        const bool cleared = command.clear_fault_count != clear_fault_count_;
+        clear_fault_count_ = command.clear_fault_count;
+        const std::uint32_t panics = panics_.load(std::memory_order_acquire);
+        const bool heard = panics != panics_seen_;
+        panics_seen_ = panics;
+        panicked_ = heard || (panicked_ && !cleared);
+        return heard;
+    }
     void watch_writer(WriterThread &writer, EventLog &events) noexcept {
         if (writer.take_stalled()) {
             stop(Status::loop_stalled);
@@ -53,7 +65,7 @@ private:
         if (blocked_ns > kBlocked_ns) {
             events.tell(DeviceEventKind::write_blocked, -1, static_cast<double>(blocked_ns) * 1e-9);
         }
-        const bool for_good = blocked_ns > kBlockedForGood_ns;
+        const bool for_good = blocked_ns > WriterThread::kBlockedForGood_ns;
         if (for_good && !write_is_blocked_) {
             stop(Status::write_failed);
         }
@@ -66,7 +78,9 @@ private:
 
     std::atomic<std::uint32_t> panics_{0};
     std::uint32_t panics_seen_ = 0;
-    std::uint32_t stops_ = 0;
+    std::uint32_t clear_fault_count_ = 0;
+    bool panicked_ = false;   // and no fault cleared since
+    std::uint32_t stops_ = 0; // only grows: a command without it would be an edge of its own
     Status stop_reason_ = Status::ok;
     bool write_is_blocked_ = false;
 };

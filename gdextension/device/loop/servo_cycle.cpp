@@ -1,5 +1,10 @@
 #include "device/loop/servo_cycle.h"
 
+#include <exception>
+
+#include "device/loop/motor_heat.h"
+#include "device/threads/real_time_thread.h"
+
 namespace spidar {
 
 Status ServoCycle::configure(const ServoSettings &settings) noexcept {
@@ -7,11 +12,29 @@ Status ServoCycle::configure(const ServoSettings &settings) noexcept {
     if (!usable(configured)) {
         return configured;
     }
-    source_->read_command(given_.command);
+    source_->restart(given_.command);
     step_.acknowledge(given_.command);
     given_.input = CycleInput();
     host_events_ = EventLog();
+    thermal_time_s_ = settings.safety.thermal_time_s;
     return configured;
+}
+
+void ServoCycle::recall_heat() noexcept {
+    try {
+        const std::string device = source_->device_name();
+        if (!device.empty()) {
+            step_.set_heat(recall_motor_heat(device, monotonic_ns()));
+        }
+    } catch (const std::exception &) { // no memory for a name: the motors count as cold
+    }
+}
+
+void ServoCycle::keep_heat() noexcept {
+    try {
+        keep_motor_heat(source_->device_name(), step_.heat(), thermal_time_s_, monotonic_ns());
+    } catch (const std::exception &) { // no memory for it
+    }
 }
 
 void ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {

@@ -24,6 +24,7 @@ Status ServoLoop::start_stepped(const ServoSettings &settings) {
     if (!usable(status)) {
         return status;
     }
+    cycle_.recall_heat();
     timing_.restart(settings.rate_hz);
     is_running_ = true;
     return cycle_.source().begin(false);
@@ -58,6 +59,7 @@ void ServoLoop::stop() noexcept {
         cycle_.source().motors_off();
     }
     cycle_.recordings().stop_at_rest();
+    cycle_.keep_heat();
     cycle_.source().close();
     is_running_ = false;
     cycle_.show_closed();

@@ -33,7 +33,8 @@ public:
     // under way.
     void stop() noexcept;
     // From any thread, at any time, one atomic: the motors go off in the next cycle, and at once where a writer thread
-    // serves the device. Latched: clear_fault() and arm() lead back.
+    // serves the device. Latched: clear_fault() and arm() lead back. While no loop runs, or no device is open, it is
+    // remembered: the device opens in FAULT.
     void panic_stop() noexcept { cycle_.source().panic(); }
     // Since the thread began its last cycle (unit: s); 0 when none runs. What a game watches the loop by.
     [[nodiscard]] double since_last_cycle_s() const noexcept {

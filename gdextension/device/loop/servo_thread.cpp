@@ -56,6 +56,7 @@ void ServoThread::run() noexcept {
     const bool real_time = request_real_time();
     timing_.set_real_time_priority(real_time);
     if (usable(open_status_) || open_patiently()) {
+        cycle_.recall_heat();
         if (!real_time) {
             cycle_.host_events().tell(DeviceEventKind::no_real_time_priority);
         }

@@ -20,50 +20,60 @@ void DeviceStateMachine::configure(double arming_time_s) noexcept {
     arming_time_s_ = arming_time_s;
 }
 
-void DeviceStateMachine::open(bool zero_known) noexcept {
-    if (state_ == DeviceState::closed && !lost_) {
-        state_ = DeviceState::connected;
-        zero_known_ = zero_known;
+bool DeviceStateMachine::open(bool zero_known) noexcept {
+    if (state_ != DeviceState::closed || lost_) {
+        return false;
     }
+    state_ = DeviceState::connected;
+    zero_known_ = zero_known;
+    if (!opens_stopped_) {
+        return false;
+    }
+    opens_stopped_ = false;
+    return stop(StopReason::panic, Status::panic_stopped);
 }
 
-void DeviceStateMachine::disarm() noexcept {
-    tension_scale_ = 0.0;
-    wrench_scale_ = 0.0;
+bool DeviceStateMachine::stop(StopReason reason, Status why, int string) noexcept {
+    const StopAction action = stop_action(state_, reason);
+    if (action == StopAction::nothing) {
+        return false;
+    }
+    rearm_ = std::max(rearm_, rearm_after(reason, may_arm_itself_));
     arm_pending_s_ = 0.0;
-    stay_disarmed_ = true;
-    zero_taken_ = false;
-}
-
-void DeviceStateMachine::lose(Status why) noexcept {
-    if (!lost_) {
-        fault_ = why;
-        fault_string_ = -1;
-    }
-    lost_ = true;
-    state_ = DeviceState::closed;
-    disarm();
-}
-
-void DeviceStateMachine::raise(Status why, int string) noexcept {
-    if (state_ == DeviceState::fault || state_ == DeviceState::closed) {
-        return;
-    }
-    state_ = DeviceState::fault;
-    fault_ = why;
-    fault_string_ = string;
-    disarm();
-}
-
-void DeviceStateMachine::stand_down() noexcept {
-    stay_disarmed_ = true;
-    arm_pending_s_ = 0.0;
-    if (state_ == DeviceState::arming || state_ == DeviceState::active) {
+    const DeviceState before = state_;
+    switch (action) {
+    case StopAction::unset:
+    case StopAction::nothing:
+    case StopAction::disarm:
+        break;
+    case StopAction::fade:
         state_ = DeviceState::fading;
+        break;
+    case StopAction::let_go:
+        go_slack(DeviceState::connected);
+        break;
+    case StopAction::fault:
+        fault_ = why;
+        fault_string_ = string;
+        go_slack(DeviceState::fault);
+        break;
+    case StopAction::close:
+        if (!lost_) { // the first reason stands
+            fault_ = why;
+            fault_string_ = -1;
+        }
+        lost_ = true;
+        go_slack(DeviceState::closed);
+        break;
+    case StopAction::latch:
+        opens_stopped_ = true;
+        break;
     }
+    return state_ != before;
 }
 
 void DeviceStateMachine::clear(bool answers) noexcept {
+    opens_stopped_ = false;
     if (state_ == DeviceState::fault || (lost_ && answers)) {
         state_ = DeviceState::connected;
         fault_ = Status::ok;
@@ -72,11 +82,11 @@ void DeviceStateMachine::clear(bool answers) noexcept {
     }
 }
 
-// Where a device waits for arm().
-void DeviceStateMachine::rest() noexcept {
-    state_ = DeviceState::connected;
+void DeviceStateMachine::go_slack(DeviceState next) noexcept {
+    state_ = next;
     tension_scale_ = 0.0;
     wrench_scale_ = 0.0;
+    zero_taken_ = false;
 }
 
 void DeviceStateMachine::confirm_zero() noexcept {
@@ -90,14 +100,13 @@ void DeviceStateMachine::confirm_zero() noexcept {
 void DeviceStateMachine::refuse_zero() noexcept {
     if (state_ == DeviceState::taut) {
         zero_known_ = false;
-        zero_taken_ = false;
-        rest();
+        go_slack(DeviceState::connected);
     }
 }
 
 void DeviceStateMachine::arm(const Inputs &inputs, bool ramps_wrench, Outcome &outcome) noexcept {
     outcome.no_hand = !inputs.hand_present;
-    if (inputs.hand_present && inputs.tracking && inputs.game_alive && inputs.device_ready) {
+    if (inputs.hand_present && inputs.tracking && inputs.device_ready && inputs.may_pull()) {
         state_ = DeviceState::arming;
         wrench_scale_ = ramps_wrench ? 0.0 : 1.0;
         ramps_wrench_ = ramps_wrench;
@@ -105,89 +114,80 @@ void DeviceStateMachine::arm(const Inputs &inputs, bool ramps_wrench, Outcome &o
     }
 }
 
-DeviceStateMachine::Outcome DeviceStateMachine::advance_connected(const Inputs &inputs,
-                                                                  bool wanted) noexcept {
-    Outcome outcome;
+void DeviceStateMachine::begin_taut() noexcept {
+    state_ = DeviceState::taut;
+    tension_scale_ = 0.0;
+    zero_taken_ = false;
+    zero_known_ = false;
+    arm_pending_s_ = 0.0;
+}
+
+void DeviceStateMachine::advance_connected(const Inputs &inputs, bool wanted,
+                                           Outcome &outcome) noexcept {
     tension_scale_ = 0.0;
     wrench_scale_ = 0.0;
-    if (inputs.zero && inputs.forces_enabled && !inputs.disarm) {
-        state_ = DeviceState::taut;
-        zero_taken_ = false;
-        zero_known_ = false;
-        arm_pending_s_ = 0.0;
-        return outcome;
+    if (inputs.zero && inputs.may_pull() && !inputs.disarm) {
+        begin_taut();
+        return;
     }
     const bool asked = inputs.may_arm_itself || arm_pending_s_ > 0.0;
     if (!wanted || !asked) {
-        return outcome;
+        return;
     }
-    if (!zero_known_) {
-        outcome.zero_needed = true;
-        return outcome;
+    outcome.zero_needed = !zero_known_;
+    if (zero_known_) {
+        arm(inputs, false, outcome); // pretension and wrench rise together
     }
-    arm(inputs, false, outcome); // pretension and wrench rise together
-    return outcome;
 }
 
-DeviceStateMachine::Outcome DeviceStateMachine::advance_taut(const Inputs &inputs,
-                                                             double dt_s) noexcept {
-    Outcome outcome;
+bool DeviceStateMachine::advance_taut(double dt_s) noexcept {
     wrench_scale_ = 0.0;
-    if (!inputs.forces_enabled || inputs.disarm) {
-        refuse_zero();
-        return outcome;
+    if (zero_taken_) {
+        return false;
     }
-    if (!zero_taken_) {
-        tension_scale_ = std::min(1.0, tension_scale_ + dt_s / kTautTime_s);
-        if (tension_scale_ >= 1.0) {
-            zero_taken_ = true;
-            outcome.take_zero = true;
-        }
-    }
-    return outcome;
+    tension_scale_ = std::min(1.0, tension_scale_ + dt_s / kTautTime_s);
+    zero_taken_ = tension_scale_ >= 1.0;
+    return zero_taken_;
 }
 
-DeviceStateMachine::Outcome DeviceStateMachine::advance_calibrated(const Inputs &inputs,
-                                                                   bool wanted) noexcept {
-    Outcome outcome;
+void DeviceStateMachine::advance_calibrated(const Inputs &inputs, bool wanted,
+                                            Outcome &outcome) noexcept {
     wrench_scale_ = 0.0;
-    if (!inputs.forces_enabled || inputs.disarm) {
-        rest();
-        return outcome;
-    }
     if (inputs.zero) {
-        state_ = DeviceState::taut;
-        tension_scale_ = 0.0;
-        zero_taken_ = false;
-        zero_known_ = false;
-        return outcome;
+        begin_taut();
+    } else if (wanted && arm_pending_s_ > 0.0) {
+        arm(inputs, true, outcome); // from pretension: only the wrench rises
     }
-    if (!wanted || !(arm_pending_s_ > 0.0)) {
-        return outcome;
-    }
-    arm(inputs, true, outcome); // from pretension: only the wrench rises
-    return outcome;
 }
 
 DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
                                                         double dt_s) noexcept {
     Outcome outcome;
-    if (inputs.forces_enabled && !forces_were_enabled_) {
-        stay_disarmed_ = false;
+    may_arm_itself_ = inputs.may_arm_itself;
+    if (inputs.forces_enabled && !forces_were_enabled_ && rearm_ == Rearm::by_toggle) {
+        rearm_ = Rearm::by_itself;
     }
     forces_were_enabled_ = inputs.forces_enabled;
     arm_pending_s_ = std::max(0.0, arm_pending_s_ - dt_s);
     const bool may_wait = state_ == DeviceState::connected || state_ == DeviceState::calibrated ||
                           state_ == DeviceState::fading;
     if (inputs.arm && inputs.forces_enabled && may_wait) {
-        stay_disarmed_ = false;
+        rearm_ = Rearm::by_itself;
         arm_pending_s_ = kArmPatience_s;
     }
-    if (inputs.disarm) { // wins over an arm() of the same cycle
-        stay_disarmed_ = true;
-        arm_pending_s_ = 0.0;
+    outcome.too_warm = inputs.too_warm && may_wait && (inputs.arm || inputs.zero);
+    // What stands now; disarm() wins over an arm() of the same cycle.
+    if (inputs.disarm) {
+        stop(StopReason::disarm_asked);
     }
-    const bool wanted = inputs.forces_enabled && !stay_disarmed_;
+    if (!inputs.forces_enabled) {
+        stop(StopReason::forces_off);
+    }
+    if (inputs.too_warm) {
+        stop(StopReason::overheated);
+    }
+    outcome.game_stalled = !inputs.game_alive && stop(StopReason::game_silent);
+    const bool wanted = inputs.forces_enabled && rearm_ == Rearm::by_itself;
 
     switch (state_) {
     case DeviceState::closed:
@@ -196,24 +196,16 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
         wrench_scale_ = 0.0;
         return outcome;
     case DeviceState::taut:
-        return advance_taut(inputs, dt_s);
+        outcome.take_zero = advance_taut(dt_s);
+        return outcome;
     case DeviceState::connected:
-        outcome = advance_connected(inputs, wanted);
+        advance_connected(inputs, wanted, outcome);
         break;
     case DeviceState::calibrated:
-        outcome = advance_calibrated(inputs, wanted);
+        advance_calibrated(inputs, wanted, outcome);
         break;
     case DeviceState::arming:
     case DeviceState::active:
-        if (!wanted) {
-            state_ = DeviceState::fading;
-        } else if (!inputs.game_alive) {
-            // A simulated device arms itself again; a real one waits for arm().
-            stay_disarmed_ = !inputs.may_arm_itself;
-            state_ = DeviceState::fading;
-            outcome.game_stalled = true;
-        }
-        break;
     case DeviceState::fading:
         break;
     }
@@ -227,14 +219,14 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
     } else if (state_ == DeviceState::fading) {
         tension_scale_ = std::max(0.0, tension_scale_ - dt_s / kFadeTime_s);
         if (!(tension_scale_ > 0.0)) {
-            rest();
+            go_slack(DeviceState::connected);
         }
     }
     return outcome;
 }
 
 bool DeviceStateMachine::at_rest() const noexcept {
-    const bool wanted = forces_were_enabled_ && !stay_disarmed_;
+    const bool wanted = forces_were_enabled_ && rearm_ == Rearm::by_itself;
     const bool full = tension_scale_ >= 1.0 && wrench_scale_ >= 1.0;
     return !(arm_pending_s_ > 0.0) && ((state_ == DeviceState::active && wanted && full) ||
                                        (state_ == DeviceState::connected && !wanted));

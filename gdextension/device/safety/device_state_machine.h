@@ -1,10 +1,12 @@
 // CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED and the latched FAULT; with the ramps that scale
 // tensions and wrench. A device without a zero goes CONNECTED -> TAUT -> CALIBRATED first: the strings are drawn
-// taut, the zero is taken and checked, and they are held taut until arm().
+// taut, the zero is taken and checked, and they are held taut until arm(). What ends a state that pulls is decided in
+// motor_rule.h alone.
 #pragma once
 
 #include "core/base/status.h"
 #include "device/contract/device_state.h"
+#include "device/safety/motor_rule.h"
 
 namespace spidar {
 
@@ -20,6 +22,11 @@ public:
         bool game_alive = true;
         bool hand_present = true;
         bool device_ready = true; // it has power and no fault of its own
+        bool too_warm = false;    // a motor's thermal budget is spent
+        // Nothing stands that would end a state which pulls.
+        [[nodiscard]] bool may_pull() const noexcept {
+            return forces_enabled && game_alive && !too_warm;
+        }
     };
     // What a cycle asks of its caller, and what there is to tell.
     struct Outcome {
@@ -27,21 +34,23 @@ public:
             false; // the strings are taut: the counts of now are those of the home pose
         bool zero_needed = false; // arm() or forces without a zero
         bool no_hand = false;     // arm() without a hand
+        bool too_warm = false;    // arm() or a zero while a motor is too warm
         bool game_stalled = false;
     };
 
     // Closed, no fault, no edge pending.
     void configure(double arming_time_s) noexcept;
 
-    // The device answers: closed -> connected, unless it was lost.
-    void open(bool zero_known) noexcept;
-    // The device is gone: closed, until clear() while it answers again.
-    void lose(Status why) noexcept;
-    // Motors off, latched. The first fault stands. string: 0-7 or -1.
-    void raise(Status why, int string) noexcept;
-    // Forces fade; then as after disarm().
-    void stand_down() noexcept;
-    // Leaves fault, or closed after lose(). `answers`: the device was read in this cycle.
+    // The device answers: closed -> connected, unless it was lost. True: it was stopped while closed, and opens in FAULT.
+    bool open(bool zero_known) noexcept;
+    // Does what motor_rule.h says. `why` and string (0-7 or -1) are those of a fault, of which the first one stands.
+    // True: the state changed. After device_lost the state is closed until clear() while the device answers again.
+    bool stop(StopReason reason, Status why = Status::ok, int string = -1) noexcept;
+    // There is a fault to clear, or a panic stop of a closed device.
+    [[nodiscard]] bool needs_clearing() const noexcept {
+        return fault_ != Status::ok || opens_stopped_;
+    }
+    // Leaves fault, or closed after device_lost. `answers`: the device was read in this cycle.
     void clear(bool answers) noexcept;
     // What the device says of its counts: they have a zero, or they began anew.
     void set_zero_known(bool known) noexcept { zero_known_ = known; }
@@ -69,13 +78,15 @@ public:
     }
 
 private:
-    void disarm() noexcept;
-    void rest() noexcept;
+    // Into a state in which nothing pulls.
+    void go_slack(DeviceState next) noexcept;
     // Arms, unless somebody or something is missing.
     void arm(const Inputs &inputs, bool ramps_wrench, Outcome &outcome) noexcept;
-    Outcome advance_connected(const Inputs &inputs, bool wanted) noexcept;
-    Outcome advance_taut(const Inputs &inputs, double dt_s) noexcept;
-    Outcome advance_calibrated(const Inputs &inputs, bool wanted) noexcept;
+    void begin_taut() noexcept;
+    void advance_connected(const Inputs &inputs, bool wanted, Outcome &outcome) noexcept;
+    // True: the strings are taut now, and the zero is to be taken.
+    bool advance_taut(double dt_s) noexcept;
+    void advance_calibrated(const Inputs &inputs, bool wanted, Outcome &outcome) noexcept;
 
     DeviceState state_ = DeviceState::closed;
     Status fault_ = Status::ok;
@@ -88,8 +99,10 @@ private:
     bool zero_taken_ = false;
     bool ramps_wrench_ = false; // arming from CALIBRATED: the tensions are up already
     bool forces_were_enabled_ = false;
-    // After disarm() or a fault even a simulated device waits for arm() or for forces_enabled to be toggled.
-    bool stay_disarmed_ = false;
+    bool may_arm_itself_ = false; // as in the last inputs
+    bool opens_stopped_ = false;  // panic_stop() while closed
+    // What a device that arms itself waits for.
+    Rearm rearm_ = Rearm::by_itself;
     // An arm() that could not act at once (fading, no pose yet) stands for this long.
     double arm_pending_s_ = 0.0;
 };

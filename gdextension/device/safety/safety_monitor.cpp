@@ -95,7 +95,7 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
 }
 
 SafetyMonitor::Verdict SafetyMonitor::watch_heat(EventLog &events) noexcept {
-    if (!(parts_.heat.spent() < 1.0)) {
+    if (parts_.heat.is_spent()) {
         return {Action::stand_down, Status::overheated, parts_.heat.warmest_string()};
     }
     if (parts_.heat.scale() < 1.0) {

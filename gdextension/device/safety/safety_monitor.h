@@ -64,6 +64,7 @@ public:
     [[nodiscard]] bool hand_present() const noexcept { return parts_.hand.present(); }
     [[nodiscard]] const StringMonitor &strings() const noexcept { return parts_.strings; }
     [[nodiscard]] const ThermalBudget &heat() const noexcept { return parts_.heat; }
+    void set_heat(const StringArray &heat) noexcept { parts_.heat.set_heat(heat); }
 
 private:
     Verdict watch_strings(const Sample &sample, EventLog &events, double dt_s) noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "device/contract/device_event.h"
 #include "device/contract/haptic_command.h"
@@ -48,9 +49,11 @@ public:
     [[nodiscard]] virtual bool wait_report(std::int64_t /*until_ns*/) noexcept { return false; }
     // What a game wants. From the controlling thread; the newest command wins. Wait-free.
     virtual void publish(const HapticCommand & /*command*/) noexcept {}
-    // The newest published command. From the loop's thread. False: none came since the last call.
-    virtual bool read_command(HapticCommand & /*command*/) noexcept { return false; }
-    // Motors off as soon as can be. From any thread, one atomic.
+    // Before a start: the newest published command, of which nothing acts any more but a panic stop that still holds.
+    virtual void restart(HapticCommand & /*command*/) noexcept {}
+    // As Transport::device_name(), once open.
+    [[nodiscard]] virtual std::string device_name() const { return {}; }
+    // Motors off as soon as can be, and in every later run too until the fault is cleared. From any thread, one atomic.
     virtual void panic() noexcept {}
 };
 

@@ -105,7 +105,9 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
         parts_.guard.advance_without_reading(dt_s);
         return;
     }
-    parts_.machine.open(reading.zeroed);
+    if (parts_.machine.open(reading.zeroed)) {
+        parts_.events.tell(DeviceEventKind::panic_stopped);
+    }
     if (read_status == Status::read_timeout || !accept_report(reading)) {
         counters.read_timeouts += read_status == Status::read_timeout ? 1U : 0U;
         parts_.guard.advance_without_reading(dt_s);
@@ -232,7 +234,7 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
     parts_.events.begin_cycle(snapshot_.time_s);
 
     const Edges edges = game_.take_edges(command);
-    if (edges.clear_fault && parts_.machine.fault() != Status::ok) {
+    if (edges.clear_fault && parts_.machine.needs_clearing()) {
         clear_fault(usable(read_status));
     }
     if (edges.stop) {

@@ -2,6 +2,7 @@
 #include "device/step/servo_step.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace spidar {
 
@@ -45,21 +46,25 @@ DeviceEventKind kind_of(Status fault) noexcept {
     }
 }
 
+// Of a mask of strings: the first, 0-7, or -1 when it is empty.
+int first_string(std::uint8_t mask) noexcept {
+    return mask != 0 ? std::countr_zero(mask) : -1;
+}
+
 } // namespace
 
 void ServoStep::raise(Status why, int string) noexcept {
-    if (parts_.machine.state() != DeviceState::fault &&
-        parts_.machine.state() != DeviceState::closed) {
+    const StopReason reason = why == Status::panic_stopped ? StopReason::panic : StopReason::fault;
+    if (parts_.machine.stop(reason, why, string)) {
         parts_.events.tell(kind_of(why), string);
     }
-    parts_.machine.raise(why, string);
 }
 
 void ServoStep::lose(Status why) noexcept {
     if (told_state_ != DeviceState::closed) {
         parts_.events.tell(kind_of(why));
     }
-    parts_.machine.lose(why);
+    parts_.machine.stop(StopReason::device_lost, why);
     parts_.link.expect_anew();
     // Counts may begin anew where they like. A device that kept its zero says so in its next reading.
     device_zeroed_ = false;
@@ -80,7 +85,7 @@ void ServoStep::jump_clock(double asked_dt_s) noexcept {
     parts_.events.tell(DeviceEventKind::clock_jumped, -1, asked_dt_s);
     parts_.guard.reset();
     parts_.tracker.restart();
-    parts_.machine.stand_down();
+    parts_.machine.stop(StopReason::clock_jumped);
 }
 
 bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
@@ -104,7 +109,7 @@ bool ServoStep::accept_report(const DeviceReading &reading) noexcept {
         }
     }
     if (reading.device_status != Status::ok && parts_.machine.motors_on()) {
-        raise(reading.device_status, -1);
+        raise(reading.device_status, first_string(reading.fault_strings));
     }
     if (parts_.link.missed() > 0) {
         snapshot_.counters.reports_missed += static_cast<std::uint64_t>(parts_.link.missed());
@@ -131,11 +136,10 @@ void ServoStep::watch(double dt_s) noexcept {
     case SafetyMonitor::Action::none:
         break;
     case SafetyMonitor::Action::stand_down:
-        if (parts_.machine.state() == DeviceState::active ||
-            parts_.machine.state() == DeviceState::arming) {
+        if (parts_.machine.stop(verdict.status == Status::overheated ? StopReason::overheated
+                                                                     : StopReason::string_named)) {
             parts_.events.tell(kind_of(verdict.status), verdict.string);
         }
-        parts_.machine.stand_down();
         break;
     case SafetyMonitor::Action::motors_off:
         raise(verdict.status, verdict.string);
@@ -189,6 +193,7 @@ void ServoStep::advance_state(const HapticCommand &command, const Edges &edges,
     inputs.game_alive = game_.alive();
     inputs.hand_present = simulated_ || parts_.monitor.hand_present();
     inputs.device_ready = reading.device_status == Status::ok;
+    inputs.too_warm = parts_.monitor.heat().is_spent();
     const DeviceStateMachine::Outcome outcome = parts_.machine.advance(inputs, dt_s);
     if (outcome.take_zero) {
         take_zero(reading.counts);
@@ -198,6 +203,9 @@ void ServoStep::advance_state(const HapticCommand &command, const Edges &edges,
     }
     if (outcome.no_hand) {
         parts_.events.tell(DeviceEventKind::no_hand);
+    }
+    if (outcome.too_warm) {
+        parts_.events.tell(DeviceEventKind::overheated, parts_.monitor.heat().warmest_string());
     }
     if (outcome.game_stalled) {
         parts_.events.tell(DeviceEventKind::game_stalled, -1, game_.silent_s());

@@ -29,6 +29,7 @@ Status TensionDrive::configure(const ServoSettings &settings) noexcept {
     motors_ = motor_scale(settings.motors);
     tension_gain_ = settings.motors.tension_gain;
     pretension_n_ = settings.tension.reference_tension_n;
+    broken_mask_ = settings.tension.broken_mask;
     const TensionSettings tension = solver_settings(settings);
     max_tension_n_ = tension.max_tension_n;
     StringArray limits_n{};
@@ -44,7 +45,9 @@ void TensionDrive::add_rotor_compensation(const Twist &twist, double ramp,
     }
     const StringArray extra_n = rotor_compensation(render_, matrix_, twist);
     for (std::size_t i = 0; i < tensions_n.size(); ++i) {
-        tensions_n[i] = std::clamp(tensions_n[i] + ramp * extra_n[i], 0.0, max_tension_n_);
+        if (!is_broken(i)) {
+            tensions_n[i] = std::clamp(tensions_n[i] + ramp * extra_n[i], 0.0, max_tension_n_);
+        }
     }
 }
 
@@ -95,7 +98,9 @@ DriveCommand TensionDrive::hold_pretension(double part, double dt_s,
     solver_warm_ = false;
     at_rest_ = false;
     StringArray wanted_n{};
-    wanted_n.fill(part * pretension_n_);
+    for (std::size_t i = 0; i < wanted_n.size(); ++i) {
+        wanted_n[i] = is_broken(i) ? 0.0 : part * pretension_n_;
+    }
     snapshot.tensions_n = gate_.pass(wanted_n, dt_s).tensions_n;
     return command_for(snapshot.tensions_n);
 }
@@ -111,7 +116,7 @@ DriveCommand TensionDrive::let_go(ServoSnapshot &snapshot) noexcept {
 DriveCommand TensionDrive::command_for(const StringArray &tensions_n) const noexcept {
     DriveCommand command;
     command.motors_on = true;
-    command.currents_a = currents_from_tensions(motors_, tensions_n).current_a;
+    command.currents_a = currents_from_tensions(motors_, tensions_n);
     for (std::size_t i = 0; i < tensions_n.size(); ++i) {
         command.tensions_n[i] = tensions_n[i] / tension_gain_[i];
     }

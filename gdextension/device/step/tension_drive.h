@@ -26,7 +26,7 @@ public:
     // ramp times the wrench, exactly.
     DriveCommand pull(const GripState &grip, const Wrench &wrench, double ramp, double dt_s,
                       ServoSnapshot &snapshot, EventLog &events) noexcept;
-    // Every string at this part (0..1) of the pretension: no pose is needed.
+    // Every string that is not broken at this part (0..1) of the pretension: no pose is needed.
     DriveCommand hold_pretension(double part, double dt_s, ServoSnapshot &snapshot) noexcept;
     // Motors off, in this very cycle.
     DriveCommand let_go(ServoSnapshot &snapshot) noexcept;
@@ -37,6 +37,9 @@ public:
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }
 
 private:
+    [[nodiscard]] bool is_broken(std::size_t string) const noexcept {
+        return ((broken_mask_ >> string) & 1U) != 0;
+    }
     void add_rotor_compensation(const Twist &twist, double ramp,
                                 StringArray &tensions_n) const noexcept;
     [[nodiscard]] DriveCommand command_for(const StringArray &tensions_n) const noexcept;
@@ -47,6 +50,7 @@ private:
     MotorScale motors_;
     StringArray tension_gain_{};
     double pretension_n_ = 0.0;
+    std::uint8_t broken_mask_ = 0;
     double max_tension_n_ = 0.0;
     TensionSolver solver_;
     SafetyGate gate_;

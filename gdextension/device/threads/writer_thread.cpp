@@ -9,8 +9,9 @@ namespace spidar {
 
 namespace {
 
-// How often a thread that has nothing to write looks whether the loop still lives.
+// How often a thread that has nothing to write looks whether the loop still lives, and tries again to switch off.
 constexpr std::chrono::milliseconds kLook(5);
+constexpr std::chrono::milliseconds kTryAgain(1);
 
 } // namespace
 
@@ -21,13 +22,21 @@ Status WriterThread::start() noexcept {
     result_.store(0);
     writing_since_ns_.store(0);
     last_post_ns_.store(monotonic_ns());
-    motors_are_on_ = false;
+    off_is_wanted_ = true;
+    forget_posts();
     try {
         thread_ = std::thread([this] { run(); });
     } catch (const std::system_error &) {
         return Status::open_failed;
     }
     return Status::ok;
+}
+
+void WriterThread::forget_posts() noexcept {
+    DriveCommand stale;
+    (void)mailbox_.read(stale);
+    while (posted_.try_acquire()) {
+    }
 }
 
 void WriterThread::stop() noexcept {
@@ -59,38 +68,66 @@ std::int64_t WriterThread::blocked_ns(std::int64_t now_ns) const noexcept {
     return since_ns != 0 && now_ns > since_ns ? now_ns - since_ns : 0;
 }
 
-void WriterThread::write(const DriveCommand &command) noexcept {
+bool WriterThread::stands_still() const noexcept {
+    return monotonic_ns() - last_post_ns_.load(std::memory_order_acquire) > kStalled_ns;
+}
+
+Status WriterThread::write(const DriveCommand &command) noexcept {
     writing_since_ns_.store(monotonic_ns(), std::memory_order_release);
     const Status status = transport_.write(command);
     writing_since_ns_.store(0, std::memory_order_release);
-    motors_are_on_ = usable(status) && command.motors_on;
+    off_is_wanted_ = !command.motors_on;
+    if (command.motors_on) {
+        motors_may_be_on_ = true; // a write that failed may have arrived
+    } else if (usable(status)) {
+        motors_may_be_on_ = false;
+    }
+    return status;
+}
+
+void WriterThread::write_posted(const DriveCommand &command) noexcept {
+    const Status status = write(command);
     if (!usable(status)) {
         result_.store(static_cast<std::int32_t>(status), std::memory_order_release);
+    }
+}
+
+void WriterThread::look() noexcept {
+    DriveCommand command;
+    const bool fresh = mailbox_.read(command);
+    if (fresh) {
+        const bool forbidden = forbidden_.load(std::memory_order_acquire);
+        write_posted(forbidden ? DriveCommand() : command);
+        return;
+    }
+    if (!motors_may_be_on_) {
+        return;
+    }
+    if (!off_is_wanted_ && stands_still()) {
+        // First, so that what the loop posts when it wakes up is not believed either.
+        forbidden_.store(true, std::memory_order_release);
+        write_off();
+        stalled_.store(true, std::memory_order_release);
+    } else if (off_is_wanted_ || forbidden_.load(std::memory_order_acquire)) {
+        write_off();
     }
 }
 
 void WriterThread::run() noexcept {
     name_thread("spidar_writer");
     (void)request_real_time();
-    DriveCommand command;
     while (!stop_asked_.load(std::memory_order_acquire)) {
         (void)posted_.try_acquire_for(kLook);
         while (posted_.try_acquire()) { // newest only: posts that came meanwhile are one
         }
-        const bool fresh = mailbox_.read(command);
-        if (forbidden_.load(std::memory_order_acquire)) {
-            if (motors_are_on_ || fresh) {
-                write(DriveCommand());
-            }
-        } else if (fresh) {
-            write(command);
-        } else if (motors_are_on_ &&
-                   monotonic_ns() - last_post_ns_.load(std::memory_order_acquire) > kStalled_ns) {
-            write(DriveCommand());
-            stalled_.store(true, std::memory_order_release);
-        }
+        look();
     }
-    write(DriveCommand());
+    const std::int64_t patient_until_ns = monotonic_ns() + kStopPatience_ns;
+    write_off();
+    while (motors_may_be_on_ && monotonic_ns() < patient_until_ns) {
+        std::this_thread::sleep_for(kTryAgain);
+        write_off();
+    }
 }
 
 } // namespace spidar

@@ -1,6 +1,7 @@
 // Writes to a device whose write() may wait for seconds, so that the servo loop never does: a thread of its own with a
-// mailbox that holds only the newest command. It is a watchdog too: when the loop stops posting while the motors are
-// on, it switches them off itself.
+// mailbox that holds only the newest command. It is a watchdog too: when the loop stops posting while the motors may be
+// on, it switches them off itself. The motors count as off only once the device has accepted a command that says so;
+// until then that command is written again and again.
 #pragma once
 
 #include <atomic>
@@ -17,15 +18,18 @@ class WriterThread {
 public:
     // Motors on and no post for this long: they are switched off from here.
     static constexpr std::int64_t kStalled_ns = 20'000'000;
+    // A write that waits so long: the device takes no more of them, and its firmware has let go by itself.
+    static constexpr std::int64_t kBlockedForGood_ns = 50'000'000;
 
     explicit WriterThread(Transport &transport) noexcept : transport_(transport) {}
     ~WriterThread() { stop(); }
     WriterThread(const WriterThread &) = delete;
     WriterThread &operator=(const WriterThread &) = delete;
 
-    // open_failed: the system has no thread left.
+    // Begins with an empty mailbox: what was posted before is never written. open_failed: the system has no thread left.
     Status start() noexcept;
-    // Writes motors off, after a write that is still under way, and joins.
+    // Writes motors off, after a write that is still under way, and joins. A device that does not accept it is asked
+    // again for kStopPatience_ns; then its firmware lets go by itself (docs/safety.md, row 34).
     void stop() noexcept;
 
     // From the servo thread; wait-free. The newest command wins.
@@ -34,16 +38,24 @@ public:
     void forbid() noexcept;
     void allow() noexcept { forbidden_.store(false, std::memory_order_release); }
 
-    // Result of the last write that ended since the last call; ok when none did.
+    // Result of the last posted command whose write ended since the last call; ok when none did.
     Status take_result() noexcept;
     // How long the write under way has been waiting (unit: ns); 0 when none is.
     [[nodiscard]] std::int64_t blocked_ns(std::int64_t now_ns) const noexcept;
-    // The loop stood still and the motors were switched off, since the last call.
+    // The loop stood still and the motors were switched off, since the last call. They stay off until allow().
     bool take_stalled() noexcept { return stalled_.exchange(false, std::memory_order_acq_rel); }
 
 private:
+    // As long as a firmware waits before it switches the motors off itself.
+    static constexpr std::int64_t kStopPatience_ns = 50'000'000;
+
     void run() noexcept;
-    void write(const DriveCommand &command) noexcept;
+    void forget_posts() noexcept;
+    void look() noexcept;
+    void write_posted(const DriveCommand &command) noexcept;
+    void write_off() noexcept { (void)write(DriveCommand()); }
+    Status write(const DriveCommand &command) noexcept;
+    [[nodiscard]] bool stands_still() const noexcept;
 
     Transport &transport_;
     TripleBuffer<DriveCommand> mailbox_;
@@ -55,7 +67,9 @@ private:
     std::atomic<std::int64_t> last_post_ns_{0};
     std::atomic<std::int64_t> writing_since_ns_{0};
     std::atomic<std::int32_t> result_{0};
-    bool motors_are_on_ = false; // as last written
+    // The thread's own, and kept from one start() to the next: a device that was not told remembers too.
+    bool motors_may_be_on_ = false;
+    bool off_is_wanted_ = false; // by the last command, or by this thread
 };
 
 } // namespace spidar

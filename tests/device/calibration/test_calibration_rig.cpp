@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -147,6 +148,117 @@ TEST_CASE("rig: a device that falls silent lets go") {
     f.step(0.4);
     CHECK_FALSE(f.news.motors_on);
     CHECK(f.news.task.verdict == TaskVerdict::not_ready);
+}
+
+namespace {
+
+// A real device whose endpoint takes its time for each write, and may stop to take any.
+struct SlowEndpoint {
+    std::atomic<int> write_takes_ms{15};
+    std::atomic<bool> motors_on{false};
+    std::atomic<int> writes{0};
+    std::atomic<int> reads{0};
+    std::atomic<bool> motors_on_at_close{false};
+};
+
+class SlowEndpointTransport final : public Transport {
+public:
+    explicit SlowEndpointTransport(SlowEndpoint &device) : device_(device) {}
+    Status open() noexcept override { return Status::ok; }
+    void close() noexcept override { device_.motors_on_at_close = device_.motors_on.load(); }
+    Status read(DeviceReading &reading) noexcept override {
+        ++device_.reads;
+        reading.counts = {};
+        return Status::ok;
+    }
+    Status write(const DriveCommand &command) noexcept override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(device_.write_takes_ms.load()));
+        device_.motors_on = command.motors_on;
+        ++device_.writes;
+        return Status::ok;
+    }
+    [[nodiscard]] bool write_may_block() const noexcept override { return true; }
+
+private:
+    SlowEndpoint &device_;
+};
+
+template <typename Condition>
+bool in_time(Condition condition) {
+    for (int k = 0; k < 30000; ++k) { // a busy machine may take long; it must not take for ever
+        if (condition()) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("rig: an endpoint that takes 15 ms a write delays nothing: nobody watches, and a second "
+          "later it is off") {
+    SlowEndpoint device;
+    Fixture f;
+    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
+    f.rig = std::make_unique<CalibrationRig>(
+        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
+    REQUIRE(f.rig->start_threaded());
+    REQUIRE(in_time([&] { return f.rig->latest(f.news) && f.news.readings > 0; }));
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    REQUIRE(in_time(
+        [&] { // watched, until the motors are on; a busy machine may end the task: then again
+            ++f.orders.beat;
+            f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
+            f.rig->give(f.orders);
+            (void)f.rig->latest(f.news);
+            return device.motors_on.load();
+        }));
+    // Nobody gives orders any more. A write takes 15 ms, so a second has no more than 67 of them: counting cycles
+    // that each write would have taken a thousand.
+    const int writes = device.writes;
+    const int reads = device.reads;
+    CHECK(in_time([&] { return !device.motors_on; }));
+    CHECK(device.writes - writes <= 1.2 * kUnwatched_s / 0.015);
+    CHECK(device.reads - reads > device.writes - writes); // the rig read on while the device wrote
+    CHECK(in_time([&] {
+        (void)f.rig->latest(f.news);
+        return !f.news.motors_on && f.news.task.verdict == TaskVerdict::stopped;
+    }));
+    f.rig.reset();
+    CHECK_FALSE(device.motors_on_at_close);
+}
+
+TEST_CASE("rig: a device that takes no more commands ends the task") {
+    SlowEndpoint device;
+    device.write_takes_ms = 0;
+    Fixture f;
+    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
+    f.rig = std::make_unique<CalibrationRig>(
+        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
+    REQUIRE(f.rig->start_threaded());
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    const auto watched = [&] {
+        ++f.orders.beat;
+        f.rig->give(f.orders);
+        (void)f.rig->latest(f.news);
+    };
+    REQUIRE(in_time([&] {
+        f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
+        watched();
+        return device.motors_on.load();
+    }));
+    device.write_takes_ms = 300;
+    CHECK(in_time([&] {
+        watched();
+        return f.news.task.verdict == TaskVerdict::not_ready ||
+               f.news.task.verdict == TaskVerdict::stopped;
+    }));
+    CHECK_FALSE(f.news.motors_on);
+    device.write_takes_ms = 0;
+    CHECK(in_time([&] { return !device.motors_on; }));
+    f.rig.reset();
+    CHECK_FALSE(device.motors_on_at_close);
 }
 
 TEST_CASE("rig: the scripted hand of the simulated device covers the workspace") {

@@ -56,6 +56,31 @@ std::vector<std::uint8_t> bytes_of(const StateReport &report) {
 
 } // namespace
 
+TEST_CASE("hid transport: an encoder fault comes with the strings that it is about") {
+    Link link;
+    REQUIRE(link.transport.open() == Status::ok);
+    link.cycle(30);
+    CHECK(link.reading.device_status == Status::ok);
+    CHECK(link.reading.fault_strings == 0);
+    link.device->firmware.inputs.faulty_encoders = 0x20;
+    link.cycle(30);
+    CHECK(link.reading.device_status == Status::device_encoder_fault);
+    CHECK(link.reading.fault_strings == 0x20);
+}
+
+TEST_CASE("hid transport: a device is known by its serial number while it is open, unplugged too") {
+    Link link;
+    CHECK(link.transport.device_name() == "");
+    REQUIRE(link.transport.open() == Status::ok);
+    CHECK(link.transport.device_name() == "hid:A1");
+    link.cycle(5);
+    link.bus->unplug(*link.device);
+    link.cycle(5);
+    CHECK(link.transport.device_name() == "hid:A1");
+    link.transport.close();
+    CHECK(link.transport.device_name() == "");
+}
+
 TEST_CASE("hid transport: readings come, commands go, and both are matched by their numbers") {
     Link link;
     CHECK(link.transport.read(link.reading) == Status::not_open);

@@ -1,11 +1,15 @@
-// The host dies: a child process drives a firmware model over a socket pair with the real servo loop, and is killed
-// (SIGKILL) while forces act. The firmware alone must bring the motors down.
+// The host dies or stands still: a child process drives a firmware model over a socket pair with the real servo loop, and
+// is killed (SIGKILL) or stopped (SIGSTOP, as a debugger's breakpoint does) in every state that holds tension. The firmware
+// alone must bring the motors down.
 #include <doctest/doctest.h>
 
 #if defined(__linux__)
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
+#include <string>
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -26,16 +30,17 @@ namespace {
 
 constexpr std::uint16_t kValid_ms = 20;
 
-// Commands as HID reports into a socket; stands still at home.
+// Commands as HID reports into a socket; at home until it is moved.
 class SocketTransport final : public Transport {
 public:
     explicit SocketTransport(int socket) : socket_(socket) {}
     Status open() noexcept override { return Status::ok; }
     void close() noexcept override {}
     Status read(DeviceReading &reading) noexcept override {
-        reading.counts = {};
+        reading.counts = counts;
         return Status::ok;
     }
+    CountArray counts{};
     Status write(const DriveCommand &command) noexcept override {
         CommandReport report;
         report.flags = command.motors_on ? command_flag::kEnable : std::uint8_t{0};
@@ -59,20 +64,39 @@ private:
     std::uint16_t sequence_ = 0;
 };
 
-[[noreturn]] void play_host(int socket) {
+// Brings the device into this state, moving the grip where that is what it takes, and holds it there.
+[[noreturn]] void play_host(int socket, DeviceState wanted) {
     ServoSettings settings = ideal_settings();
     settings.safety.arming_time_s = 0.01;
-    ServoLoop loop(std::make_unique<SocketTransport>(socket));
+    auto made = std::make_unique<SocketTransport>(socket);
+    SocketTransport &device = *made;
+    ServoLoop loop(std::move(made));
     HapticCommand command;
     command.forces_enabled = true;
     command.wrench.force_n = Vec3(0.0, 3.0, 0.0);
     command.wrench_duration_s = 60.0;
     // In this very thread: a process that forked from one with threads is no place to start others.
     (void)loop.start_stepped(settings);
-    for (;;) {
+    const bool zeroes = wanted != DeviceState::active;
+    command.zero_count = zeroes ? 1 : 0;
+    ServoSnapshot now;
+    for (int ms = 0;; ++ms) {
+        ++command.heartbeat;
         ++command.wrench_sequence;
         loop.publish(command);
         loop.advance(1, 1000);
+        (void)loop.latest(now);
+        if (wanted == DeviceState::calibrated && now.state == DeviceState::taut && ms > 700) {
+            const double way = 0.001 * (ms - 700);
+            device.counts = spidar::test::counts_of(
+                settings, spidar::test::moved_by(settings, 0.04 * Vec3(std::sin(4.0 * way),
+                                                                       std::sin(3.0 * way),
+                                                                       -std::sin(3.5 * way))));
+        }
+        const bool there = now.state == wanted && (wanted != DeviceState::taut || ms > 600);
+        if (there) { // a packet of one byte tells the test so
+            (void)send(socket, "!", 1, MSG_DONTWAIT | MSG_NOSIGNAL);
+        }
         usleep(1000);
     }
 }
@@ -82,19 +106,28 @@ std::uint16_t strongest(const FirmwareModel &firmware) {
     return *std::max_element(motors.begin(), motors.end());
 }
 
-} // namespace
+struct Released {
+    bool stopped = false; // the signal was sent while the motors pulled
+    std::uint16_t pulled_mn = 0;
+    std::uint16_t most_after_mn = 0;
+    std::uint32_t held_us = 0; // from the last command to minimum tension, and to none
+    std::uint32_t off_us = 0;
+};
 
-TEST_CASE("host killed: the firmware holds minimum tension at 20 ms and lets go at 50 ms") {
+Released stop_host(DeviceState state, int signal_number) {
+    Released result;
     int sockets[2] = {-1, -1};
     REQUIRE(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, sockets) == 0);
     const pid_t host = fork();
     REQUIRE(host >= 0);
     if (host == 0) {
         close(sockets[0]);
-        play_host(sockets[1]);
+        play_host(sockets[1], state);
     }
     close(sockets[1]);
     const spidar::test::FirmwareSettings settings;
+    // Pretension is 500 mN, of which the firmware's own ramp may still hold some back.
+    const std::uint16_t pulls_mn = state == DeviceState::active ? 1000 : 450;
     FirmwareModel firmware(settings);
     REQUIRE(firmware.set_feature(encode(HidZero{})));
 
@@ -102,12 +135,8 @@ TEST_CASE("host killed: the firmware holds minimum tension at 20 ms and lets go 
     std::int64_t last_ns = monotonic_ns();
     const std::int64_t start_ns = last_ns;
     std::uint32_t last_packet_us = 0;
-    std::uint32_t held_us = 0;
-    std::uint32_t off_us = 0;
-    bool killed = false;
-    std::uint16_t pulled_mn = 0;
-    std::uint16_t most_after_mn = 0;
-    while (off_us == 0 && monotonic_ns() - start_ns < 20'000'000'000) {
+    bool there = false;
+    while (result.off_us == 0 && monotonic_ns() - start_ns < 30'000'000'000) {
         pollfd waiting{sockets[0], POLLIN, 0};
         (void)poll(&waiting, 1, 1);
         std::uint8_t bytes[kLargestReport];
@@ -115,6 +144,10 @@ TEST_CASE("host killed: the firmware holds minimum tension at 20 ms and lets go 
             const ssize_t size = recv(sockets[0], bytes, sizeof bytes, MSG_DONTWAIT);
             if (size <= 0) {
                 break;
+            }
+            if (size == 1) {
+                there = true;
+                continue;
             }
             firmware.receive({bytes, static_cast<std::size_t>(size)});
             last_packet_us = firmware.time_us();
@@ -125,45 +158,62 @@ TEST_CASE("host killed: the firmware holds minimum tension at 20 ms and lets go 
             const std::uint32_t step_us = std::min<std::uint32_t>(left_us, 500);
             firmware.advance(step_us);
             left_us -= step_us;
-            if (!killed) {
+            if (!result.stopped) {
                 continue;
             }
-            most_after_mn = std::max(most_after_mn, strongest(firmware));
-            if (held_us == 0 && strongest(firmware) <= settings.limits.min_tension_mn) {
-                held_us = firmware.time_us() - last_packet_us;
+            result.most_after_mn = std::max(result.most_after_mn, strongest(firmware));
+            if (result.held_us == 0 && strongest(firmware) <= settings.limits.min_tension_mn) {
+                result.held_us = firmware.time_us() - last_packet_us;
             }
-            if (off_us == 0 && strongest(firmware) == 0) {
-                off_us = firmware.time_us() - last_packet_us;
+            if (result.off_us == 0 && strongest(firmware) == 0) {
+                result.off_us = firmware.time_us() - last_packet_us;
             }
         }
         last_ns += (now_ns - last_ns) / 1000 * 1000;
-        if (!killed && (firmware.flags() & state_flag::kWatchdogTripped) != 0) {
+        if (!result.stopped && (firmware.flags() & state_flag::kWatchdogTripped) != 0) {
             firmware = FirmwareModel(settings); // a busy machine starved the host: power it again
             REQUIRE(firmware.set_feature(encode(HidZero{})));
+            there = false;
         }
-        if (!killed && strongest(firmware) > 1000) {
-            pulled_mn = strongest(firmware);
-            REQUIRE(kill(host, SIGKILL) == 0);
+        if (!result.stopped && there && strongest(firmware) >= pulls_mn) {
+            result.pulled_mn = strongest(firmware);
+            REQUIRE(kill(host, signal_number) == 0);
             int status = 0;
-            REQUIRE(waitpid(host, &status, 0) == host);
-            CHECK(WIFSIGNALED(status));
-            killed = true;
+            REQUIRE(waitpid(host, &status, WUNTRACED) == host);
+            CHECK((signal_number == SIGSTOP ? WIFSTOPPED(status) : WIFSIGNALED(status)));
+            result.stopped = true;
         }
     }
-    if (!killed) {
+    if (!result.stopped || signal_number == SIGSTOP) {
         kill(host, SIGKILL);
         waitpid(host, nullptr, 0);
     }
     close(sockets[0]);
-    MESSAGE("pulled " << pulled_mn << " mN; minimum tension " << 1e-3 * held_us
-                      << " ms and motors off " << 1e-3 * off_us << " ms after the last command");
-    REQUIRE(killed);
-    CHECK(held_us > 0);
-    // The tensions fall with the firmware's slew limit from the end of validity on: 1 N/ms.
-    CHECK(held_us <= kValid_ms * 1000U + pulled_mn + 1000U);
-    CHECK(off_us >= 40'000);
-    CHECK(off_us <= 51'000);
-    CHECK(most_after_mn <= settings.limits.max_tension_mn);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE(
+    "host killed or stopped: the firmware holds minimum tension at 20 ms and lets go at 50 ms") {
+    for (const DeviceState state :
+         {DeviceState::active, DeviceState::taut, DeviceState::calibrated}) {
+        for (const int signal_number : {SIGKILL, SIGSTOP}) {
+            const Released found = stop_host(state, signal_number);
+            MESSAGE(std::string(describe(state))
+                    << (signal_number == SIGKILL ? " SIGKILL" : " SIGSTOP") << ": pulled "
+                    << found.pulled_mn << " mN; minimum tension " << 1e-3 * found.held_us
+                    << " ms and motors off " << 1e-3 * found.off_us
+                    << " ms after the last command");
+            REQUIRE(found.stopped);
+            CHECK(found.held_us > 0);
+            // The tensions fall with the firmware's slew limit from the end of validity on: 1 N/ms.
+            CHECK(found.held_us <= kValid_ms * 1000U + found.pulled_mn + 1000U);
+            CHECK(found.off_us >= 40'000);
+            CHECK(found.off_us <= 51'000);
+            CHECK(found.most_after_mn <= spidar::test::FirmwareSettings().limits.max_tension_mn);
+        }
+    }
 }
 
 #endif

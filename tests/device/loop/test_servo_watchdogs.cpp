@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "device/threads/real_time_thread.h"
@@ -22,6 +23,10 @@ struct SlowDevice {
     std::atomic<int> read_takes_ms{0};
     std::atomic<int> opens_fail{0};
     std::atomic<bool> clocks{false};
+    std::atomic<bool> is_gone{false};
+    std::atomic<bool> is_real{false};
+    std::atomic<bool> is_moved{false}; // on a path through the workspace, from home on
+    int path_ms = 0;                   // the loop's own
     std::atomic<int> opens{0};
     std::atomic<int> writes{0};
     std::atomic<bool> motors_on{false};
@@ -40,8 +45,8 @@ public:
     void close() noexcept override { device_.motors_on_at_close = device_.motors_on.load(); }
     Status read(DeviceReading &reading) noexcept override {
         nap(device_.read_takes_ms);
-        reading.counts = {};
-        return Status::ok;
+        reading.counts = device_.is_moved ? next_of_path() : CountArray{};
+        return device_.is_gone ? Status::read_failed : Status::ok;
     }
     Status write(const DriveCommand &command) noexcept override {
         if (device_.writing.exchange(true)) {
@@ -64,9 +69,15 @@ public:
             std::min(until_ns, monotonic_ns() + 500'000)); // reports each half millisecond
         return true;
     }
-    [[nodiscard]] bool simulated() const noexcept override { return true; } // arms itself
+    [[nodiscard]] bool simulated() const noexcept override { return !device_.is_real; }
 
 private:
+    CountArray next_of_path() noexcept {
+        const double way = 0.001 * ++device_.path_ms;
+        const Vec3 place(std::sin(4.0 * way), std::sin(3.0 * way), -std::sin(3.5 * way));
+        return spidar::test::counts_of(settings_, spidar::test::moved_by(settings_, 0.04 * place));
+    }
+    const ServoSettings settings_ = ideal_settings();
     static void nap(const std::atomic<int> &takes_ms) {
         if (takes_ms > 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds(takes_ms.load()));
@@ -177,7 +188,6 @@ TEST_CASE("panic stop: from any thread, with and without a writer thread; latche
     for (const bool may_block : {false, true}) {
         SlowDevice device;
         ServoLoop loop(std::make_unique<SlowTransport>(device, may_block));
-        loop.panic_stop(); // before anything runs: harmless
         REQUIRE(loop.start_threaded(quick_settings()) == Status::ok);
         HapticCommand command = forces_on();
         loop.publish(command);
@@ -205,9 +215,125 @@ TEST_CASE("panic stop: from any thread, with and without a writer thread; latche
         ++command.arm_count;
         loop.publish(command);
         CHECK(soon([&] { return device.motors_on.load(); }));
-        loop.stop();
-        loop.panic_stop(); // after it: harmless
     }
+}
+
+TEST_CASE("panic stop: of a loop that does not run: the device opens stopped, until the fault is "
+          "cleared") {
+    for (const bool threaded : {false, true}) {
+        CAPTURE(threaded);
+        SlowDevice device;
+        ServoLoop loop(std::make_unique<SlowTransport>(device, threaded));
+        const ServoSettings settings = quick_settings();
+        HapticCommand command = forces_on();
+        ServoSnapshot snapshot;
+        const auto start = [&] {
+            REQUIRE((threaded ? loop.start_threaded(settings) : loop.start_stepped(settings)) ==
+                    Status::ok);
+        };
+        const auto becomes = [&](DeviceState state) {
+            return soon([&] {
+                loop.advance(1, 1000);
+                (void)loop.latest(snapshot);
+                return snapshot.state == state;
+            });
+        };
+        const auto stays_off = [&] {
+            for (int ms = 0; ms < 60; ++ms) {
+                loop.advance(1, 1000);
+                std::this_thread::sleep_for(1ms);
+                (void)loop.latest(snapshot);
+                CHECK_FALSE(device.motors_on);
+            }
+        };
+        std::thread([&] { loop.panic_stop(); }).join(); // before it ever ran
+        loop.publish(command);
+        start();
+        CHECK(becomes(DeviceState::fault));
+        CHECK(snapshot.fault == Status::panic_stopped);
+        CHECK(told(loop, DeviceEventKind::panic_stopped));
+        stays_off();
+        loop.stop(); // and opened again without a word of the game: still stopped
+        start();
+        CHECK(becomes(DeviceState::fault));
+        ++command.arm_count;
+        loop.publish(command);
+        stays_off();
+        ++command.clear_fault_count;
+        loop.publish(command);
+        CHECK(becomes(DeviceState::connected));
+        stays_off(); // it never arms itself again
+        ++command.arm_count;
+        loop.publish(command);
+        CHECK(becomes(DeviceState::active));
+        loop.stop();
+        // A stop that was cleared is over: no run afterwards is stopped by it, with a new command or without.
+        start();
+        CHECK(becomes(DeviceState::active));
+        loop.stop();
+        loop.publish(command);
+        start();
+        CHECK(becomes(DeviceState::active));
+        loop.stop();
+        loop.panic_stop();
+        ++command.clear_fault_count; // while closed
+        loop.publish(command);
+        start();
+        CHECK(becomes(DeviceState::fault)); // nobody knows which came first: the stop holds
+        loop.stop();
+        ++command.clear_fault_count;
+        loop.publish(command);
+        start();
+        CHECK(becomes(DeviceState::active)); // nothing holds it any more
+        loop.stop();
+        CHECK_FALSE(device.motors_on_at_close);
+    }
+}
+
+TEST_CASE("panic stop: while the thread waits for a device that does not open") {
+    SlowDevice device;
+    device.opens_fail = 1'000'000;
+    ServoSettings settings = quick_settings();
+    settings.reopen_interval_s = 0.01;
+    ServoLoop loop(std::make_unique<SlowTransport>(device, true));
+    REQUIRE(loop.start_threaded(settings) == Status::ok);
+    loop.publish(forces_on());
+    loop.panic_stop();
+    device.opens_fail = 0;
+    ServoSnapshot snapshot;
+    CHECK(soon([&] {
+        (void)loop.latest(snapshot);
+        return snapshot.state == DeviceState::fault;
+    }));
+    CHECK(snapshot.fault == Status::panic_stopped);
+    CHECK_FALSE(device.motors_on);
+}
+
+TEST_CASE("panic stop: while the device is unplugged: back again it is stopped until cleared, and "
+          "waits for arm()") {
+    SlowDevice device;
+    ServoLoop loop(std::make_unique<SlowTransport>(device, false));
+    REQUIRE(loop.start_stepped(quick_settings()) == Status::ok);
+    HapticCommand command = forces_on();
+    loop.publish(command);
+    loop.advance(1, 10);
+    REQUIRE(device.motors_on);
+    device.is_gone = true;
+    loop.advance(1, 1000);
+    CHECK_FALSE(device.motors_on);
+    loop.panic_stop();
+    loop.advance(1, 1000);
+    device.is_gone = false;
+    loop.advance(1, 10);
+    CHECK_FALSE(device.motors_on);
+    ++command.clear_fault_count;
+    loop.publish(command);
+    loop.advance(1, 10);
+    CHECK_FALSE(device.motors_on);
+    ++command.arm_count;
+    loop.publish(command);
+    loop.advance(1, 10);
+    CHECK(device.motors_on);
 }
 
 TEST_CASE("panic stop: stepped, the very next cycle is off") {
@@ -220,6 +346,50 @@ TEST_CASE("panic stop: stepped, the very next cycle is off") {
     loop.panic_stop();
     loop.advance(1, 1000);
     CHECK_FALSE(device.motors_on);
+}
+
+TEST_CASE(
+    "watchdog: a game whose thread stands still, in TAUT and CALIBRATED: a real device lets go") {
+    for (const DeviceState wanted : {DeviceState::taut, DeviceState::calibrated}) {
+        CAPTURE(describe(wanted));
+        SlowDevice device;
+        device.is_real = true;
+        ServoLoop loop(std::make_unique<SlowTransport>(device, true));
+        REQUIRE(loop.start_threaded(quick_settings()) == Status::ok);
+        HapticCommand command = forces_on();
+        command.heartbeat = 1;
+        ++command.zero_count;
+        ServoSnapshot snapshot;
+        double taut_at_s = 0.0;
+        REQUIRE(soon([&] { // a game's frame each millisecond
+            ++command.heartbeat;
+            loop.publish(command);
+            (void)loop.latest(snapshot);
+            taut_at_s = taut_at_s == 0.0 && snapshot.state == DeviceState::taut ? snapshot.time_s
+                                                                                : taut_at_s;
+            const bool zero_taken = taut_at_s > 0.0 && snapshot.time_s > taut_at_s + 0.7;
+            device.is_moved = wanted == DeviceState::calibrated && zero_taken;
+            return snapshot.state == wanted && zero_taken;
+        }));
+        CHECK(device.motors_on);
+        // A breakpoint: nothing is published any more.
+        CHECK(soon([&] { return !device.motors_on; }));
+        double silent_s = -1.0;
+        CHECK(soon([&] {
+            DeviceEvent event;
+            while (loop.next_event(event)) {
+                silent_s = event.kind == DeviceEventKind::game_stalled ? event.value : silent_s;
+            }
+            return silent_s >= 0.0;
+        }));
+        // By the loop's own measure, one cycle after the limit: cycles of a busy machine are longer.
+        CHECK(silent_s >= quick_settings().safety.game_timeout_s);
+        CHECK(silent_s <= quick_settings().safety.game_timeout_s + kLongestStep_s);
+        std::this_thread::sleep_for(30ms);
+        (void)loop.latest(snapshot);
+        CHECK(snapshot.state == DeviceState::connected);
+        CHECK_FALSE(device.motors_on);
+    }
 }
 
 TEST_CASE("watchdog: cycles that come late are counted, dropped and told") {

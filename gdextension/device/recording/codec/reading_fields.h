@@ -7,7 +7,7 @@
 
 namespace spidar {
 
-static_assert(count_members<DeviceReading>() == 6, "DeviceReading changed: list its fields here");
+static_assert(count_members<DeviceReading>() == 7, "DeviceReading changed: list its fields here");
 
 template <typename Reading, typename Visit>
 void for_each_field(Reading &reading, Visit &&visit) requires
@@ -17,6 +17,7 @@ void for_each_field(Reading &reading, Visit &&visit) requires
     visit("buttons", 0, reading.buttons);
     visit("zeroed", 0, reading.zeroed);
     visit("device_status", 0, reading.device_status);
+    visit("fault_strings", 0, reading.fault_strings);
 }
 
 } // namespace spidar

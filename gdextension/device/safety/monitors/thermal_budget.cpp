@@ -17,6 +17,15 @@ void ThermalBudget::spend(const StringArray &tensions_n, double dt_s) noexcept {
         const double square = tensions_n[i] * tensions_n[i] * share_per_n2_;
         heat_[i] += gain * ((square < 1e6 ? square : 0.0) - heat_[i]); // NaN and nonsense: no heat
     }
+    find_warmest();
+}
+
+void ThermalBudget::set_heat(const StringArray &heat) noexcept {
+    heat_ = heat;
+    find_warmest();
+}
+
+void ThermalBudget::find_warmest() noexcept {
     const auto &h = heat_;
     warmest_ = std::max(std::max(std::max(h[0], h[1]), std::max(h[2], h[3])),
                         std::max(std::max(h[4], h[5]), std::max(h[6], h[7])));

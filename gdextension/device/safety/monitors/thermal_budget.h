@@ -17,6 +17,11 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return spent() < kDerateFrom; }
     // Share of the warmest motor's budget that is spent: 1 = as warm as it may be.
     [[nodiscard]] double spent() const noexcept { return warmest_; }
+    // NaN counts as too warm.
+    [[nodiscard]] bool is_spent() const noexcept { return !(warmest_ < 1.0); }
+    // Share of its budget that each motor has spent: what outlasts a loop (loop/motor_heat.h).
+    [[nodiscard]] const StringArray &heat() const noexcept { return heat_; }
+    void set_heat(const StringArray &heat) noexcept;
     [[nodiscard]] int warmest_string() const noexcept;
     // 1 up to kDerateFrom of the budget, then down to 0 at all of it, in a straight line.
     [[nodiscard]] double scale() const noexcept;
@@ -24,6 +29,8 @@ public:
     static constexpr double kDerateFrom = 0.7;
 
 private:
+    void find_warmest() noexcept;
+
     StringArray heat_{}; // share of the budget
     double share_per_n2_ = 0.0;
     double rate_1_s_ = 0.0;

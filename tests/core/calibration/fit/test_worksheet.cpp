@@ -145,7 +145,7 @@ TEST_CASE("worksheet: weights give the motor gain, friction cancels, the current
     const MotorCalibration after = sheet.motors(found);
     StringArray commanded{};
     commanded[4] = 2.0 / fit.gain;
-    const double current = currents_from_tensions(motors, commanded).current_a[4];
+    const double current = currents_from_tensions(motors, commanded)[4];
     CHECK(current * motor_scale(after).tension_per_ampere_n_a[4] == doctest::Approx(2.0));
     CHECK(after.effective_radius_m[4] == doctest::Approx(1.05 * 0.008));
     CHECK(after.tension_gain[3] == 1.0);

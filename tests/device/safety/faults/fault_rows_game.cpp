@@ -1,6 +1,7 @@
 // What a game does wrong: it stops, stalls, or asks for nonsense.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -60,7 +61,46 @@ Answer contacts_not_renewed(HandFirmness hand) {
     return answer;
 }
 
+// Zeroed at home, and moved until the zero is believed.
+void calibrate(FaultRig &rig, bool confirm) {
+    rig.command.forces_enabled = false;
+    rig.run_ms(100);
+    rig.command.forces_enabled = true;
+    ++rig.command.zero_count;
+    rig.run_ms(700);
+    REQUIRE(rig.now.state == DeviceState::taut);
+    const Vec3 ways_m[] = {Vec3(0.04, 0.03, 0.0), Vec3(-0.04, 0.0, 0.03), Vec3(0.03, -0.03, 0.0)};
+    for (int i = 0; confirm && i < 6 && rig.now.state == DeviceState::taut; ++i) {
+        rig.move_hand(ways_m[i % 3]);
+        rig.run_ms(500);
+    }
+    REQUIRE(rig.now.state == (confirm ? DeviceState::calibrated : DeviceState::taut));
+    REQUIRE_FALSE(rig.motors_off());
+}
+
+// What is held at pretension alone goes as play does.
+double stalled_in_calibration(HandFirmness hand, bool confirm) {
+    FaultRig rig(hand);
+    calibrate(rig, confirm);
+    while (rig.ticks % 16 != 1) {
+        rig.tick();
+    }
+    rig.game_runs = false;
+    rig.mark();
+    const double off_ms = rig.until([&](const auto &) { return rig.motors_off(); }, 600);
+    CHECK(rig.now.state == DeviceState::connected);
+    CHECK(rig.now.zero_known == confirm);
+    CHECK(rig.events_of(DeviceEventKind::game_stalled) == 1);
+    rig.run_ms(1000);
+    CHECK(rig.motors_off());
+    CHECK(rig.energy_j < 0.05);
+    return off_ms;
+}
+
 Answer game_stalled(HandFirmness hand) {
+    const double taut_ms = stalled_in_calibration(hand, false);
+    const double calibrated_ms = stalled_in_calibration(hand, true);
+    REQUIRE(std::min(taut_ms, calibrated_ms) >= 0.0);
     FaultRig rig(hand);
     rig.ask({Vec3(0.0, 0.0, kForce_n), Vec3(0.0), 0.0});
     rig.activate();
@@ -70,8 +110,9 @@ Answer game_stalled(HandFirmness hand) {
     CHECK(rig.now.state == DeviceState::connected);
     CHECK(rig.events_of(DeviceEventKind::game_stalled) == 1);
     rig.run_ms(1000);
-    CHECK(rig.motors_off());                  // for as long as it sleeps
-    const Answer answer = rig.answer(off_ms); // what comes after is asked for again
+    CHECK(rig.motors_off());            // for as long as it sleeps
+    Answer answer = rig.answer(off_ms); // what comes after is asked for again
+    answer.response_ms = std::max({off_ms, taut_ms, calibrated_ms});
     rig.game_runs = true; // a simulated device arms itself again, a real one would wait
     rig.run_ms(300);
     CHECK(rig.now.state == DeviceState::active);
