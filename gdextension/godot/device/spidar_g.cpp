@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable_method_pointer.hpp>
@@ -141,6 +142,7 @@ std::string SpidarG::name_for_messages() const {
 }
 
 void SpidarG::open_device() {
+    const bool again = std::exchange(trying_again_, false);
     close_device("The device is opened anew.");
     if (!may_run()) {
         return; // a listener to what closing tells has changed its mind
@@ -164,15 +166,19 @@ void SpidarG::open_device() {
     std::string problem;
     auto transport = choose_transport(chosen, problem);
     if (!transport) {
-        refuse_to_open(chosen, problem);
+        if (chosen == Status::invalid_settings) {
+            refuse_to_open(chosen, problem);
+        } else {
+            refuse_device(chosen, problem, again);
+        }
         return;
     }
-    loop_ = std::make_unique<spidar::ServoLoop>(std::move(transport));
+    change_loop(std::make_unique<spidar::ServoLoop>(std::move(transport)));
     // Counters of an earlier run say nothing to the new loop.
     command_.wrench_sequence = 0;
     command_.contacts_sequence = 0;
     command_.contact_count = 0;
-    keep_stopped();
+    publish_forces();
     opened_revision_ = resources_revision();
     limits_wanted_ = spidar::live_limits(settings_);
     limits_from_ = limits_wanted_;
@@ -185,7 +191,7 @@ void SpidarG::open_device() {
     const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
                                                        : loop_->start_threaded(settings_);
     if (!spidar::usable(status)) {
-        loop_.reset();
+        change_loop(nullptr);
         simulated_ = nullptr;
         hid_ = nullptr;
         claim_.release();
@@ -210,13 +216,28 @@ void SpidarG::refuse_to_open(Status status, const std::string &message) {
     call_deferred("emit_signal", "fault_raised", static_cast<int>(status), text);
 }
 
+void SpidarG::refuse_device(Status status, const std::string &message, bool again) {
+    const bool is_new = !again || message != problem_when_refused_;
+    problem_ = message;
+    problem_when_refused_ = message;
+    watch_for_devices();
+    if (!is_new) {
+        return;
+    }
+    refuse_to_open(status, message);
+    spidar::DeviceEvent event;
+    event.kind = spidar::DeviceEventKind::open_failed;
+    event.time_s = snapshot_.time_s;
+    call_deferred("emit_signal", "device_event", describe_event(event));
+}
+
 // Tells the end of all that was told to have begun.
 void SpidarG::close_device(const char *why) {
     const bool told = is_connected_told_;
     const spidar::ServoSnapshot before = snapshot_;
     if (loop_) {
         loop_->stop(); // motors off, thread joined, then the handle
-        loop_.reset();
+        change_loop(nullptr);
         simulated_ = nullptr;
         hid_ = nullptr;
         replay_ = nullptr;
@@ -283,7 +304,8 @@ void SpidarG::_notification(int what) {
 
 void SpidarG::physics_tick() {
     if (hid_watch_ && hid_watch_->found()) {
-        restart_pending_ = true; // to the device that was plugged in
+        restart_pending_ = true; // to the device that was plugged in, or that did not open
+        trying_again_ = true;
     }
     if (restart_pending_ && may_run()) {
         open_device();
@@ -296,7 +318,7 @@ void SpidarG::physics_tick() {
     if (requests_.wrench_changes(snapshot_.time_s)) {
         publish_wrench();
     }
-    keep_stopped();
+    publish_forces();
     beat();
     if (drive_mode_ == DRIVE_STEPPED) {
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
@@ -313,7 +335,7 @@ int SpidarG::advance_cycles(int cycles) {
         reject("advance_cycles: cycles = " + std::to_string(cycles) + ": give 0 to 100000.");
         return 0;
     }
-    keep_stopped();
+    publish_forces();
     const int run = loop_->advance(static_cast<std::uint32_t>(cycles),
                                    static_cast<std::uint32_t>(std::lround(settings_.rate_hz)));
     pull_snapshot();
@@ -321,6 +343,8 @@ int SpidarG::advance_cycles(int cycles) {
 }
 
 void SpidarG::arm() {
+    waits_for_arm_ = false;
+    publish_forces();
     ++command_.arm_count;
     if (loop_) {
         loop_->publish(command_);
@@ -335,7 +359,9 @@ void SpidarG::disarm() {
 }
 
 void SpidarG::clear_fault() {
-    panicked_.store(false);
+    if (panicked_.exchange(false)) {
+        waits_for_arm_ = true;
+    }
     publish_forces();
     ++command_.clear_fault_count;
     if (loop_) {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include <godot_cpp/classes/input_event.hpp>
@@ -262,12 +263,16 @@ private:
     // A button that is down when the device opens is none until it was released: the press belongs to the scene before.
     void mask_buttons(const spidar::ServoSnapshot &before);
     void refuse_to_open(spidar::Status status, const std::string &message);
+    // A real device that did not open is tried again each second; `again`: this was such a try, and only another problem
+    // is told.
+    void refuse_device(spidar::Status status, const std::string &message, bool again);
     void physics_tick();
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
+    [[nodiscard]] godot::Dictionary describe_event(const spidar::DeviceEvent &event);
     // Who asked for how much when a request is limited, and to what.
     [[nodiscard]] std::string limited_request() const;
     void tell_limited(const spidar::ServoSnapshot &before);
@@ -282,8 +287,9 @@ private:
     [[nodiscard]] std::string why_simulated() const;
     void watch_panic_key(bool watch);
     void poll_panic_key();
-    void keep_stopped();
     void publish_forces();
+    // The only place where loop_ changes: panic_stop() may use it from another thread meanwhile.
+    void change_loop(std::unique_ptr<spidar::ServoLoop> loop);
     // A recording that cannot go on, a replay that has ended.
     void watch_recordings();
     void tell_recording_failed();
@@ -307,7 +313,9 @@ private:
 
     spidar::ServoSettings settings_;
     spidar::PlantSettings plant_;
-    std::string problem_; // why the device is not open
+    std::string problem_;              // why the device is not open
+    std::string problem_when_refused_; // why the last try to open a real device failed
+    bool trying_again_ = false;        // the next opening is such a try
     bool restart_pending_ = false;
     bool forces_wanted_ = false;
     bool release_on_focus_loss_ = true;
@@ -315,9 +323,11 @@ private:
     std::uint8_t stale_buttons_ = 0; // down since before the device was opened
     bool panic_key_down_ = false;
     std::atomic<bool> panicked_{false}; // by panic_stop(), until clear_fault()
-    bool away_ = false;                 // the application has lost the focus, or was put aside
-    double limited_told_s_ = -1.0;      // snapshot time
-    bool stall_told_ = false;           // the loop stands still, and that was told
+    bool waits_for_arm_ = false; // after a panic: a device that is opened anew does not arm itself
+    std::mutex loop_guard_;      // of the pointer loop_, for panic_stop()
+    bool away_ = false;          // the application has lost the focus, or was put aside
+    double limited_told_s_ = -1.0; // snapshot time
+    bool stall_told_ = false;      // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
     spidar::HidTransport *hid_ = nullptr;      // owned by loop_
@@ -327,7 +337,7 @@ private:
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
-    std::unique_ptr<spidar::HidWatch> hid_watch_; // while the simulated device stands in
+    std::unique_ptr<spidar::HidWatch> hid_watch_; // while the real device is not open
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;
     std::uint64_t opened_revision_ = 0; // of config and calibration, when the device was opened

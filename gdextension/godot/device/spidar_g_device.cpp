@@ -2,6 +2,7 @@
 #include "godot/device/spidar_g.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <godot_cpp/classes/input.hpp>
@@ -21,6 +22,8 @@ namespace {
 constexpr double kMilli = 1e-3;
 constexpr double kPerMilli = 1e3;
 constexpr int kButtons = 8;
+// A device that does not open is tried again this often.
+constexpr std::chrono::milliseconds kTryAgain(1000);
 
 [[nodiscard]] std::uint16_t to_millis(double value) {
     constexpr double kMost = 65535.0;
@@ -129,6 +132,12 @@ void SpidarG::watch_for_devices() {
     if (simulated_ != nullptr && !fallback_.empty()) {
         hid_watch_ = std::make_unique<spidar::HidWatch>(spidar::system_hid_bus(),
                                                         config_or_default().hid_filter(), tried_);
+    } else if (!loop_ && config_or_default().get_transport() == SpidarGConfig::TRANSPORT_DEVICE &&
+               drive_mode_ != DRIVE_STEPPED) {
+        // No device was opened: also one that was tried, as its access rights may change.
+        hid_watch_ = std::make_unique<spidar::HidWatch>(
+            spidar::system_hid_bus(), config_or_default().hid_filter(),
+            std::vector<spidar::HidDeviceInfo>{}, kTryAgain);
     }
 }
 

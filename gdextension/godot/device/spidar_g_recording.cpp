@@ -127,12 +127,12 @@ void SpidarG::open_replay() {
     }
     settings_ = replay->settings();
     replay_ = replay.get();
-    loop_ = std::make_unique<spidar::ServoLoop>(std::move(replay));
+    change_loop(std::make_unique<spidar::ServoLoop>(std::move(replay)));
     const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
                                                        : loop_->start_threaded(settings_);
     if (!spidar::usable(status)) {
         replay_ = nullptr;
-        loop_.reset();
+        change_loop(nullptr);
         replay_path_.clear();
         refuse_to_open(status, spidar::describe(status));
         return;

@@ -51,17 +51,19 @@ void set_panic_key(int key) {
 
 void SpidarG::panic_stop() {
     panicked_.store(true); // also for a device that is closed now: it opens stopped
-    if (loop_ && replay_ == nullptr) {
+    const std::lock_guard<std::mutex> lock(loop_guard_);
+    if (loop_) {
         loop_->panic_stop();
     }
 }
 
-// A loop that was opened after the stop knows nothing of it.
-void SpidarG::keep_stopped() {
-    publish_forces();
-    const bool stopped = snapshot_.state == spidar::DeviceState::fault ||
-                         snapshot_.state == spidar::DeviceState::closed;
-    if (panicked_.load() && !stopped && replay_ == nullptr && loop_) {
+void SpidarG::change_loop(std::unique_ptr<spidar::ServoLoop> loop) {
+    {
+        const std::lock_guard<std::mutex> lock(loop_guard_);
+        loop_.swap(loop);
+    }
+    // From here on panic_stop() finds the new loop; a stop that came earlier holds for it too.
+    if (loop_ && panicked_.load()) {
         loop_->panic_stop();
     }
 }
@@ -136,7 +138,8 @@ void SpidarG::set_away(bool away) {
 }
 
 void SpidarG::publish_forces() {
-    const bool on = forces_wanted_ && !away_ && !panicked_.load();
+    const bool would_arm_itself = waits_for_arm_ && is_simulated();
+    const bool on = forces_wanted_ && !away_ && !panicked_.load() && !would_arm_itself;
     if (on == command_.forces_enabled) {
         return;
     }
@@ -213,6 +216,10 @@ void SpidarG::tell_limited(const spidar::ServoSnapshot &before) {
 }
 
 void SpidarG::tell(const spidar::DeviceEvent &event) {
+    emit_signal("device_event", describe_event(event));
+}
+
+godot::Dictionary SpidarG::describe_event(const spidar::DeviceEvent &event) {
     const spidar::EventDescription &what = spidar::describe(event.kind);
     godot::Dictionary told;
     told["name"] = godot::String(what.name);
@@ -233,5 +240,5 @@ void SpidarG::tell(const spidar::DeviceEvent &event) {
     told["remedy"] = godot::String(what.remedy);
     told["time_s"] = event.time_s;
     told["repeated"] = static_cast<int>(event.repeated);
-    emit_signal("device_event", told);
+    return told;
 }

@@ -67,6 +67,22 @@ func test_a_device_that_must_be_real_stays_closed_without() -> void:
 	device.free()
 
 
+func test_a_device_that_does_not_open_is_told_once() -> void:
+	var device := _device(SpidarGConfig.TRANSPORT_DEVICE)
+	var told: Array[String] = []
+	var raised: Array[String] = []
+	device.device_event.connect(func(event: Dictionary) -> void: told.append(event["name"]))
+	device.fault_raised.connect(func(_code: int, message: String) -> void: raised.append(message))
+	add(device)
+	await frames(5)
+	OS.delay_msec(1200) # it is tried again each second
+	await frames(5)
+	check_equal(told, ["open_failed"] as Array[String], "one event")
+	check_equal(raised.size(), 1, "one fault")
+	check_equal(device.get_state(), SpidarG.STATE_CLOSED, "closed")
+	device.free()
+
+
 func test_a_stepped_node_cannot_have_a_real_device() -> void:
 	var device := _device(SpidarGConfig.TRANSPORT_DEVICE)
 	device.drive_mode = SpidarG.DRIVE_STEPPED
