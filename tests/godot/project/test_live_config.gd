@@ -74,3 +74,39 @@ func test_what_makes_no_sense_changes_nothing() -> void:
 	await physics_frames(2)
 	check_near(lone.get_requested_wrench()[1], 6.0, 1e-6, "with the limits of before")
 	lone.free()
+
+
+func test_the_help_of_a_setting_says_when_it_opens_the_device_anew() -> void:
+	var help: Dictionary[String, bool] = {}
+	var path: String = ProjectSettings.globalize_path("res://") + "../../../gdextension/doc_classes/SpidarGConfig.xml"
+	var members: PackedStringArray = FileAccess.get_file_as_string(path).split("<member name=\"")
+	for member: String in members.slice(1):
+		help[member.get_slice("\"", 0)] = member.get_slice("</member>", 0).contains("Changing it opens the device anew.")
+	var lone: SpidarG = ideal_device()
+	lone.config.device_name = "live config"
+	add(lone)
+	await physics_frames(2)
+	var lost: Array[int] = [0]
+	lone.device_lost.connect(func(_reason: String) -> void: lost[0] += 1)
+	for setting: String in help:
+		lost[0] = 0
+		lone.config.set(setting, _another(setting, lone.config.get(setting)))
+		check_equal(lone.config.get_problem(), "", "%s: still usable" % setting)
+		await physics_frames(3)
+		check_equal(lost[0] > 0, help[setting], "%s: opened anew, as its help says" % setting)
+	check(help.size() > 40, "%d settings" % help.size())
+
+
+func _another(setting: String, value: Variant) -> Variant:
+	match typeof(value):
+		TYPE_BOOL:
+			return not value
+		TYPE_INT:
+			return 900 if setting == "rate_hz" else (value + 1 if setting != "simulated_hand_firmness" else 0)
+		TYPE_FLOAT:
+			return 1.01 * value + 1e-6
+		TYPE_STRING:
+			return value + "x"
+		TYPE_PACKED_FLOAT64_ARRAY:
+			return PackedFloat64Array([1e-3, 0, 0, 0, 0, 0, 0, 0]) if setting != "simulated_tension_gains" else PackedFloat64Array([1, 1, 1, 1, 1, 1, 1, 0.99])
+	return 1.01 * value
