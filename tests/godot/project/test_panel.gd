@@ -82,6 +82,31 @@ func test_the_panel_records() -> void:
 	device.free()
 
 
+func test_recordings_of_one_second_have_files_of_their_own() -> void:
+	var panels: Array[SpidarGPanel] = []
+	for _i: int in 2:
+		var device := ideal_device()
+		add(device)
+		var panel: SpidarGPanel = load(PANEL).instantiate()
+		device.add_child(panel)
+		panels.append(panel)
+	await physics_frames(2)
+	var paths: PackedStringArray = []
+	for _round: int in 2:
+		for panel: SpidarGPanel in panels:
+			panel.toggle_recording()
+			check(not paths.has(panel.recording_path), "a name of its own: %s" % panel.recording_path)
+			paths.append(panel.recording_path)
+		await physics_frames(5)
+		for panel: SpidarGPanel in panels:
+			panel.toggle_recording()
+	for path: String in paths:
+		check(FileAccess.file_exists(path), "kept: %s" % path)
+		DirAccess.remove_absolute(path)
+	for panel: SpidarGPanel in panels:
+		panel.get_parent().free()
+
+
 func test_the_histogram_keeps_every_wake_up() -> void:
 	var device := SpidarG.new()
 	add(device)

@@ -125,6 +125,26 @@ func test_bad_paths_and_states_are_refused() -> void:
 	device.free()
 
 
+func test_two_devices_never_record_into_one_file() -> void:
+	var first := ideal_device()
+	var second := ideal_device()
+	var messages: PackedStringArray = []
+	second.request_rejected.connect(func(message: String) -> void: messages.append(message))
+	add(first)
+	add(second)
+	await physics_frames(2)
+	check(first.start_recording("user://same.rec"), "the first records")
+	await physics_frames(5)
+	check(not second.start_recording("user://same.rec"), "the second is refused")
+	check(messages.size() == 1 and messages[0].contains("same.rec"), "and told why: %s" % [messages])
+	first.stop_recording()
+	check(second.start_recording("user://same.rec"), "when the first has ended it may")
+	second.stop_recording()
+	DirAccess.remove_absolute("user://same.rec")
+	first.free()
+	second.free()
+
+
 func test_a_cut_recording_plays_up_to_the_cut() -> void:
 	var device := ideal_device()
 	add(device)

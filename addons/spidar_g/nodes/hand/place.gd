@@ -7,6 +7,10 @@ const ENGINE: String = (
 	"Thin bodies slip through floors in this physics engine: set physics/3d/physics_engine to "
 	+ "Jolt Physics (Project > Tools > SPIDAR-G: Apply Physics Settings)."
 )
+const THREAD: String = (
+	"SpidarGHand does nothing in a thread group of its own, for only the main thread may look into the physics space: "
+	+ "set process_thread_group of the hand and of its parents to Inherit or Main Thread."
+)
 
 var _told: bool = false
 
@@ -38,12 +42,12 @@ func entered(hand: Node) -> void:
 		push_warning("SpidarGHand \"%s\": %s" % [hand.name, NO_DEVICE])
 
 
-## Each physics frame under a device. A second hand is told once.
+## Each physics frame under a device. What keeps a hand from acting is told once.
 func may_act(hand: Node) -> bool:
-	if is_first(hand):
-		_told = false
-		return true
-	if not _told:
-		_told = true
-		push_warning("SpidarGHand \"%s\": %s" % [hand.name, SECOND_HAND])
-	return false
+	var problem: String = "" if is_first(hand) else SECOND_HAND
+	if OS.get_thread_caller_id() != OS.get_main_thread_id():
+		problem = THREAD
+	if not problem.is_empty() and not _told:
+		push_warning("SpidarGHand \"%s\": %s" % [hand.name, problem])
+	_told = not problem.is_empty()
+	return not _told
