@@ -20,7 +20,7 @@ const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
 ## A body with this metadata (coefficient) is rougher or smoother than the rest.
 const FRICTION_META: StringName = &"spidar_friction"
 ## The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
-## let a light body bounce between the tool's push and its own answer.
+## let a light body bounce between the tool's push and its own answer. Frames of a game that runs fast are long.
 const PUSHED_STIFFNESS_RATIO: float = 1.0
 
 var collision_mask: int = 1
@@ -119,7 +119,8 @@ func _nearest_plane(space: PhysicsDirectSpaceState3D) -> ContactPlane:
 	plane.normal = normal
 	plane.separation_m = separation
 	plane.point = rest["point"]
-	plane.velocity = rest["linear_velocity"]
+	var game_velocity: Vector3 = rest["linear_velocity"]
+	plane.velocity = Engine.time_scale * game_velocity
 	plane.rid = rest["rid"]
 	var collider_id: int = rest["collider_id"]
 	set_material(plane, instance_from_id(collider_id))
@@ -134,7 +135,7 @@ func set_material(plane: ContactPlane, collider: Object) -> void:
 	var body: RigidBody3D = collider as RigidBody3D
 	if body != null and not body.freeze:
 		plane.pushed_body = body
-		var per_frame: float = float(Engine.physics_ticks_per_second)
+		var per_frame: float = Engine.physics_ticks_per_second / maxf(Engine.time_scale, 1.0)
 		# Stiffness is per device metre, the body moves in scene metres.
 		var limit: float = PUSHED_STIFFNESS_RATIO * body.mass * per_frame * per_frame * workspace_scale
 		plane.stiffness_n_m = minf(plane.stiffness_n_m, limit)

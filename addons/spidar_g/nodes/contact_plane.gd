@@ -8,8 +8,12 @@ var normal: Vector3 = Vector3.UP
 var separation_m: float = 0.0
 ## On the body's surface: where the reaction acts.
 var point: Vector3 = Vector3.ZERO
-## The plane's own, m/s in the scene.
+## Of the body's surface, scene metres a second of device time.
 var velocity: Vector3 = Vector3.ZERO
+## The same before a jump was told from a motion.
+var seen_velocity: Vector3 = Vector3.ZERO
+## What the closing jaws add to it.
+var closing: Vector3 = Vector3.ZERO
 var stiffness_n_m: float = 350.0
 var damping_n_s_m: float = 2.0
 var friction: float = 0.4

@@ -36,6 +36,7 @@ func replace(found: Array[ContactPlane]) -> void:
 	for plane: ContactPlane in found:
 		if kept.size() < MAX_PLANES and not _is_covered(plane, kept):
 			kept.append(plane)
+	_leave_out_jumps(kept)
 	var before: Array[ContactPlane] = planes.duplicate()
 	for plane: ContactPlane in kept:
 		var same: ContactPlane = _same_surface(plane, before)
@@ -53,15 +54,18 @@ func keep_nearest(most: int) -> void:
 		planes.resize(maxi(most, 0))
 
 
-## Appends SpidarG's rows for a grip centred on `centre` (world).
-func pack_into(rows: PackedFloat64Array, centre: Vector3) -> void:
+## Appends SpidarG's rows for a grip centred on `centre` (world). turn: what the device has turned by since the planes
+## were found.
+func pack_into(rows: PackedFloat64Array, centre: Vector3, turn: Basis) -> void:
 	for plane: ContactPlane in planes:
-		var offset: float = plane.normal.dot(centre) - plane.separation_m
+		var normal: Vector3 = turn * plane.normal
+		var offset: float = normal.dot(centre) - plane.separation_m
+		var velocity: Vector3 = plane.velocity + plane.closing
 		rows.append_array(
 			PackedFloat64Array(
 				[
-					plane.normal.x, plane.normal.y, plane.normal.z, offset,
-					plane.velocity.x, plane.velocity.y, plane.velocity.z,
+					normal.x, normal.y, normal.z, offset,
+					velocity.x, velocity.y, velocity.z,
 					plane.stiffness_n_m, plane.damping_n_s_m, plane.friction,
 					SpidarG.CONTACT_CENTRE, plane.id,
 				]
@@ -69,7 +73,7 @@ func pack_into(rows: PackedFloat64Array, centre: Vector3) -> void:
 		)
 
 
-## Takes SpidarG.get_contact_impulses(), sums since each id appeared, once a physics frame.
+## Takes SpidarG.get_contact_impulses(), sums since each id appeared.
 func read_impulses(sums: Dictionary) -> void:
 	_gained.clear()
 	var now: Dictionary[int, Vector3] = {}
@@ -81,16 +85,19 @@ func read_impulses(sums: Dictionary) -> void:
 	_sums = now
 
 
-## N s on the grip since the last frame (grasp stop: N m s in x).
+## N s on the grip between the last two calls of read_impulses (grasp stop: N m s in x).
 func gained(id: int) -> Vector3:
 	return _gained.get(id, Vector3.ZERO)
 
 
 ## Newton's third law at game rate: what a plane gave the hand, its body gets back, up to most_n_s
-## and never so much that it is thrown.
+## and never so much that it is thrown. The force is the same in the game's time, the hand's speed is not.
 func push_bodies(most_n_s: float, tool_velocity_m_s: Vector3) -> void:
+	var pace: float = Engine.time_scale
+	if pace <= 0.0:
+		return
 	for plane: ContactPlane in planes:
-		var impulse: Vector3 = -gained(plane.id)
+		var impulse: Vector3 = -pace * gained(plane.id)
 		var body: RigidBody3D = plane.pushed_body
 		if is_instance_valid(body) and impulse.is_finite() and not impulse.is_zero_approx():
 			var along: Vector3 = impulse.normalized()
@@ -98,8 +105,8 @@ func push_bodies(most_n_s: float, tool_velocity_m_s: Vector3) -> void:
 			var velocity: Vector3 = PhysicsServer3D.body_get_state(
 				body.get_rid(), PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY
 			)
-			var fastest: float = maxf(tool_velocity_m_s.dot(along), 0.0) + MOST_LEAD_M_S
-			var most: float = minf(most_n_s, body.mass * maxf(fastest - velocity.dot(along), 0.0))
+			var fastest: float = maxf(tool_velocity_m_s.dot(along) / pace, 0.0) + MOST_LEAD_M_S
+			var most: float = minf(pace * most_n_s, body.mass * maxf(fastest - velocity.dot(along), 0.0))
 			body.apply_impulse(impulse.limit_length(most), plane.point - body.global_position)
 
 
@@ -120,6 +127,21 @@ func shown_shift() -> Vector3:
 		if not plane.through_held_body:
 			shift += plane.normal * maxf(-plane.separation_m - plane.normal.dot(shift), 0.0)
 	return shift
+
+
+## A body that a script puts elsewhere has a velocity for one tick, as if it had been swept there. What it has in two ticks in
+## a row is a motion; only that is carried on. The engine moves a RigidBody3D by its velocity, so that is true at once.
+func _leave_out_jumps(found: Array[ContactPlane]) -> void:
+	var last: Dictionary[RID, Vector3] = {}
+	for plane: ContactPlane in planes:
+		last[plane.rid] = plane.seen_velocity
+	for plane: ContactPlane in found:
+		plane.seen_velocity = plane.velocity
+		if plane.pushed_body != null:
+			continue
+		var before: Vector3 = last.get(plane.rid, Vector3.ZERO)
+		var steady: bool = before.dot(plane.velocity) > 0.0
+		plane.velocity = plane.velocity.limit_length(before.length()) if steady else Vector3.ZERO
 
 
 func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:

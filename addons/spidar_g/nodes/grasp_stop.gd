@@ -9,8 +9,10 @@ const DAMPING_NM_S_RAD: float = 0.001
 ## A body with this metadata (N m/rad) is softer to squeeze; kept within the stable range.
 const STIFFNESS_META: StringName = &"spidar_squeeze_nm_rad"
 const STIFFNESS_RANGE: Vector2 = Vector2(0.02, 0.4)
-## Smooths the jitter of one servo cycle more or less between two frames.
-const SQUEEZE_FILTER: float = 0.5
+## The pads' own stop is published when the jaws are this near to closed, rad.
+const CLOSED_STOP_RANGE: float = 0.17
+## Smooths the trembling of the fingers: time constant, s.
+const SQUEEZE_TIME_S: float = 0.024
 
 var active: bool = false
 ## keeps grasp_angle <= this, rad.
@@ -42,15 +44,15 @@ func is_for(rid: RID) -> bool:
 	return active and rid == _rid
 
 
-## Once a frame. With forces on, the impulse the strings were asked for; with forces off, what the closing past
-## the stop would ask for, so that games without a force display can grasp too.
-func measure(contacts: ContactSet, grasp_angle: float, forces_on: bool, delta_s: float) -> void:
+## With forces on, by the impulse that the strings were asked for in the last since_s of device time; with forces off, by
+## what the closing past the stop would ask for, so that games without a force display can grasp too.
+func measure(contacts: ContactSet, grasp_angle: float, forces_on: bool, since_s: float) -> void:
 	if not active:
 		return
 	var torque: float = stiffness_nm_rad * maxf(grasp_angle - angle_rad, 0.0)
 	if forces_on:
-		torque = maxf(-contacts.gained(_id).x / delta_s, 0.0)
-	squeeze_nm = lerpf(squeeze_nm, torque, SQUEEZE_FILTER)
+		torque = maxf(-contacts.gained(_id).x / since_s, 0.0)
+	squeeze_nm = lerpf(torque, squeeze_nm, exp(-since_s / SQUEEZE_TIME_S))
 
 
 func pack_into(rows: PackedFloat64Array) -> void:

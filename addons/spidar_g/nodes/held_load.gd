@@ -23,18 +23,18 @@ var with_inertia: bool = true
 
 var force_n: Vector3 = Vector3.ZERO
 var moment_nm: Vector3 = Vector3.ZERO
+## Of the grip against the device, in the device's axes, scene m/s: the mean since the pose before.
+var velocity: Vector3 = Vector3.ZERO
 var _added_n: Vector3 = Vector3.ZERO
 var _added_nm: Vector3 = Vector3.ZERO
-var _grip_centre: Vector3 = Vector3.ZERO
-var _velocity: Vector3 = Vector3.ZERO
+var _centre: Vector3 = Vector3.INF
 var _acceleration: Vector3 = Vector3.ZERO
+var _since_s: float = 0.0
 var _age_s: float = 0.0
 
 
-## A body has just been caught. grip_centre in the scene; velocity of the grip, scene m/s.
-func reset(grip_centre: Vector3, velocity: Vector3) -> void:
-	_grip_centre = grip_centre
-	_velocity = velocity
+## A body has just been caught.
+func reset() -> void:
 	_acceleration = Vector3.ZERO
 	_age_s = 0.0
 	force_n = Vector3.ZERO
@@ -54,25 +54,35 @@ func add(added_n: Vector3, added_nm: Vector3) -> void:
 		_added_nm += added_nm
 
 
-## Once a physics frame. grip_centre in the scene; workspace_scale: scene metres per device metre.
-func advance(
-	delta_s: float, body: RigidBody3D, grip_centre: Vector3, workspace_scale: float
-) -> void:
+## Once a physics tick, held or not. centre: of the grip, from the device's origin in its axes, scene metres. since_s: device
+## time since the pose before, 0 when this is the same pose. A device that is carried through the scene moves no hand.
+func follow(centre: Vector3, since_s: float) -> void:
+	if since_s <= 0.0:
+		return
+	if not _centre.is_finite():
+		_centre = centre
+	# The mean velocity: the device's own twist, sampled at game rate, would alias the strings' 100 Hz.
+	var newest: Vector3 = (centre - _centre) / since_s
+	# The two means are of the middles of their times.
+	var apart_s: float = 0.5 * (since_s + _since_s) if _since_s > 0.0 else since_s
+	var blend: float = since_s / (since_s + 1.0 / (TAU * ACCELERATION_CUTOFF_HZ))
+	_acceleration += blend * ((newest - velocity) / apart_s - _acceleration)
+	velocity = newest
+	_centre = centre
+	_since_s = since_s
+	_age_s += since_s
+
+
+## Computes force and moment. device: turns its axes into the scene's. workspace_scale: scene metres per device metre.
+func pull(body: RigidBody3D, grip_centre: Vector3, device: Basis, workspace_scale: float) -> void:
 	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
-	var blend: float = delta_s / (delta_s + 1.0 / (TAU * ACCELERATION_CUTOFF_HZ))
-	# The mean velocity over the frame: the device's own twist, sampled at game rate, would alias the strings' 100 Hz.
-	var velocity: Vector3 = (grip_centre - _grip_centre) / delta_s
-	_grip_centre = grip_centre
-	_acceleration += blend * ((velocity - _velocity) / delta_s - _acceleration)
-	_velocity = velocity
-	_age_s += delta_s
 	force_n = Vector3.ZERO
 	if with_weight:
 		force_n += gain * body.mass * state.total_gravity
 	if with_inertia:
 		# Of the hand's own motion, so that a large scale does not turn a small jerk into a large force.
 		var mass: float = minf(gain * body.mass, MAX_INERTIA_MASS_KG)
-		var inertia: Vector3 = mass * _acceleration / workspace_scale
+		var inertia: Vector3 = mass * (device * _acceleration) / workspace_scale
 		force_n -= inertia.limit_length(INERTIA_FORCE_SHARE * max_force_n)
 	force_n *= clampf(_age_s / ONSET_TIME_S, 0.0, 1.0)
 	var centre: Vector3 = state.transform.origin + state.center_of_mass

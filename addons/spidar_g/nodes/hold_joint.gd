@@ -4,6 +4,8 @@ extends Node3D
 
 ## The pads close on the middle of a body that was caught off-centre within this time.
 const CENTRING_TIME_S: float = 0.08
+## Speed left to a body that is let go (device m/s), so that a solver's last correction never throws it.
+const MAX_RELEASE_SPEED_M_S: float = 2.0
 
 var body: RigidBody3D = null
 ## True from detain() to the next advance().
@@ -39,18 +41,7 @@ func attach(caught: RigidBody3D, grip: Transform3D, off_centre_m: float) -> void
 	_key = key
 	body.can_sleep = false
 	body.sleeping = false
-	_anchor = AnimatableBody3D.new()
-	_anchor.sync_to_physics = false
-	_anchor.collision_layer = 0
-	_anchor.collision_mask = 0
-	# Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
-	_anchor.transform = grip
-	add_child(_anchor)
-	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
-	add_child(_joint)
-	_joint.global_transform = body.global_transform
-	_joint.node_a = _joint.get_path_to(_anchor)
-	_joint.node_b = _joint.get_path_to(body)
+	_tie(grip)
 
 
 ## False when the body was taken out of the physics, or made one that nothing moves: disabled, frozen or freed.
@@ -89,6 +80,14 @@ func follow(grip: Transform3D, shift: Vector3) -> void:
 	_anchor.global_transform = target
 
 
+## Puts body and anchor where they belong when the grip is at `grip`, farther away than a physics step can carry them.
+func jump(grip: Transform3D) -> void:
+	_untie()
+	body.global_transform = where(grip)
+	body.linear_velocity = Vector3.ZERO
+	_tie(_centred(grip))
+
+
 ## Where the pads are that hold the body: with it, also where the grip itself has gone on through what stopped it.
 func carried_grip() -> Transform3D:
 	return _anchor.global_transform.translated_local(Vector3(_off_centre_moved(), 0.0, 0.0))
@@ -99,13 +98,9 @@ func stretch_m() -> float:
 	return body.global_position.distance_to((_anchor.global_transform * _caught).origin)
 
 
-## Lets go, at no more than max_speed (scene m/s); safe when the body is leaving the tree.
-func detach(max_speed_m_s: float) -> void:
-	if _joint != null:
-		_joint.node_a = NodePath()
-		_joint.node_b = NodePath()
-		_joint.queue_free()
-		_anchor.queue_free()
+## Lets go; safe when the body is leaving the tree. workspace_scale: scene metres per device metre.
+func detach(workspace_scale: float) -> void:
+	_untie()
 	_holds[_key] = _holds.get(_key, 1) - 1
 	var was_last: bool = _holds[_key] <= 0
 	if is_instance_valid(body) and was_last:
@@ -114,8 +109,31 @@ func detach(max_speed_m_s: float) -> void:
 		_holds.erase(_key)
 		_could_sleep.erase(_key)
 	if is_instance_valid(body):
-		body.linear_velocity = body.linear_velocity.limit_length(max_speed_m_s)
+		body.linear_velocity = body.linear_velocity.limit_length(MAX_RELEASE_SPEED_M_S * workspace_scale)
 	body = null
+
+
+func _tie(anchor_at: Transform3D) -> void:
+	_anchor = AnimatableBody3D.new()
+	_anchor.sync_to_physics = false
+	_anchor.collision_layer = 0
+	_anchor.collision_mask = 0
+	# Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
+	_anchor.transform = anchor_at
+	add_child(_anchor)
+	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
+	add_child(_joint)
+	_joint.global_transform = body.global_transform
+	_joint.node_a = _joint.get_path_to(_anchor)
+	_joint.node_b = _joint.get_path_to(body)
+
+
+func _untie() -> void:
+	if _joint != null:
+		_joint.node_a = NodePath()
+		_joint.node_b = NodePath()
+		_joint.queue_free()
+		_anchor.queue_free()
 	_joint = null
 	_anchor = null
 

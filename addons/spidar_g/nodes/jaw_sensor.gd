@@ -16,6 +16,10 @@ const FINE_PATTERN: Array[Vector2] = [
 ]
 ## For centring_m where no forces centre the grip on the body: the pads take it along. Device metres.
 const CENTRING_M: float = 0.006
+## For entry_tolerance_m, device metres.
+const ENTRY_TOLERANCE_M: float = 0.003
+## Play of the pads round a body that is not held, device metres: keeps the two side planes feasible together.
+const SIDE_SLACK_M: float = 0.002
 
 ## The body between the pads, or null. All else is valid only when it is not.
 var body: CollisionObject3D = null
@@ -107,9 +111,9 @@ func side_planes(
 		plane.rid = rid
 		finder.set_material(plane, body)
 		if plane.pushed_body != null:
-			plane.velocity = plane.pushed_body.linear_velocity
+			plane.velocity = Engine.time_scale * plane.pushed_body.linear_velocity
 		if gap_m > width_m + slack_m:
-			plane.velocity += 0.5 * closing_m_s * plane.normal
+			plane.closing = 0.5 * closing_m_s * plane.normal
 		found.append(plane)
 
 

@@ -21,6 +21,7 @@ signal carrying(delta: float)
 const ContactFinder := preload("contact_finder.gd")
 const ContactPlane := preload("contact_plane.gd")
 const ContactSet := preload("contact_set.gd")
+const DeviceClock := preload("hand/device_clock.gd")
 const GraspJudge := preload("grasp_judge.gd")
 const GraspStop := preload("grasp_stop.gd")
 const HandPlace := preload("hand/place.gd")
@@ -28,28 +29,16 @@ const HandRanges := preload("hand/ranges.gd")
 const HandRequests := preload("hand/requests.gd")
 const HeldLoad := preload("held_load.gd")
 const HoldJoint := preload("hold_joint.gd")
+const HoldWatch := preload("hold_watch.gd")
 const JawSensor := preload("jaw_sensor.gd")
 const PadShape := preload("pad_shape.gd")
 const ShownPads := preload("shown_pads.gd")
+const SteppedPlace := preload("hand/stepped_place.gd")
 
 ## Closing to within this of a body's width counts as touching it, rad.
 const TOUCH_TOLERANCE: float = 0.01
 ## Opening this far past the held body's width lets go, rad (3 degrees; less would drop it when a hand trembles).
 const RELEASE_ANGLE: float = 0.052
-## Play of the pads round a body that is not held, device metres: keeps the two side planes feasible together.
-const SIDE_SLACK_M: float = 0.002
-## A body that the jaws have already closed through by more than this (device metres) did not come in between them.
-const ENTRY_TOLERANCE_M: float = 0.003
-## The pads' own stop is published when the jaws are this near to closed, rad.
-const CLOSED_STOP_RANGE: float = 0.17
-## Speed left to a body that is let go (device m/s), so that a solver's last correction never throws it.
-const MAX_RELEASE_SPEED_M_S: float = 2.0
-## A held body torn this far from the grip (device metres) is stuck behind something.
-const MAX_STRETCH_M: float = 0.015
-## A plane is up to two frames old when the next one replaces it.
-const LOOK_AHEAD_FRAMES: float = 1.5
-## Load or stretch has to last this long to break a hold, s.
-const BREAK_TIME_S: float = 0.05
 
 ## Layers that the tool touches and grasps.
 @export_flags_3d_physics var collision_mask: int = 1
@@ -104,7 +93,9 @@ var _pad: PadShape = PadShape.new()
 var _shown_pads: ShownPads = ShownPads.new()
 var _hold: HoldJoint = null
 var _held_width_m: float = 0.0
-var _overload_s: float = 0.0
+var _watch: HoldWatch = HoldWatch.new()
+var _clock: DeviceClock = DeviceClock.new()
+var _stepped: SteppedPlace = SteppedPlace.new()
 var _requests: HandRequests = HandRequests.new()
 var _place: HandPlace = HandPlace.new()
 
@@ -201,7 +192,7 @@ func release() -> void:
 	var body: RigidBody3D = _hold.body
 	if is_instance_valid(body) and body.tree_exiting.is_connected(release):
 		body.tree_exiting.disconnect(release)
-	_hold.detach(MAX_RELEASE_SPEED_M_S * (spidar.workspace_scale if spidar != null else 1.0))
+	_hold.detach(spidar.workspace_scale if spidar != null else 1.0)
 	_hold.queue_free()
 	_hold = null
 	_judge.reset()
@@ -213,32 +204,43 @@ func _physics_process(delta: float) -> void:
 		release()
 		_withdraw()
 		return
-	var grip: Transform3D = spidar.get_grip_transform()
-	_contacts.read_impulses(spidar.get_contact_impulses(_requests.owner))
+	_clock.read(spidar)
+	_stepped.note(spidar)
+	var grip: Transform3D = _stepped.in_space(spidar.get_grip_transform())
 	var forces_on: bool = render_width and spidar.get_state() == SpidarG.STATE_ACTIVE
-	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, delta)
-	_contacts.push_bodies(_settings().max_force * delta, spidar.get_linear_velocity())
+	if _clock.elapsed_s > 0.0:
+		_read_device(forces_on, _clock.elapsed_s)
 	if _hold != null:
 		_watch_hold(delta)
-	var exclude: Array[RID] = []
 	if _hold == null:
 		_jaw.centring_m = 0.0 if forces_on else JawSensor.CENTRING_M * spidar.workspace_scale
 		_sense_jaws(grip)
-		_try_grasp(grip, delta)
+		if delta > 0.0:  # Nothing is lifted while the game's time stands still.
+			_try_grasp(grip)
 	var found: Array[ContactPlane] = []
+	var exclude: Array[RID] = []
 	if _hold != null:
 		exclude.append(_hold.body.get_rid())
 		_carry(grip, exclude, delta, found)
-	_find_tool_planes(grip, delta, exclude, found)
+	_find_tool_planes(grip, exclude, found)
 	_contacts.replace(found)
 	var rows: PackedFloat64Array = PackedFloat64Array()
 	if render_contacts:
 		_contacts.keep_nearest(_requests.free_planes())
-		_contacts.pack_into(rows, grip.origin)
+		_contacts.pack_into(rows, spidar.get_grip_transform().origin, _stepped.turn())
 	if render_width:
 		_stop.pack_into(rows)
 	_requests.publish(rows)
-	_request_load(grip, delta)
+	_request_load(grip)
+
+
+## What happened at the device since the pose that was read before.
+func _read_device(forces_on: bool, since_s: float) -> void:
+	_contacts.read_impulses(spidar.get_contact_impulses(_requests.owner))
+	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, since_s)
+	_contacts.push_bodies(_settings().max_force * since_s, spidar.get_linear_velocity())
+	var node: Transform3D = spidar.global_transform.orthonormalized()
+	_load.follow(node.affine_inverse() * spidar.get_grip_transform().origin, since_s)
 
 
 func _sense_jaws(grip: Transform3D) -> void:
@@ -246,11 +248,11 @@ func _sense_jaws(grip: Transform3D) -> void:
 	var settings: SpidarGConfig = _settings()
 	var reach: float = (0.5 * settings.jaw_open + PadShape.RADIUS_M) * scale_m
 	_jaw.collision_mask = collision_mask
-	_jaw.entry_tolerance_m = ENTRY_TOLERANCE_M * scale_m
+	_jaw.entry_tolerance_m = JawSensor.ENTRY_TOLERANCE_M * scale_m
 	_jaw.look(_space(), grip, _gap_m(), reach, get_pad_radius_m(), [])
 	if _jaw.body != null:
 		_place_stop(_jaw.width_m, _jaw.body, _jaw.rid)
-	elif spidar.get_grasp_angle() > settings.jaw_closed_angle - CLOSED_STOP_RANGE:
+	elif spidar.get_grasp_angle() > settings.jaw_closed_angle - GraspStop.CLOSED_STOP_RANGE:
 		_stop.place(_contacts, settings.jaw_closed_angle, GraspStop.STIFFNESS_NM_RAD, RID())
 	else:
 		_stop.remove()
@@ -266,7 +268,7 @@ func _place_stop(width_m: float, body: CollisionObject3D, rid: RID) -> void:
 	_stop.place(_contacts, angle, stiffness, rid)
 
 
-func _try_grasp(grip: Transform3D, delta: float) -> void:
+func _try_grasp(grip: Transform3D) -> void:
 	var angle: float = spidar.get_grasp_angle()
 	if _jaw.body == null or angle < _stop.angle_rad - RELEASE_ANGLE:
 		_judge.reset()
@@ -279,7 +281,7 @@ func _try_grasp(grip: Transform3D, delta: float) -> void:
 	_judge.min_force_n = hold_torque_nm / lever
 	_judge.weight_scale = weight_scale
 	var verdict: GraspJudge.Verdict = _judge.judge(
-		_jaw, _stop.squeeze_nm / lever, spidar.get_grasp_rate(), delta
+		_jaw, _stop.squeeze_nm / lever, spidar.get_grasp_rate(), _clock.elapsed_s
 	)
 	if verdict == GraspJudge.Verdict.HOLD:
 		_attach(_jaw.body as RigidBody3D, grip)
@@ -292,8 +294,8 @@ func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 	add_child(_hold, false, Node.INTERNAL_MODE_BACK)  # Not copied by duplicate(): the copy holds nothing.
 	_hold.attach(body, grip, _jaw.centre_offset_m)
 	_held_width_m = _jaw.width_m
-	_overload_s = 0.0
-	_load.reset(grip.origin, spidar.get_linear_velocity())
+	_watch.reset()
+	_load.reset()
 	body.tree_exiting.connect(release)
 	body_grasped.emit(body)
 
@@ -303,14 +305,11 @@ func _watch_hold(delta: float) -> void:
 	if not _hold.is_movable():
 		release()
 		return
-	var force: Vector3 = Vector3.ZERO
-	for plane: ContactPlane in _contacts.planes:
-		if plane.through_held_body:
-			force += _contacts.gained(plane.id) / delta
-	var torn: bool = _hold.stretch_m() > MAX_STRETCH_M * spidar.workspace_scale
-	_overload_s = _overload_s + delta if torn or force.length() > break_force_n else 0.0
 	var opened: bool = spidar.get_grasp_angle() < _stop.angle_rad - RELEASE_ANGLE
-	if opened or _overload_s >= BREAK_TIME_S or _hold.body.freeze:
+	var broken: bool = _watch.breaks(
+		_hold, _contacts, break_force_n, spidar.workspace_scale, _clock.elapsed_s, delta > 0.0
+	)
+	if opened or broken or _hold.body.freeze:
 		release()
 
 
@@ -318,21 +317,22 @@ func _watch_hold(delta: float) -> void:
 func _carry(
 	grip: Transform3D, exclude: Array[RID], delta: float, found: Array[ContactPlane]
 ) -> void:
+	var target: Transform3D = spidar.get_grip_transform()
 	_hold.advance(delta)
 	_load.clear()
 	carrying.emit(delta)
 	if _hold == null or _hold.detained:  # A listener let go, or it sits where the world cannot stop it: no planes.
 		if _hold != null:
-			_hold.follow(grip, Vector3.ZERO)
+			_hold.follow(target, Vector3.ZERO)
 		return
 	_prepare_finder()
 	_finder.find_round_body(_space(), _hold.body, _hold.where(grip), exclude, found)
-	_hold.follow(grip, ContactSet.way_out(found))
+	if _stepped.has_jumped(delta):
+		_hold.jump(target)
+	_hold.follow(target, ContactSet.way_out(found))
 
 
-func _find_tool_planes(
-	grip: Transform3D, delta: float, exclude: Array[RID], found: Array[ContactPlane]
-) -> void:
+func _find_tool_planes(grip: Transform3D, exclude: Array[RID], found: Array[ContactPlane]) -> void:
 	if not render_contacts:
 		return
 	_prepare_finder()
@@ -342,17 +342,17 @@ func _find_tool_planes(
 		var settings: SpidarGConfig = _settings()
 		var gap_per_rad: float = settings.jaw_open / settings.jaw_closed_angle
 		var closing: float = spidar.get_grasp_rate() * gap_per_rad * spidar.workspace_scale
-		var slack: float = SIDE_SLACK_M * spidar.workspace_scale
+		var slack: float = JawSensor.SIDE_SLACK_M * spidar.workspace_scale
 		_jaw.side_planes(_finder, grip, _gap_m(), closing, slack, found)
 	var shape: Shape3D = _pad.shape_for(spidar.workspace_scale)
-	# Planes act until those of the next frame come.
-	var ahead: Vector3 = LOOK_AHEAD_FRAMES * delta * spidar.get_linear_velocity()
+	# Planes act until the next ones come. What stands about a device that is carried along is carried too.
+	var ahead: Vector3 = spidar.global_basis.orthonormalized() * _load.velocity * _clock.ahead_s
 	for side: int in 2:
 		var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())
 		_finder.find(_space(), shape, at, beside, found, ahead)
 
 
-func _request_load(grip: Transform3D, delta: float) -> void:
+func _request_load(grip: Transform3D) -> void:
 	if _hold == null or not (render_weight or render_inertia):
 		_requests.end_load()
 		return
@@ -360,7 +360,7 @@ func _request_load(grip: Transform3D, delta: float) -> void:
 	_load.max_force_n = _settings().max_force
 	_load.with_weight = render_weight and not _hold.detained  # What has snapped in is carried by its socket.
 	_load.with_inertia = render_inertia and not _hold.detained
-	_load.advance(delta, _hold.body, grip.origin, spidar.workspace_scale)
+	_load.pull(_hold.body, grip.origin, spidar.global_basis.orthonormalized(), spidar.workspace_scale)
 	_requests.ask(_load.force_n, _load.moment_nm)
 
 

@@ -26,14 +26,28 @@ struct WorldFrame {
                std::isfinite(origin.x + origin.y + origin.z);
     }
 
-    // A node that is scaled or mirrored still gives a rotation: what is not a rotation is warned about and left out,
-    // as Godot's own Basis.get_rotation_quaternion() does.
-    static WorldFrame of(const godot::Transform3D &node, double workspace_scale) {
+    // A node that is scaled or mirrored still gives a rotation: what is not a rotation is warned about and left out.
+    // mirrored_axis: the axis that is turned over (0 to 2) of a mirrored node.
+    static WorldFrame of(const godot::Transform3D &node, double workspace_scale,
+                         int mirrored_axis) {
         Mat3 rotation = to_core(node.basis.orthonormalized());
-        if (glm::determinant(rotation) < 0.0) {
-            rotation = -rotation;
+        if (mirrored_axis >= 0) {
+            rotation[mirrored_axis] = -rotation[mirrored_axis];
         }
         return {rotation, to_core(node.origin), workspace_scale};
+    }
+    // -1 for a node that is not mirrored. Else a mirrored node could be any of three: its axis is the one whose turning
+    // over leaves the least turn, so that a scene that is only mirrored is not turned as well.
+    static int mirrored_axis_of(const godot::Transform3D &node) {
+        const Mat3 axes = to_core(node.basis.orthonormalized());
+        if (!(glm::determinant(axes) < 0.0)) {
+            return -1;
+        }
+        int least = 0;
+        for (int axis = 1; axis < 3; ++axis) {
+            least = axes[axis][axis] < axes[least][least] ? axis : least;
+        }
+        return least;
     }
 
     [[nodiscard]] Vec3 point_to_world(const Vec3 &device) const noexcept {

@@ -185,6 +185,7 @@ void SpidarG::open_device() {
     limits_share_ = 1.0;
     command_.limits_sequence = 0;
     command_.limits = limits_wanted_;
+    motion_ = spidar::NodeMotion();
     requests_.clear();
     requests_.configure(settings_.safety.wrench_fade_s, settings_.safety.contacts_gone_s);
     loop_->publish(command_);
@@ -245,6 +246,8 @@ void SpidarG::close_device(const char *why) {
     claim_.release();
     recording_place_.release();
     hid_watch_.reset();
+    earlier_time_s_ += snapshot_.time_s;
+    snapshot_.time_s = 0.0;
     snapshot_.state = DeviceState::closed;
     snapshot_.tensions_n = {};
     snapshot_.requested = {};
@@ -324,6 +327,14 @@ void SpidarG::physics_tick() {
         loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
     }
     pull_snapshot();
+    call_deferred("_note_place");
+}
+
+void SpidarG::note_place() {
+    const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
+    if (is_inside_tree() && hz > 0) {
+        motion_.note(world(), 1.0 / hz);
+    }
 }
 
 int SpidarG::advance_cycles(int cycles) {
@@ -370,8 +381,12 @@ void SpidarG::clear_fault() {
 }
 
 spidar::WorldFrame SpidarG::world() const {
-    const spidar::WorldFrame now = spidar::WorldFrame::of(
-        is_inside_tree() ? get_global_transform() : get_transform(), workspace_scale_);
+    const godot::Transform3D place = is_inside_tree() ? get_global_transform() : get_transform();
+    const int mirrored = spidar::WorldFrame::mirrored_axis_of(place);
+    if ((mirrored < 0) != (mirrored_axis_ < 0)) {
+        mirrored_axis_ = mirrored; // and stays, however the node turns: the grip must not jump
+    }
+    const spidar::WorldFrame now = spidar::WorldFrame::of(place, workspace_scale_, mirrored_axis_);
     if (now.usable()) {
         last_world_ = now;
         world_told_ = false;

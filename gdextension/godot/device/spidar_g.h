@@ -23,6 +23,7 @@
 #include "device/simulation/simulated_transport.h"
 #include "godot/base/strict.h"
 #include "godot/base/world_frame.h"
+#include "godot/device/node_motion.h"
 #include "godot/device/recording_places.h"
 #include "godot/device/request_owners.h"
 #include "godot/settings/project_options.h"
@@ -175,6 +176,7 @@ public:
     [[nodiscard]] State get_state() const;
     [[nodiscard]] godot::String get_state_text() const;
     [[nodiscard]] godot::String get_fault_text() const;
+    [[nodiscard]] double get_device_time_s() const;
     [[nodiscard]] godot::Transform3D get_grip_transform() const;
     [[nodiscard]] godot::Transform3D get_pole_transform(int pole) const;
     [[nodiscard]] godot::Vector3 get_pole_end(ContactTarget target) const;
@@ -267,6 +269,10 @@ private:
     // is told.
     void refuse_device(spidar::Status status, const std::string &message, bool again);
     void physics_tick();
+    // At the end of a physics tick, when every node has moved: the coming physics step sees the node here.
+    void note_place();
+    // The velocities of this plane of the scene as seen from the node.
+    [[nodiscard]] spidar::ContactPlane seen_from_node(spidar::ContactPlane plane) const;
     // Takes the newest snapshot and emits the signals of the edges it shows.
     void pull_snapshot();
     void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
@@ -310,6 +316,8 @@ private:
     mutable spidar::WorldFrame
         last_world_; // in place of a transform that nothing can be computed with
     mutable bool world_told_ = false;
+    mutable int mirrored_axis_ = -1; // of a node that is mirrored
+    spidar::NodeMotion motion_;
 
     spidar::ServoSettings settings_;
     spidar::PlantSettings plant_;
@@ -348,6 +356,7 @@ private:
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()
     std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time
     spidar::ServoSnapshot snapshot_;
+    double earlier_time_s_ = 0.0; // device time of the loops before this one
 };
 
 VARIANT_ENUM_CAST(SpidarG::DriveMode);

@@ -89,6 +89,8 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_state"), &SpidarG::get_state);
     ClassDB::bind_method(D_METHOD("get_state_text"), &SpidarG::get_state_text);
     ClassDB::bind_method(D_METHOD("get_fault_text"), &SpidarG::get_fault_text);
+    ClassDB::bind_method(D_METHOD("get_device_time_s"), &SpidarG::get_device_time_s);
+    ClassDB::bind_method(D_METHOD("_note_place"), &SpidarG::note_place); // called deferred
     ClassDB::bind_method(D_METHOD("get_grip_transform"), &SpidarG::get_grip_transform);
     spidar::bind_checked<&SpidarG::get_pole_transform, "", "get_pole_transform", "pole">();
     spidar::bind_checked<&SpidarG::get_pole_end, "", "get_pole_end", "target">();

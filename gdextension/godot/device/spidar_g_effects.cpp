@@ -126,8 +126,11 @@ bool SpidarG::set_coupling(const godot::Transform3D &target, double grasp_angle,
     coupling.rotation =
         glm::transpose(frame.rotation) * spidar::to_core(target.basis.orthonormalized());
     coupling.grasp_angle_rad = grasp_angle;
-    coupling.twist.linear_m_s = frame.velocity_to_device(spidar::to_core(linear_velocity));
-    coupling.twist.angular_rad_s = frame.turn_to_device(spidar::to_core(angular_velocity));
+    const spidar::Vec3 from_node = spidar::to_core(target.origin) - frame.origin;
+    coupling.twist.linear_m_s =
+        frame.velocity_to_device(spidar::to_core(linear_velocity) - motion_.velocity_at(from_node));
+    coupling.twist.angular_rad_s =
+        frame.turn_to_device(spidar::to_core(angular_velocity) - motion_.angular_rad_s());
     coupling.twist.grasp_rate_rad_s = grasp_rate;
     coupling.state_time_s = snapshot_.time_s; // the game saw this one
     coupling.dof_mask = static_cast<std::uint8_t>(dof_mask);

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
+#include "device/contract/grip_points.h"
 #include "godot/base/type_conversions.h"
 
 using spidar::ContactPlane;
@@ -109,6 +112,21 @@ void SpidarG::publish_contacts() {
     }
 }
 
+ContactPlane SpidarG::seen_from_node(ContactPlane plane) const {
+    using spidar::ContactTarget;
+    if (plane.target == ContactTarget::turn_stop) {
+        plane.velocity_m_s -= motion_.angular_rad_s();
+    } else if (plane.target != ContactTarget::grasp_stop) {
+        // Where the target is nearest.
+        const spidar::WorldFrame frame = world();
+        spidar::Vec3 at =
+            frame.point_to_world(spidar::grip_point(snapshot_.grip.pose, plane.target));
+        at += (plane.offset_m - glm::dot(plane.normal, at)) * plane.normal;
+        plane.velocity_m_s -= motion_.velocity_at(at - frame.origin);
+    }
+    return plane;
+}
+
 bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts, const godot::String &owner) {
     const std::int64_t size = contacts.size();
     if (size % CONTACT_STRIDE != 0 || size > CONTACT_STRIDE * spidar::kMaxContacts) {
@@ -125,7 +143,7 @@ bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts, const godo
         if (!problem.empty()) {
             return reject(problem);
         }
-        plane = frame.contact_to_device(plane);
+        plane = frame.contact_to_device(seen_from_node(plane));
     }
     const std::string name = owner.utf8().get_data();
     const int free = requests_.free_contacts(name, snapshot_.time_s);

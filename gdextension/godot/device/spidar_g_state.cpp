@@ -39,6 +39,10 @@ godot::String SpidarG::get_fault_text() const {
     return spidar::to_godot(fault_message());
 }
 
+double SpidarG::get_device_time_s() const {
+    return earlier_time_s_ + snapshot_.time_s;
+}
+
 godot::Transform3D SpidarG::get_grip_transform() const {
     const spidar::GripState &grip = snapshot_.grip;
     return world().pose_to_world(grip.pose.position_m, grip.frame.rotation);
@@ -119,11 +123,15 @@ double SpidarG::get_grasp_angle_for_gap(double gap_m) const {
 }
 
 godot::Vector3 SpidarG::get_linear_velocity() const {
-    return spidar::to_godot(world().velocity_to_world(snapshot_.grip.twist.linear_m_s));
+    const spidar::WorldFrame frame = world();
+    const Vec3 from_node = frame.point_to_world(snapshot_.grip.pose.position_m) - frame.origin;
+    return spidar::to_godot(frame.velocity_to_world(snapshot_.grip.twist.linear_m_s) +
+                            motion_.velocity_at(from_node));
 }
 
 godot::Vector3 SpidarG::get_angular_velocity() const {
-    return spidar::to_godot(world().turn_to_world(snapshot_.grip.twist.angular_rad_s));
+    return spidar::to_godot(world().turn_to_world(snapshot_.grip.twist.angular_rad_s) +
+                            motion_.angular_rad_s());
 }
 
 godot::PackedFloat64Array SpidarG::get_string_lengths() const {

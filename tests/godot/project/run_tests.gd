@@ -1,4 +1,5 @@
-## Runs every res://test_*.gd headless. Prints one line a test, "N passed, N failed" last.
+## Runs every res://test_*.gd headless. Prints one line a test, "N passed, N failed" last. With the user argument
+## --real-time it runs res://timed_*.gd instead: those need a game in real time, without --fixed-fps.
 ## A test that stops on a script error never returns from its await: the frame limit catches it, and the Python
 ## runner looks for SCRIPT ERROR. User argument: a part of the names to run.
 extends SceneTree
@@ -20,13 +21,15 @@ func _run_all() -> void:
 		quit(1)
 		return
 	var arguments: PackedStringArray = OS.get_cmdline_user_args()
-	var wanted: String = arguments[0] if arguments.size() > 0 else ""
+	var prefix: String = "timed_" if arguments.has("--real-time") else "test_"
+	var last: String = arguments[-1] if arguments.size() > 0 else ""
+	var wanted: String = last if last != "--real-time" else ""
 	var passed: int = 0
 	var failed: int = 0
 	var files: PackedStringArray = DirAccess.get_files_at("res://")
 	files.sort()
 	for file: String in files:
-		if not (file.begins_with("test_") and file.ends_with(".gd")) or file == "test_case.gd":
+		if not (file.begins_with(prefix) and file.ends_with(".gd")) or file == "test_case.gd":
 			continue
 		var script: GDScript = load("res://" + file)
 		if script == null or not script.can_instantiate():
@@ -57,6 +60,9 @@ func _run_one(script: GDScript, file: String, method: String) -> bool:
 	while not _done and frames < FRAME_LIMIT:
 		await process_frame
 		frames += 1
+	Engine.time_scale = 1.0
+	Engine.physics_ticks_per_second = 60
+	Engine.max_fps = 0
 	var failures: PackedStringArray = case.failures
 	if not _done:
 		failures.append("did not finish within %d frames" % FRAME_LIMIT)

@@ -91,7 +91,6 @@ func test_a_mirrored_or_scaled_place_is_warned_about_and_turns_rightly() -> void
 		var room := Node3D.new()
 		var lone: SpidarG = ideal_device()
 		lone.forces_enabled = true
-		lone.config.simulated_hand_firmness = SpidarG.HAND_LIGHT
 		match kind:
 			"mirror":
 				lone.scale = Vector3(-1, 1, 1)
@@ -105,18 +104,28 @@ func test_a_mirrored_or_scaled_place_is_warned_about_and_turns_rightly() -> void
 		var warnings: String = "\n".join(lone.get_warnings())
 		check(warnings.contains("mirror" if kind.begins_with("mirror") else "scaled"), "%s: warned: %s" % [kind, warnings])
 		check(absf(lone.get_grip_transform().basis.determinant() - 1.0) < 1e-3, "%s: the grip is no mirror image" % kind)
-		var target: Transform3D = lone.get_grip_transform()
+		# A room that is only mirrored is not turned.
+		var target := Transform3D(Basis(Vector3.UP, 0.3), Vector3(0.03, 0.02, 0.01))
+		check(lone.get_grip_transform().basis.is_equal_approx(Basis.IDENTITY), "%s: the grip rests unturned" % kind)
 		for _i: int in 90:
 			lone.simulated_hand_target(target, 0.0)
 			await physics_frames(1)
 		var before: Basis = lone.get_grip_transform().basis
+		check_near(lone.get_grip_transform().origin.distance_to(target.origin), 0.0, 1e-4, "%s: where its hand is" % kind)
 		for _i: int in 60:
 			lone.simulated_hand_target(target, 0.0)
 			lone.request_wrench(Vector3(0, 0.5, 0), Vector3(0, 0.05, 0), 0.0)
 			await physics_frames(1)
 		var turned: Vector3 = (lone.get_grip_transform().basis * before.inverse()).get_euler()
-		check(turned.y > 0.02, "%s: turned as asked: %s" % [kind, turned])
+		check_near(turned.y, 0.10, 0.005, "%s: turned as asked: %s" % [kind, turned])
 		check(lone.get_grip_transform().origin.y > target.origin.y + 1e-4, "%s: moved as asked" % kind)
+		# However a mirrored room turns, the grip turns with it and never jumps.
+		var last: Basis = lone.get_grip_transform().basis
+		for _i: int in 60 if kind == "mirrored parent" else 0:
+			room.rotate_y(0.1)
+			var now: Basis = lone.get_grip_transform().basis
+			check(now.get_rotation_quaternion().angle_to(last.get_rotation_quaternion()) < 0.11, "%s: turns with the room" % kind)
+			last = now
 		room.free()
 
 
@@ -227,6 +236,27 @@ func test_what_is_drawn_is_not_interpolated() -> void:
 	for child: Node in view.get_children(true):
 		check(not child.is_physics_interpolated(), "%s is placed in each frame" % child)
 	check(not view.is_physics_interpolated(), "the view as well")
+	tree.physics_interpolation = true
+	for i: int in 20:
+		device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.004 * i, 0, 0)), 0.0)
+		await frames(1)
+		var drawn: Vector3 = view._parts._poles[0].get_global_transform_interpolated().origin
+		check_near(drawn.distance_to(view._drawn_grip.origin), 0.0, 1e-6, "drawn where the grip was when it was drawn, m")
+	tree.physics_interpolation = false
+	check(device.get_grip_transform().origin.x > 0.05, "it moved")
+
+
+func test_a_hand_in_a_thread_group_rests_and_says_so() -> void:
+	device = ideal_device()
+	device.process_thread_group = Node.PROCESS_THREAD_GROUP_SUB_THREAD
+	hand = Hand.new()
+	device.add_child(hand)
+	add(device)
+	await physics_frames(10)
+	check(hand._place._told, "it rests, and has said why")
+	device.free()
+	await set_up(Vector3.ZERO)
+	check(not hand._place._told, "in the main thread it acts")
 
 
 func test_names_beyond_ascii_are_kept() -> void:

@@ -1,8 +1,8 @@
 extends RefCounted
 ## What a hand asks of its device, under the hand's own name, so that it stands beside what scripts ask.
 
-## A load acts for so long unless it is asked for again, s.
-const LOAD_S: float = 0.05
+## A load acts for so long unless it is asked for again, s: longer than a frame of a game that is drawn 15 times a second.
+const LOAD_S: float = 0.1
 
 var device: SpidarG = null
 var owner: String = ""

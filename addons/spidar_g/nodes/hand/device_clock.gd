@@ -1,0 +1,31 @@
+extends RefCounted
+## The device's time between the physics ticks of a hand. Forces, impulses and velocities of a device are in its own time: it
+## goes on when Engine.time_scale slows the game, and stands still between physics ticks that share one drawn frame.
+
+## Two poses nearer in time than this part of a physics tick count as one: their difference would be mostly noise.
+const LEAST_PART: float = 0.5
+## A plane is up to two ticks old when the next one replaces it.
+const AHEAD_TICKS: float = 1.5
+## What is sent fades when it is older than this, s.
+const LONGEST_S: float = 0.1
+
+## Device time between the pose that this tick reads and the last one that was read, s; 0: it is still the same pose.
+var elapsed_s: float = 0.0
+## How far ahead to look for what this tick sends, s.
+var ahead_s: float = 0.0
+var _read_s: float = NAN
+
+
+## Once a physics tick.
+func read(device: SpidarG) -> void:
+	var tick_s: float = 1.0 / Engine.physics_ticks_per_second
+	var now_s: float = device.get_device_time_s()
+	if is_nan(_read_s):
+		_read_s = now_s
+		ahead_s = AHEAD_TICKS * tick_s
+	elapsed_s = now_s - _read_s
+	if elapsed_s < LEAST_PART * tick_s:
+		elapsed_s = 0.0
+		return
+	_read_s = now_s
+	ahead_s = AHEAD_TICKS * clampf(elapsed_s, tick_s, LONGEST_S)

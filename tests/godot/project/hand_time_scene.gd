@@ -1,0 +1,160 @@
+## Base of the tests of a hand's time: one play of grasp, lift, swing and press, timed by the device's own clock, so that it is
+## the same at every time scale, tick rate and drive mode.
+extends "res://hand_scene.gd"
+
+const MASS: float = 0.1
+## The most of it that is felt as inertia (held_load.gd).
+const FELT_MASS: float = 0.05
+const SIZE := Vector3(0.03, 0.04, 0.03)
+const SWING_HZ: float = 0.5
+const SWING_M: float = 0.06
+const TOLERANCE: float = 0.03
+
+var body: RigidBody3D
+var drive_mode: SpidarG.DriveMode = SpidarG.DRIVE_STEPPED
+var rejected: PackedStringArray = []
+## Real frames are of uneven length, which adds noise to an acceleration.
+var inertia_tolerance: float = TOLERANCE
+
+
+## Everything that a hand measures, once, at this time scale. `label` begins every message.
+func play(time_scale: float, label: String) -> void:
+	await _prepare()
+	if time_scale > 0.0:
+		Engine.time_scale = time_scale
+	await glide(body.global_position, 0.0, 0.5)
+	await glide(body.global_position, SQUEEZE_ANGLE, 0.5)
+	await rest(0.4)
+	Engine.time_scale = time_scale
+	if check(hand.get_held_body() == body, "%s: held" % label):
+		await _squeeze(label)
+		await _weight(label)
+		await _inertia(label)
+		if time_scale == 0.0:
+			await _back_to_one(label)
+			Engine.time_scale = 0.0
+		await _break(label)
+	check_equal(rejected, PackedStringArray(), "%s: nothing was refused" % label)
+	Engine.time_scale = 1.0
+	device.free()
+	body.free()
+	await physics_frames(2)
+
+
+## Moves the hand's target in a straight line, in seconds of the device.
+func glide(to: Vector3, to_angle: float, time_s: float) -> void:
+	var from: Vector3 = at
+	var from_angle: float = angle
+	var began_s: float = device.get_device_time_s()
+	var part: float = 0.0
+	while part < 1.0:
+		part = minf((device.get_device_time_s() - began_s) / time_s, 1.0)
+		at = from.lerp(to, part)
+		angle = lerpf(from_angle, to_angle, part)
+		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		await physics_frames(1)
+
+
+func rest(time_s: float) -> void:
+	await glide(at, angle, time_s)
+
+
+## Mean of what is called once a tick, over seconds of the device: a tick counts for the time that it took.
+func mean_of(value: Callable, time_s: float) -> float:
+	var began_s: float = device.get_device_time_s()
+	var last_s: float = began_s
+	var sum: float = 0.0
+	while last_s - began_s < time_s:
+		await physics_frames(1)
+		var now_s: float = device.get_device_time_s()
+		var now: float = value.call()
+		sum += now * (now_s - last_s)
+		last_s = now_s
+	return sum / (last_s - began_s)
+
+
+func asked(component: int) -> float:
+	return device.get_requested_wrench()[component]
+
+
+func _prepare() -> void:
+	at = Vector3(0.0, FLOOR_Y + 0.06, 0.0)
+	angle = 0.0
+	rejected.clear()
+	device = ideal_device()
+	device.drive_mode = drive_mode
+	device.forces_enabled = true
+	device.request_rejected.connect(func(message: String) -> void: rejected.append(message))
+	hand = Hand.new()
+	device.add_child(hand)
+	add(device)
+	if not tree.root.has_node(^"Floor"):
+		add_box(Vector3(1.0, 0.1, 1.0), Vector3(0.0, FLOOR_Y - 0.05, 0.0), 0.0).name = "Floor"
+	body = add_free_box(SIZE, MASS)
+	await physics_frames(2)
+	while device.get_state() != SpidarG.STATE_ACTIVE:
+		await rest(0.1)
+
+
+func _squeeze(label: String) -> void:
+	var felt: float = await mean_of(func() -> float: return -asked(6), 0.3)
+	var measured: float = await mean_of(hand.get_squeeze_torque_nm, 0.3)
+	check(felt > 0.05, "%s: the fingers squeeze: %f N m" % [label, felt])
+	check_near(measured / felt, 1.0, TOLERANCE, "%s: squeeze, of what is asked of the device" % label)
+
+
+func _weight(label: String) -> void:
+	await glide(at + Vector3(0.0, 0.06, 0.0), SQUEEZE_ANGLE, 0.5)
+	await rest(0.4)
+	var force: float = await mean_of(asked.bind(1), 0.3)
+	check_near(force / (-MASS * GRAVITY), 1.0, TOLERANCE, "%s: weight" % label)
+
+
+func _inertia(label: String) -> void:
+	# Least squares for the swing's sine and cosine: x in [0], force in [1].
+	var sine := Vector2.ZERO
+	var cosine := Vector2.ZERO
+	var count: int = 0
+	var middle: Vector3 = at
+	var began_s: float = device.get_device_time_s()
+	var periods: float = 0.0
+	while periods < 2.5:
+		periods = (device.get_device_time_s() - began_s) * SWING_HZ
+		var phase: float = TAU * periods
+		if periods >= 0.5:
+			var here := Vector2(device.get_grip_transform().origin.x - middle.x, asked(0))
+			sine += sin(phase) * here
+			cosine += cos(phase) * here
+			count += 1
+		at = middle + Vector3(SWING_M * sin(phase), 0.0, 0.0)
+		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		await physics_frames(1)
+	var way_m: float = 2.0 / count * Vector2(sine.x, cosine.x).length()
+	var force_n: float = 2.0 / count * Vector2(sine.y, cosine.y).length()
+	var expected_n: float = FELT_MASS * pow(TAU * SWING_HZ, 2.0) * way_m
+	check_near(force_n / expected_n, 1.0, inertia_tolerance, "%s: inertia, of mass times the hand's acceleration" % label)
+	at = middle
+	await rest(0.2)
+
+
+func _back_to_one(label: String) -> void:
+	Engine.time_scale = 1.0
+	await rest(0.3)
+	check(hand.get_held_body() == body, "%s: still held when time goes on" % label)
+	var force: float = await mean_of(asked.bind(1), 0.2)
+	check_near(force / (-MASS * GRAVITY), 1.0, TOLERANCE, "%s: its weight is back" % label)
+
+
+func _break(label: String) -> void:
+	await glide(Vector3(at.x, FLOOR_Y + 0.5 * SIZE.y - 0.008, at.z), SQUEEZE_ANGLE, 0.5)
+	await rest(0.3)
+	var press: float = MASS * GRAVITY + await mean_of(asked.bind(1), 0.3)
+	check(press > 1.0, "%s: the body is pressed to the floor: %f N" % [label, press])
+	var released: Array[int] = [0]
+	hand.body_released.connect(func(_body: RigidBody3D) -> void: released[0] += 1)
+	hand.break_force_n = press * (1.0 + TOLERANCE)
+	await rest(0.3)
+	check_equal(released[0], 0, "%s: held at a little less than the force that breaks" % label)
+	hand.break_force_n = press * (1.0 - TOLERANCE)
+	await rest(0.2)
+	check(released[0] > 0, "%s: broken at a little more" % label)

@@ -1,0 +1,79 @@
+## SpidarGHand: squeeze, weight, inertia and the force that breaks a hold are the device's, whatever the game's time does.
+extends "res://hand_time_scene.gd"
+
+const RATES: Array[int] = [24, 30, 60, 120, 240]
+
+
+func test_at_full_speed() -> void:
+	await _at_every_rate(1.0)
+
+
+func test_in_slow_motion() -> void:
+	await _at_every_rate(0.1)
+
+
+func test_in_fast_motion() -> void:
+	await _at_every_rate(3.0)
+
+
+func test_while_time_stands_still() -> void:
+	await _at_every_rate(0.0)
+
+
+func test_nothing_is_newly_held_while_time_stands_still() -> void:
+	await _prepare()
+	await glide(body.global_position, 0.0, 0.5)
+	Engine.time_scale = 0.0
+	await glide(body.global_position, SQUEEZE_ANGLE, 0.5)
+	await rest(0.5)
+	check(hand.get_held_body() == null, "not held")
+	check(hand.get_squeeze_torque_nm() > 0.05, "though squeezed: %f N m" % hand.get_squeeze_torque_nm())
+	Engine.time_scale = 1.0
+	await rest(0.2)
+	check(hand.get_held_body() == body, "held when time goes on")
+	check_equal(rejected, PackedStringArray(), "nothing was refused")
+
+
+func test_what_is_too_heavy_to_hold_stays_so_at_every_time_scale() -> void:
+	for time_scale: float in [0.0, 0.1, 3.0]:
+		await _prepare()
+		body.mass = 3.0
+		hand.pad_friction = 0.05
+		await glide(body.global_position, 0.0, 0.5)
+		Engine.time_scale = time_scale
+		await glide(body.global_position, 0.72, 0.5)
+		await rest(0.5)
+		check(hand.get_held_body() == null, "time scale %s: not held" % time_scale)
+		Engine.time_scale = 1.0
+		await rest(0.3)
+		check(hand.get_held_body() == null, "time scale %s: nor after it" % time_scale)
+		device.free()
+		body.free()
+
+
+func test_device_time_goes_on_over_openings() -> void:
+	var lone: SpidarG = ideal_device()
+	add(lone)
+	await physics_frames(1)
+	var began_s: float = lone.get_device_time_s()
+	Engine.time_scale = 0.0
+	await physics_frames(60)
+	check_near(lone.get_device_time_s() - began_s, 1.0, 0.002, "60 ticks, whatever the game's time does")
+	Engine.time_scale = 1.0
+	var last_s: float = lone.get_device_time_s()
+	for round: int in 3:
+		lone.enabled = false
+		check(lone.get_device_time_s() >= last_s, "closed: not back")
+		lone.enabled = true
+		for _i: int in 5:
+			await physics_frames(1)
+			check(lone.get_device_time_s() >= last_s, "never back: %f s" % lone.get_device_time_s())
+			last_s = lone.get_device_time_s()
+	check_near(last_s - began_s, 1.25, 0.02, "closed, it stands still")
+
+
+func _at_every_rate(time_scale: float) -> void:
+	for rate: int in RATES:
+		Engine.physics_ticks_per_second = rate
+		await play(time_scale, "time scale %s, %d ticks a second" % [time_scale, rate])
+	Engine.physics_ticks_per_second = 60
