@@ -24,6 +24,8 @@ const FRICTION_META: StringName = &"spidar_friction"
 const PUSHED_STIFFNESS_RATIO: float = 1.0
 
 var collision_mask: int = 1
+## How far the device has gone on since the last physics step. Bodies that steps move stand where that step left them.
+var gone_on: Transform3D = Transform3D.IDENTITY
 ## Scene metres.
 var margin_m: float = 0.04
 var workspace_scale: float = 1.0
@@ -33,9 +35,9 @@ var friction: float = 0.4
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
 
 
-## Appends to `found` the planes near `shape` at `transform`; bodies in `exclude` are not seen. The shape moves on by
-## `ahead` (scene metres) before the next planes come: of the planes that touch a body now and then, the one is taken that
-## the shape stays clear of longest. Both hold the whole convex body behind them, so neither is passed unfelt.
+## Appends to `found` the planes near `shape`, which the last step had at `transform`; bodies in `exclude` are not seen. The
+## shape moves on by `ahead` (scene metres) before the next planes come: of the planes that touch a body now and then, the one
+## is taken that the shape stays clear of longest. Both hold the whole convex body behind them, so neither is passed unfelt.
 func find(
 	space: PhysicsDirectSpaceState3D,
 	shape: Shape3D,
@@ -49,12 +51,28 @@ func find(
 	_query.margin = margin_m
 	_query.collision_mask = collision_mask
 	_query.exclude = exclude
-	var bodies: Array[RID] = unique_rids(space.intersect_shape(_query, 2 * MAX_BODIES))
+	var now: Transform3D = gone_on * transform
+	var hits: Array[Dictionary] = space.intersect_shape(_query, 2 * MAX_BODIES)
+	if now != transform:
+		_query.transform = now
+		hits.append_array(space.intersect_shape(_query, 2 * MAX_BODIES))
+	var bodies: Array[RID] = unique_rids(hits)
 	for rid: RID in bodies:
 		_query.exclude = exclude + bodies.filter(func(other: RID) -> bool: return other != rid)
+		var at: Transform3D = transform
+		if _is_static(rid):
+			at = now
+			var node: Node3D = object_of(hits, rid)
+			if node != null:
+				node.force_update_transform()  # It stands where its node is, but for a move of this very tick.
+		_query.transform = at
 		var plane: ContactPlane = _nearest_plane(space)
-		if plane != null:
-			found.append(_clearest_plane(space, plane, transform, ahead))
+		if plane == null:
+			continue
+		plane = _clearest_plane(space, plane, at, ahead)
+		if at != now:
+			plane.normal = gone_on.basis * plane.normal
+		found.append(plane)
 
 
 ## The same for every shape of `body`, as if it were at `at`.
@@ -81,6 +99,15 @@ static func unique_rids(hits: Array[Dictionary]) -> Array[RID]:
 		if not rids.has(rid) and rids.size() < MAX_BODIES:
 			rids.append(rid)
 	return rids
+
+
+## What was hit under this RID, among what a query of the space gives.
+static func object_of(hits: Array[Dictionary], wanted: RID) -> Node3D:
+	for hit: Dictionary in hits:
+		var hit_rid: RID = hit["rid"]
+		if hit_rid == wanted:
+			return hit["collider"] as Node3D
+	return null
 
 
 ## `now`, or the plane of the same body as seen from the end of the way, whichever the shape keeps clear of better.
@@ -132,6 +159,9 @@ func set_material(plane: ContactPlane, collider: Object) -> void:
 	plane.stiffness_n_m = float_meta(collider, STIFFNESS_META, stiffness_n_m)
 	plane.damping_n_s_m = damping_n_s_m
 	plane.friction = float_meta(collider, FRICTION_META, friction)
+	plane.is_static = _is_static(plane.rid)
+	if plane.is_static and collider is Node3D:
+		plane.place = (collider as Node3D).global_transform
 	var body: RigidBody3D = collider as RigidBody3D
 	if body != null and not body.freeze:
 		plane.pushed_body = body
@@ -139,6 +169,10 @@ func set_material(plane: ContactPlane, collider: Object) -> void:
 		# Stiffness is per device metre, the body moves in scene metres.
 		var limit: float = PUSHED_STIFFNESS_RATIO * body.mass * per_frame * per_frame * workspace_scale
 		plane.stiffness_n_m = minf(plane.stiffness_n_m, limit)
+
+
+static func _is_static(rid: RID) -> bool:
+	return PhysicsServer3D.body_get_mode(rid) == PhysicsServer3D.BODY_MODE_STATIC
 
 
 ## Metadata `key` of `object` when it is a positive finite number, else `fallback`.

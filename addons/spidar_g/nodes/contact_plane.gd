@@ -10,8 +10,12 @@ var separation_m: float = 0.0
 var point: Vector3 = Vector3.ZERO
 ## Of the body's surface, scene metres a second of device time.
 var velocity: Vector3 = Vector3.ZERO
-## The same before a jump was told from a motion.
+## The same before a jump was told from a motion, of this tick and of the last one.
 var seen_velocity: Vector3 = Vector3.ZERO
+var earlier_velocity: Vector3 = Vector3.ZERO
+## True for a body that no physics step moves: its velocity is only seen by its node, which is at `place`.
+var is_static: bool = false
+var place: Transform3D = Transform3D.IDENTITY
 ## What the closing jaws add to it.
 var closing: Vector3 = Vector3.ZERO
 var stiffness_n_m: float = 350.0

@@ -54,17 +54,15 @@ func keep_nearest(most: int) -> void:
 		planes.resize(maxi(most, 0))
 
 
-## Appends SpidarG's rows for a grip centred on `centre` (world). turn: what the device has turned by since the planes
-## were found.
-func pack_into(rows: PackedFloat64Array, centre: Vector3, turn: Basis) -> void:
+## Appends SpidarG's rows for a grip centred on `centre` (world).
+func pack_into(rows: PackedFloat64Array, centre: Vector3) -> void:
 	for plane: ContactPlane in planes:
-		var normal: Vector3 = turn * plane.normal
-		var offset: float = normal.dot(centre) - plane.separation_m
+		var offset: float = plane.normal.dot(centre) - plane.separation_m
 		var velocity: Vector3 = plane.velocity + plane.closing
 		rows.append_array(
 			PackedFloat64Array(
 				[
-					normal.x, normal.y, normal.z, offset,
+					plane.normal.x, plane.normal.y, plane.normal.z, offset,
 					velocity.x, velocity.y, velocity.z,
 					plane.stiffness_n_m, plane.damping_n_s_m, plane.friction,
 					SpidarG.CONTACT_CENTRE, plane.id,
@@ -132,16 +130,28 @@ func shown_shift() -> Vector3:
 ## A body that a script puts elsewhere has a velocity for one tick, as if it had been swept there. What it has in two ticks in
 ## a row is a motion; only that is carried on. The engine moves a RigidBody3D by its velocity, so that is true at once.
 func _leave_out_jumps(found: Array[ContactPlane]) -> void:
-	var last: Dictionary[RID, Vector3] = {}
+	var last: Dictionary[RID, ContactPlane] = {}
 	for plane: ContactPlane in planes:
-		last[plane.rid] = plane.seen_velocity
+		last[plane.rid] = plane
 	for plane: ContactPlane in found:
 		plane.seen_velocity = plane.velocity
 		if plane.pushed_body != null:
 			continue
-		var before: Vector3 = last.get(plane.rid, Vector3.ZERO)
-		var steady: bool = before.dot(plane.velocity) > 0.0
-		plane.velocity = plane.velocity.limit_length(before.length()) if steady else Vector3.ZERO
+		var before: ContactPlane = last.get(plane.rid)
+		if before == null:
+			plane.velocity = Vector3.ZERO
+		elif not plane.is_static:
+			plane.velocity = _steady(before.seen_velocity, plane.seen_velocity)
+		else:
+			# The engine gives the velocity of the step before; so does this, that all bodies of one lift have the same.
+			var moved: Vector3 = plane.place * (before.place.affine_inverse() * plane.point) - plane.point
+			plane.seen_velocity += Engine.physics_ticks_per_second * moved
+			plane.earlier_velocity = before.seen_velocity
+			plane.velocity = _steady(before.earlier_velocity, before.seen_velocity)
+
+
+static func _steady(before: Vector3, newest: Vector3) -> Vector3:
+	return newest.limit_length(before.length()) if before.dot(newest) > 0.0 else Vector3.ZERO
 
 
 func _is_covered(plane: ContactPlane, nearer: Array[ContactPlane]) -> bool:

@@ -79,7 +79,7 @@ func look(
 		if body != null and width <= width_m:
 			continue
 		rid = candidate
-		body = _object_of(hits, candidate)
+		body = ContactFinder.object_of(hits, candidate) as CollisionObject3D
 		width_m = width
 		centre_offset_m = offset
 		points = _found_points.duplicate()
@@ -110,8 +110,8 @@ func side_planes(
 		plane.point = points[side]
 		plane.rid = rid
 		finder.set_material(plane, body)
-		if plane.pushed_body != null:
-			plane.velocity = Engine.time_scale * plane.pushed_body.linear_velocity
+		var velocity: Vector3 = PhysicsServer3D.body_get_state(rid, PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY)
+		plane.velocity = Engine.time_scale * velocity
 		if gap_m > width_m + slack_m:
 			plane.closing = 0.5 * closing_m_s * plane.normal
 		found.append(plane)
@@ -150,11 +150,3 @@ func _meet(
 			_found_points[side] = point
 			_found_normals[side] = hit["normal"]
 	return is_finite(faces[side])
-
-
-static func _object_of(hits: Array[Dictionary], wanted: RID) -> CollisionObject3D:
-	for hit: Dictionary in hits:
-		var hit_rid: RID = hit["rid"]
-		if hit_rid == wanted:
-			return hit["collider"] as CollisionObject3D
-	return null

@@ -227,7 +227,7 @@ func _physics_process(delta: float) -> void:
 	var rows: PackedFloat64Array = PackedFloat64Array()
 	if render_contacts:
 		_contacts.keep_nearest(_requests.free_planes())
-		_contacts.pack_into(rows, spidar.get_grip_transform().origin, _stepped.turn())
+		_contacts.pack_into(rows, spidar.get_grip_transform().origin)
 	if render_width:
 		_stop.pack_into(rows)
 	_requests.publish(rows)
@@ -246,10 +246,9 @@ func _read_device(forces_on: bool, since_s: float) -> void:
 func _sense_jaws(grip: Transform3D) -> void:
 	var scale_m: float = spidar.workspace_scale
 	var settings: SpidarGConfig = _settings()
-	var reach: float = (0.5 * settings.jaw_open + PadShape.RADIUS_M) * scale_m
 	_jaw.collision_mask = collision_mask
 	_jaw.entry_tolerance_m = JawSensor.ENTRY_TOLERANCE_M * scale_m
-	_jaw.look(_space(), grip, _gap_m(), reach, get_pad_radius_m(), [])
+	_jaw.look(_space(), grip, _gap_m(), 0.5 * settings.jaw_open * scale_m + get_pad_radius_m(), get_pad_radius_m(), [])
 	if _jaw.body != null:
 		_place_stop(_jaw.width_m, _jaw.body, _jaw.rid)
 	elif spidar.get_grasp_angle() > settings.jaw_closed_angle - GraspStop.CLOSED_STOP_RANGE:
@@ -374,6 +373,7 @@ func _withdraw() -> void:
 
 func _prepare_finder() -> void:
 	_finder.collision_mask = collision_mask
+	_finder.gone_on = _stepped.gone_on()
 	_finder.workspace_scale = spidar.workspace_scale
 	_finder.margin_m = contact_margin_m * spidar.workspace_scale
 	_finder.stiffness_n_m = contact_stiffness_n_m

@@ -13,16 +13,40 @@ func test_a_table_on_the_same_lift_feels_as_at_rest() -> void:
 	for velocity: Vector3 in [
 		Vector3.ZERO, Vector3(0, 0.1, 0), Vector3(0, 1, 0), Vector3(0, 3, 0), Vector3(0, -3, 0), Vector3(2, 0, -1)
 	]:
-		await _set_up_car()
-		drive = func() -> void: car.position += velocity / 60.0
-		await _press()
-		var felt: PackedFloat64Array = await _mean_felt(60)
+		var felt: PackedFloat64Array = await _ride(velocity, AnimatableBody3D.new())
 		print("INFO lift at %s m/s: %.3f N" % [velocity, felt[1]])
 		rest = felt[1] if velocity == Vector3.ZERO else rest
 		check_near(felt[1], 0.81, 0.03, "lift at %s m/s" % velocity)
 		check_near(felt[1], rest, 0.01, "lift at %s m/s: as at rest" % velocity)
 		check_near(Vector2(felt[0], felt[2]).length(), 0.0, 0.02, "lift at %s m/s: nothing sideways" % velocity)
-		await _leave()
+
+
+func test_so_does_a_static_table_and_a_lift_that_is_moved_by_frames() -> void:
+	for in_frames: bool in [false, true]:
+		for table: StaticBody3D in [AnimatableBody3D.new(), StaticBody3D.new()]:
+			var kind: String = table.get_class()
+			for velocity: Vector3 in [Vector3(0, 1, 0), Vector3(0, -2, 1)]:
+				var felt: PackedFloat64Array = await _ride(velocity, table.duplicate(), in_frames)
+				check_near(felt[1], 0.81, 0.03, "%s at %s m/s, moved by frames: %s" % [kind, velocity, in_frames])
+			table.free()
+
+
+func test_a_floor_of_the_scene_is_where_it_is_for_a_vehicle() -> void:
+	await _set_up_car(Vector3.ZERO, AnimatableBody3D.new(), 0.2)
+	var floor_body := StaticBody3D.new()
+	_put_box(floor_body, Vector3(60.0, 0.1, 60.0), Vector3(0, FLOOR_Y - 0.05, 0))
+	add(floor_body)
+	hand.contact_friction = 0.0
+	drive = func() -> void: car.position += Vector3(1.5, 0, 0.5) / 60.0
+	await _press()
+	check_near((await _mean_felt(60))[1], 0.81, 0.03, "driven along")
+	# Down by 4 mm: as much deeper.
+	drive = func() -> void: car.position += Vector3(1.5, -0.004 / 30.0 if car.position.y > -0.004 else 0.0, 0.5) / Vector3(60, 1, 60)
+	await _ticks(60)
+	var felt: PackedFloat64Array = await _mean_felt(60)
+	check_near(felt[1], 0.81 * 9.0 / 5.0, 0.05, "and lower")
+	floor_body.free()
+	await _leave()
 
 
 func test_a_table_on_the_same_turntable_feels_as_at_rest() -> void:
@@ -165,8 +189,26 @@ func test_a_step_of_a_platform_feels_alike_whatever_body_it_is() -> void:
 		check_near(peaks[2], peaks[0], 0.03 * peaks[0], "step of %.0f mm: in step with physics" % step_mm)
 
 
-## A car with a device and a table, its hand in the middle.
-func _set_up_car(offset: Vector3 = Vector3.ZERO) -> void:
+## What is felt on a table of this kind that moves along.
+func _ride(velocity: Vector3, table: StaticBody3D, in_frames: bool = false) -> PackedFloat64Array:
+	await _set_up_car(Vector3.ZERO, table)
+	var move: Callable = func() -> void: car.position += velocity / 60.0
+	if in_frames:
+		tree.process_frame.connect(move)
+	else:
+		drive = move
+	await _press()
+	var felt: PackedFloat64Array = await _mean_felt(60)
+	if in_frames:
+		tree.process_frame.disconnect(move)
+	await _leave()
+	return felt
+
+
+## A car with a device and a table, its hand in the middle. below_m: how far the table is beneath its place.
+func _set_up_car(
+	offset: Vector3 = Vector3.ZERO, table: StaticBody3D = AnimatableBody3D.new(), below_m: float = 0.0
+) -> void:
 	drive = Callable()
 	car = Node3D.new()
 	add(car)
@@ -176,9 +218,9 @@ func _set_up_car(offset: Vector3 = Vector3.ZERO) -> void:
 	hand = Hand.new()
 	device.add_child(hand)
 	car.add_child(device)
-	var table := AnimatableBody3D.new()
-	table.sync_to_physics = false
-	_put_box(table, Vector3(1.0, 0.1, 1.0), offset + Vector3(0, FLOOR_Y - 0.05, 0))
+	if table is AnimatableBody3D:
+		table.set("sync_to_physics", false)
+	_put_box(table, Vector3(1.0, 0.1, 1.0), offset + Vector3(0, FLOOR_Y - 0.05 - below_m, 0))
 	car.add_child(table)
 	here = Transform3D(Basis.IDENTITY, offset)
 	angle = 0.0

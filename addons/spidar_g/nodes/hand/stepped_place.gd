@@ -24,11 +24,11 @@ func in_space(pose: Transform3D) -> Transform3D:
 	return pose if _rests() else _stepped * _device.global_transform.affine_inverse() * pose
 
 
-## What the device has turned by since then.
-func turn() -> Basis:
+## How far the device has gone on since then.
+func gone_on() -> Transform3D:
 	if _rests():
-		return Basis.IDENTITY
-	return _device.global_basis.orthonormalized() * _stepped.basis.orthonormalized().transposed()
+		return Transform3D.IDENTITY
+	return _device.global_transform * _stepped.affine_inverse()
 
 
 ## True in the tick in which the device was put elsewhere, farther than the coming step of delta_s could sweep a body.
