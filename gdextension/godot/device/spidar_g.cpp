@@ -330,13 +330,6 @@ void SpidarG::physics_tick() {
     call_deferred("_note_place");
 }
 
-void SpidarG::note_place() {
-    const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
-    if (is_inside_tree() && hz > 0) {
-        motion_.note(world(), 1.0 / hz);
-    }
-}
-
 int SpidarG::advance_cycles(int cycles) {
     if (!loop_ || drive_mode_ != DRIVE_STEPPED) {
         reject("advance_cycles needs an open device with drive_mode DRIVE_STEPPED.");

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <godot_cpp/classes/engine.hpp>
+
 #include "device/contract/grip_points.h"
 #include "godot/base/type_conversions.h"
 
@@ -109,6 +111,13 @@ void SpidarG::publish_contacts() {
     requests_.write_contacts(command_, snapshot_.time_s); // the game saw this one
     if (loop_) {
         loop_->publish(command_);
+    }
+}
+
+void SpidarG::note_place() {
+    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
+    if (is_inside_tree() && hz > 0) {
+        motion_.note(world(), 1.0 / hz);
     }
 }
 
