@@ -17,6 +17,8 @@ struct DeviceReading {
     std::uint8_t buttons = 0;
     // False: the counts have no reference yet (a real device before it was zeroed, or plugged in anew).
     bool zeroed = true;
+    // Good reports that came in since the reading before and were overtaken by this one: not lost.
+    std::uint16_t overtaken = 0;
     // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
     Status device_status = Status::ok;
     std::uint8_t fault_strings = 0; // bit i: string i, where an encoder fault says which

@@ -293,6 +293,7 @@ Status HidTransport::read(DeviceReading &reading) noexcept {
         m.start_after.store(newest.accepted_command, std::memory_order_relaxed);
     }
     m.answered.store((epoch << kSequenceBits) | newest.sequence, std::memory_order_release);
+    reading.overtaken = static_cast<std::uint16_t>(good - 1);
     m.intake.fill(reading, m.zero_number.load(), !m.zero_required.load());
     return Status::ok;
 }

@@ -28,7 +28,6 @@ double seconds(std::int64_t time_ns) noexcept {
 Status ServoThread::start(const ServoSettings &settings, Status open_status) noexcept {
     period_s_ = 1.0 / settings.rate_hz;
     reopen_interval_s_ = settings.reopen_interval_s;
-    device_clocked_ = settings.device_clocked;
     open_status_ = open_status;
     stop_asked_.store(false, std::memory_order_relaxed);
     try {
@@ -83,12 +82,18 @@ bool ServoThread::open_patiently() noexcept {
 void ServoThread::run_cycles() noexcept {
     CycleSource &source = cycle_.source();
     const std::int64_t period_ns = nanoseconds(period_s_);
+    const auto shortest_ns = nanoseconds(kShortestStepPart * period_s_);
     const bool simulated = source.simulated();
+    bool clocked = false;
     std::int64_t last_ns = monotonic_ns();
     std::int64_t deadline_ns = last_ns + period_ns;
     timing_.begin(last_ns);
     while (!stop_asked_.load(std::memory_order_acquire)) {
-        const bool clocked = device_clocked_ && source.wait_report(deadline_ns + period_ns);
+        // A device that streams is the clock: a cycle begins when its report comes, or half a period after it was due.
+        if (clocked) { // however fast it streams
+            sleep_until_ns(last_ns + shortest_ns);
+        }
+        clocked = source.wait_report(deadline_ns + period_ns / 2);
         if (!clocked) {
             sleep_until_ns(deadline_ns);
         }

@@ -37,7 +37,6 @@ private:
     Status open_status_ = Status::ok;
     double period_s_ = 0.001;
     double reopen_interval_s_ = 0.0;
-    bool device_clocked_ = false;
 };
 
 } // namespace spidar

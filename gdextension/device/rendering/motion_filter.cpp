@@ -31,25 +31,16 @@ void MotionFilter::configure(const RenderSettings &settings, double rate_hz) noe
     if (!(hz > 0.0) || !(hz < kHighestResonance * rate_hz)) {
         return; // offset stays zero
     }
-    // Bilinear transform, exact at the resonance: N(s) = (s^2 + 2 depth w s + w^2) / (s^2 + 2 width w s + w^2).
-    const double w = 2.0 * std::numbers::pi * hz;
-    const double c = w / std::tan(0.5 * w / rate_hz);
-    const double a0 = c * c + 2.0 * kNotchWidth * w * c + w * w;
-    const double b0 = (c * c + 2.0 * kNotchDepth * w * c + w * w) / a0;
-    const double b2 = (c * c - 2.0 * kNotchDepth * w * c + w * w) / a0;
-    a1_ = 2.0 * (w * w - c * c) / a0;
-    a2_ = (c * c - 2.0 * kNotchWidth * w * c + w * w) / a0;
-    // N - 1 has a zero at z = 1, which is divided out against the sum of the moves.
-    c0_ = b0 - 1.0;
-    c1_ = a2_ - b2;
-    steady_lead_s_ +=
-        (c0_ + c1_) / (1.0 + a1_ + a2_) / rate_hz; // offset of a steady move, per speed
+    // N(s) - 1, with N(s) = (s^2 + 2 depth w s + w^2) / (s^2 + 2 width w s + w^2).
+    w_ = 2.0 * std::numbers::pi * hz;
+    depth_ = 2.0 * (kNotchWidth - kNotchDepth) * w_;
+    warp_ = std::tan(0.5 * w_ / rate_hz) / (0.5 * w_ / rate_hz);
+    steady_lead_s_ -= depth_ / (w_ * w_ * warp_); // offset of a steady move, per speed
 }
 
 void MotionFilter::reset() noexcept {
-    moved_ = {};
     offset_ = {};
-    last_offset_ = {};
+    offset_rate_ = {};
     velocity_ = {};
     at_rest_ = true;
 }
@@ -59,19 +50,21 @@ void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
     std::ranges::copy(lanes(moved), now.begin());
     const double alpha = velocity_filter_.share(dt_s);
     const double per_s = 1.0 / dt_s;
+    // The trapezoidal rule over this cycle, however long it is. rates: before and after it, summed.
+    const double half_s = 0.5 * warp_ * dt_s;
+    const double pull = 2.0 * half_s * w_ * w_;
+    const double share = 1.0 / (1.0 + 2.0 * kNotchWidth * w_ * half_s + w_ * w_ * half_s * half_s);
     for (std::size_t i = 0; i < kLanes; ++i) {
-        const double offset =
-            c0_ * now[i] + c1_ * moved_[i] - a1_ * offset_[i] - a2_ * last_offset_[i];
-        const double speed = (now[i] + offset - offset_[i]) * per_s;
-        velocity_[i] += alpha * (speed - velocity_[i]);
-        last_offset_[i] = offset_[i];
-        offset_[i] = offset;
-        moved_[i] = now[i];
+        const double rates = share * (2.0 * offset_rate_[i] - pull * offset_[i] - depth_ * now[i]);
+        const double change = half_s * rates;
+        velocity_[i] += alpha * ((now[i] + change) * per_s - velocity_[i]);
+        offset_[i] += change;
+        offset_rate_[i] = rates - offset_rate_[i];
     }
     bool moving = false;
     for (std::size_t i = 0; i < kLanes && !moving; ++i) {
-        moving = std::abs(moved_[i]) > kRestMove || std::abs(offset_[i]) > kRestMove ||
-                 std::abs(last_offset_[i]) > kRestMove || std::abs(velocity_[i]) > kRestSpeed;
+        moving = std::abs(now[i]) > kRestMove || std::abs(offset_[i]) > kRestMove ||
+                 std::abs(offset_rate_[i]) > kRestSpeed || std::abs(velocity_[i]) > kRestSpeed;
     }
     at_rest_ = false;
     if (!moving) {

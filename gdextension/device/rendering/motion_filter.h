@@ -15,7 +15,7 @@ public:
     void configure(const RenderSettings &settings, double rate_hz) noexcept;
     // At rest: nothing ahead, no velocity.
     void reset() noexcept;
-    // moved: since the last cycle, as measured.
+    // moved: since the last cycle, which is dt_s ago.
     void update(const Displacement &moved, double dt_s) noexcept;
 
     [[nodiscard]] Displacement ahead() const noexcept;
@@ -33,14 +33,12 @@ private:
     OnePole velocity_filter_;
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
-    // offset = filtered - measured position = (c0 + c1 / z) / (1 + a1 / z + a2 / z^2) moved
-    double c0_ = 0.0;
-    double c1_ = 0.0;
-    double a1_ = 0.0;
-    double a2_ = 0.0;
-    Lanes moved_{};
+    // offset = filtered - measured position: offset'' + 2 width w offset' + w^2 offset = -depth speed
+    double w_ = 0.0; // 0: no notch
+    double depth_ = 0.0;
+    double warp_ = 1.0; // of time, so that the trapezoidal rule is exact at w
     Lanes offset_{};
-    Lanes last_offset_{};
+    Lanes offset_rate_{};
     Lanes velocity_{};
     bool at_rest_ = true;
 };

@@ -43,8 +43,6 @@ struct SafetySettings {
 struct ServoSettings {
     double rate_hz = 1000.0;          // 100 to 4000
     double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
-    // Threaded: cycles begin when the device's report comes, where it can say so (Transport::wait_report).
-    bool device_clocked = false;
     // Threaded: a device that does not open is tried again this often, by the loop's thread. 0: start fails.
     double reopen_interval_s = 0.0;
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));

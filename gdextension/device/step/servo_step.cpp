@@ -1,5 +1,7 @@
 #include "device/step/servo_step.h"
 
+#include <algorithm>
+
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
@@ -66,11 +68,12 @@ void ServoStep::take_limits(const HapticCommand &command) noexcept {
 void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept {
     if (!parts_.machine.zero_known() && !parts_.machine.checking_zero()) {
         tracking_ = false; // lengths without a zero mean nothing
-        parts_.tracker.hold(Status::zero_needed, dt_s, true);
+        hold_pose(Status::zero_needed, dt_s, true);
         return;
     }
-    const GripTracker::Update update =
-        parts_.tracker.update(counts, unchanged, snapshot_.tensions_n, dt_s);
+    const ReportClock &clock = parts_.link.clock();
+    const GripTracker::Update update = parts_.tracker.update(
+        counts, unchanged, snapshot_.tensions_n, {clock.since_used_s(), clock.age_s()});
     ServoCounters &counters = snapshot_.counters;
     counters.kinematics_skipped += update.skipped ? 1U : 0U;
     counters.cold_starts += update.cold_start ? 1U : 0U;
@@ -78,6 +81,7 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
         parts_.drive.forget_pose();
     }
     if (usable(update.status)) {
+        parts_.link.used();
         fresh_ = true;
         moved_ = update.moved;
         tracking_ = true;
@@ -89,19 +93,26 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
     tracking_ = false;
     ++counters.bad_samples;
     ++unsolved_in_row_;
-    parts_.tracker.hold(update.status, dt_s, unsolved_in_row_ >= settings_.safety.max_bad_samples);
+    hold_pose(update.status, dt_s, unsolved_in_row_ >= settings_.safety.max_bad_samples);
     // Without forces a grip that cannot be located harms nobody: it is reported, and arming waits for it.
     if (unsolved_in_row_ >= settings_.safety.max_bad_samples && parts_.machine.motors_on()) {
         raise(update.status, -1);
     }
 }
 
+void ServoStep::hold_pose(Status why, double dt_s, bool stale) noexcept {
+    if (parts_.tracker.hold(why, dt_s, stale)) {
+        parts_.drive.forget_pose();
+    }
+}
+
 void ServoStep::observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept {
     ServoCounters &counters = snapshot_.counters;
+    parts_.link.advance(dt_s);
     if (!usable(read_status) && read_status != Status::read_timeout) {
         tracking_ = false;
         lose(read_status);
-        parts_.tracker.hold(read_status, dt_s, true);
+        hold_pose(read_status, dt_s, true);
         parts_.guard.advance_without_reading(dt_s);
         return;
     }
@@ -114,7 +125,7 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
         parts_.link.absent(dt_s);
         const bool stale = parts_.link.stale();
         tracking_ = tracking_ && !stale;
-        parts_.tracker.hold(stale ? Status::read_timeout : Status::held_last_pose, dt_s, stale);
+        hold_pose(stale ? Status::read_timeout : Status::held_last_pose, dt_s, stale);
         if (stale && parts_.machine.motors_on()) {
             parts_.events.tell(DeviceEventKind::reports_late, -1, parts_.link.since_report_s());
         }
@@ -125,7 +136,7 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
     }
     parts_.link.arrived(dt_s);
     snapshot_.buttons = reading.buttons;
-    switch (parts_.guard.check(reading.counts, dt_s)) {
+    switch (parts_.guard.check(reading.counts, std::max(dt_s, parts_.link.clock().apart_s()))) {
     case SampleGuard::Verdict::good:
         solve_pose(reading.counts, false, dt_s);
         break;
@@ -135,12 +146,12 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
     case SampleGuard::Verdict::bad:
         ++counters.bad_samples;
         parts_.events.tell(DeviceEventKind::sample_refused, parts_.guard.bad_string());
-        parts_.tracker.hold(Status::held_last_pose, dt_s, false);
+        hold_pose(Status::held_last_pose, dt_s, false);
         break;
     case SampleGuard::Verdict::jumped:
         ++counters.bad_samples;
         tracking_ = false;
-        parts_.tracker.hold(Status::count_jump, dt_s, true);
+        hold_pose(Status::count_jump, dt_s, true);
         raise(Status::count_jump, parts_.guard.bad_string());
         break;
     }

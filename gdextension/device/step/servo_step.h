@@ -81,6 +81,7 @@ private:
     bool accept_report(const DeviceReading &reading) noexcept;
     void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
     void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
+    void hold_pose(Status why, double dt_s, bool stale) noexcept;
     void watch(double dt_s) noexcept;
     void check_zero(double dt_s) noexcept;
     void take_zero(const CountArray &counts) noexcept;

@@ -37,7 +37,9 @@ void ServoStep::rest(const DeviceReading &reading, const HapticCommand &command,
     parts_.events.begin_cycle(snapshot_.time_s);
     // What comes in anew at rest, too.
     game_.listen(command, dt_s);
+    parts_.link.advance(dt_s);
     (void)parts_.link.accept(reading);
+    parts_.link.used();
     snapshot_.buttons = reading.buttons;
     // Ages.
     parts_.renderer.advance_at_rest(dt_s);

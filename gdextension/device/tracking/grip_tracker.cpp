@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -15,6 +16,22 @@ namespace {
 
 // Far under what an encoder count in a second is (m/s, rad/s).
 constexpr double kRest = 1e-10;
+// In cut-offs of the twist. More lets the chatter of counts through, less is late when the hand turns back.
+constexpr double kCarrierCutoff = 2.5;
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+
+void approach(Twist &twist, const Twist &raw, double share) noexcept {
+    twist.linear_m_s += share * (raw.linear_m_s - twist.linear_m_s);
+    twist.angular_rad_s += share * (raw.angular_rad_s - twist.angular_rad_s);
+    twist.grasp_rate_rad_s += share * (raw.grasp_rate_rad_s - twist.grasp_rate_rad_s);
+}
+
+Displacement between(const GripPose &from_pose, const GripFrame &from, const GripPose &to_pose,
+                     const GripFrame &to) noexcept {
+    return {to_pose.position_m - from_pose.position_m,
+            rotation_log(to.rotation * glm::transpose(from.rotation)),
+            to.grasp_angle_rad - from.grasp_angle_rad};
+}
 
 } // namespace
 
@@ -26,10 +43,14 @@ Status GripTracker::configure(const ServoSettings &settings) noexcept {
     }
     *this = GripTracker();
     kinematics_ = kinematics;
+    geometry_ = settings.grip;
     lengths_of_.configure(settings.strings, settings.corrections);
     twist_filter_ = OnePole(settings.velocity_cutoff_hz);
+    carrier_filter_ = OnePole(kCarrierCutoff * settings.velocity_cutoff_hz);
     grip_.pose = rest_pose(settings.grip);
     grip_.frame = frame_of(grip_.pose, Mat3(1.0));
+    measured_ = grip_.pose;
+    measured_frame_ = grip_.frame;
     return Status::ok;
 }
 
@@ -37,9 +58,10 @@ void GripTracker::restart() noexcept {
     kinematics_.reset();
     has_pose_ = false;
     solved_ = false;
-    since_pose_s_ = 0.0;
     moved_ = Displacement();
+    carried_ = false;
     grip_.twist = Twist();
+    carrier_ = Twist();
     grip_.status = Status::held_last_pose;
 }
 
@@ -49,11 +71,8 @@ void GripTracker::set_zero(const CountArray &counts) noexcept {
 }
 
 void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
-    const double alpha = twist_filter_.share(dt_s);
-    Twist &twist = grip_.twist;
-    twist.linear_m_s += alpha * (raw.linear_m_s - twist.linear_m_s);
-    twist.angular_rad_s += alpha * (raw.angular_rad_s - twist.angular_rad_s);
-    twist.grasp_rate_rad_s += alpha * (raw.grasp_rate_rad_s - twist.grasp_rate_rad_s);
+    approach(grip_.twist, raw, twist_filter_.share(dt_s));
+    approach(carrier_, raw, carrier_filter_.share(dt_s));
 }
 
 // The pose did not change: the twist falls to exactly nothing.
@@ -69,6 +88,8 @@ void GripTracker::come_to_rest(double dt_s) noexcept {
     if (rests(twist.linear_m_s) && rests(twist.angular_rad_s) &&
         std::abs(twist.grasp_rate_rad_s) <= kRest) {
         grip_.twist = Twist();
+        carrier_ = Twist();
+        carrier_ = Twist();
     }
 }
 
@@ -78,16 +99,46 @@ bool GripTracker::at_rest() const noexcept {
            twist.grasp_rate_rad_s == 0.0;
 }
 
+void GripTracker::carry_on(double time_s) noexcept {
+    const Twist &twist = carrier_;
+    GripFrame &frame = grip_.frame;
+    const Vec3 position_m = grip_.pose.position_m + time_s * twist.linear_m_s;
+    frame.rotation = rotation_exp(time_s * twist.angular_rad_s) * frame.rotation;
+    if (geometry_.kind == GripKind::crossed) { // not beyond where the poles lie on each other
+        frame.grasp_angle_rad =
+            std::clamp(frame.grasp_angle_rad + time_s * twist.grasp_rate_rad_s, -kHalfPi, kHalfPi);
+        frame.crossing_angle_rad = kHalfPi - frame.grasp_angle_rad;
+    }
+    grip_.pose = make_pose(geometry_, position_m, frame.rotation, frame.grasp_angle_rad);
+    carried_ = true;
+}
+
+void GripTracker::place(double age_s) noexcept {
+    grip_.pose = measured_;
+    grip_.frame = measured_frame_;
+    carried_ = false;
+    if (age_s > 0.0 && !at_rest()) {
+        carry_on(age_s);
+    }
+}
+
 GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged,
-                                        const StringArray &tensions_n, double dt_s) noexcept {
+                                        const StringArray &tensions_n, const Made &made) noexcept {
     Update result;
     moved_ = Displacement();
-    const bool stretches = lengths_of_.follow(tensions_n, dt_s);
+    const bool stretches = lengths_of_.follow(tensions_n, made.after_s);
+    const bool was_carried = carried_;
+    const GripPose pose_before = grip_.pose;
+    const GripFrame frame_before = grip_.frame;
     if (unchanged && solved_ && !stretches) {
         result.skipped = true;
-        since_pose_s_ = 0.0;
         grip_.status = solved_status_;
-        come_to_rest(dt_s);
+        come_to_rest(made.after_s);
+        place(made.age_s);
+        result.moved = was_carried || carried_;
+        if (result.moved) {
+            moved_ = between(pose_before, frame_before, grip_.pose, grip_.frame);
+        }
         return result;
     }
     const StringArray lengths_m = lengths_of_.lengths(counts);
@@ -102,25 +153,27 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
         return result;
     }
     lengths_m_ = lengths_m;
-    const double elapsed_s = since_pose_s_ + dt_s;
-    since_pose_s_ = 0.0;
-    const GripFrame frame = frame_of(solution.pose, grip_.frame.rotation);
+    const double elapsed_s = made.after_s;
+    const GripFrame frame = frame_of(solution.pose, measured_frame_.rotation);
+    const bool found_anew = !has_pose_ || solution.cold_start;
     if (!has_pose_) {
         grip_.twist = Twist();
-    } else if (solution.cold_start) {
-        filter_twist(grip_.twist, dt_s); // found anew, not moved: a difference would be no velocity
-    } else {
-        Twist raw;
-        raw.linear_m_s = (solution.pose.position_m - grip_.pose.position_m) / elapsed_s;
-        raw.angular_rad_s =
-            rotation_log(frame.rotation * glm::transpose(grip_.frame.rotation)) / elapsed_s;
-        raw.grasp_rate_rad_s = (frame.grasp_angle_rad - grip_.frame.grasp_angle_rad) / elapsed_s;
-        filter_twist(raw, dt_s);
-        moved_ = {elapsed_s * raw.linear_m_s, elapsed_s * raw.angular_rad_s,
-                  elapsed_s * raw.grasp_rate_rad_s};
+        carrier_ = Twist();
+    } else if (!solution.cold_start) { // a difference to a pose found anew would be no velocity
+        const Displacement step = between(measured_, measured_frame_, solution.pose, frame);
+        filter_twist(
+            {step.linear_m / elapsed_s, step.angular_rad / elapsed_s, step.grasp_rad / elapsed_s},
+            elapsed_s);
+        moved_ = step;
     }
-    grip_.pose = solution.pose;
-    grip_.frame = frame;
+    measured_ = solution.pose;
+    measured_frame_ = frame;
+    place(made.age_s);
+    if (found_anew) {
+        moved_ = Displacement();
+    } else if (was_carried || carried_) {
+        moved_ = between(pose_before, frame_before, grip_.pose, grip_.frame);
+    }
     grip_.status = solution.status;
     solved_status_ = solution.status;
     has_pose_ = true;
@@ -129,13 +182,20 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     return result;
 }
 
-void GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
-    since_pose_s_ += dt_s;
+bool GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
     moved_ = Displacement();
     grip_.status = why;
     if (stale) {
         filter_twist(Twist(), dt_s);
     }
+    if (!has_pose_ || at_rest()) {
+        return false;
+    }
+    const GripPose pose_before = grip_.pose;
+    const GripFrame frame_before = grip_.frame;
+    carry_on(dt_s);
+    moved_ = between(pose_before, frame_before, grip_.pose, grip_.frame);
+    return true;
 }
 
 double GripTracker::fastest_point_m_s() const noexcept {

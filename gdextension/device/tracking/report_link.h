@@ -5,6 +5,7 @@
 
 #include "device/contract/transport.h"
 #include "device/settings/servo_settings.h"
+#include "device/tracking/report_clock.h"
 #include "device/tracking/report_order.h"
 
 namespace spidar {
@@ -21,10 +22,13 @@ public:
         slack_s_ = 0.5 * nominal_dt_s;
     }
     // The device may count its reports anew.
-    void expect_anew() noexcept { order_.reset(); }
+    void expect_anew() noexcept {
+        order_.reset();
+        clock_.reset();
+    }
     // A fault was cleared: what was missed is forgotten.
     void forgive() noexcept {
-        order_.reset();
+        expect_anew();
         since_report_s_ = 0.0;
     }
 
@@ -34,14 +38,15 @@ public:
             return false;
         }
         device_time_us_ = reading.device_time_us;
-        order_.reset();
+        expect_anew();
         return true;
     }
     // False: an old report, not to be used.
     bool accept(const DeviceReading &reading) noexcept {
-        if (!order_.accept(reading.sequence)) {
+        if (!order_.accept(reading.sequence, reading.overtaken)) {
             return false;
         }
+        clock_.arrived(reading.device_time_us);
         device_time_us_ = std::max(device_time_us_, reading.device_time_us);
         return true;
     }
@@ -52,6 +57,12 @@ public:
     }
     // Lost before the report accepted last.
     [[nodiscard]] int missed() const noexcept { return order_.missed(); }
+
+    // Once a cycle, first of all. dt_s: of the host's clock.
+    void advance(double dt_s) noexcept { clock_.advance(dt_s); }
+    // The report accepted last gave a pose.
+    void used() noexcept { clock_.used(); }
+    [[nodiscard]] const ReportClock &clock() const noexcept { return clock_; }
 
     // Once a cycle: a report that is used came in, or none did.
     void arrived(double dt_s) noexcept {
@@ -83,6 +94,7 @@ private:
     double lost_s_ = 0.0;
     double slack_s_ = 0.0;
     ReportOrder order_;
+    ReportClock clock_;
     std::uint64_t device_time_us_ = 0;
     bool answered_ = false; // any reading yet
     double since_report_s_ = 0.0;

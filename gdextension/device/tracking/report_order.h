@@ -1,6 +1,8 @@
-// Reports carry a number that grows by one: missing ones are counted, repeated and late ones left out.
+// Reports carry a number that grows by one, 0 to 0xFFFE and round again: missing ones are counted, repeated and late ones
+// left out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace spidar {
@@ -11,13 +13,15 @@ public:
     static constexpr int kAnew = 20;
 
     void reset() noexcept { *this = ReportOrder(); }
-    // True: use the report. A device that gives no numbers says 0 each time.
-    bool accept(std::uint16_t sequence) noexcept {
+    // True: use the report. A device that gives no numbers says 0 each time. overtaken: so many came in since the report
+    // before, and were left unread for this one.
+    bool accept(std::uint16_t sequence, int overtaken = 0) noexcept {
         missed_ = 0;
         const auto step = static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - last_));
         const bool first = !known_ || (sequence == 0 && last_ == 0);
         if (first || step > 0 || ++old_in_row_ > kAnew) {
-            missed_ = !first && step > 1 ? step - 1 : 0;
+            const int round = sequence < last_ ? 1 : 0; // 0xFFFF is no number
+            missed_ = !first && step > 1 ? std::max(0, step - 1 - round - overtaken) : 0;
             known_ = true;
             last_ = sequence;
             old_in_row_ = 0;
@@ -28,12 +32,15 @@ public:
     // Would this one be accepted with none missing?
     [[nodiscard]] bool follows(std::uint16_t sequence) const noexcept {
         const bool unnumbered = sequence == 0 && last_ == 0;
-        return known_ && (unnumbered || static_cast<std::uint16_t>(sequence - last_) == 1);
+        const bool round = sequence == 0 && last_ == kLast;
+        return known_ && (unnumbered || round || static_cast<std::uint16_t>(sequence - last_) == 1);
     }
     // Lost before the report accepted last.
     [[nodiscard]] int missed() const noexcept { return missed_; }
 
 private:
+    static constexpr std::uint16_t kLast = 0xFFFE;
+
     std::uint16_t last_ = 0;
     bool known_ = false;
     int missed_ = 0;

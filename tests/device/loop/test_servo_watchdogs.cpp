@@ -456,7 +456,6 @@ TEST_CASE("loop: a device that clocks it sets the rate; one that does not leaves
     device.clocks = true;
     ServoSettings settings = quick_settings();
     settings.rate_hz = 100.0; // the timer would give a hundred cycles a second
-    settings.device_clocked = true;
     ServoLoop loop(std::make_unique<SlowTransport>(device, false));
     REQUIRE(loop.start_threaded(settings) == Status::ok);
     const std::int64_t start_ns = monotonic_ns();

@@ -7,7 +7,7 @@
 
 namespace spidar {
 
-static_assert(count_members<DeviceReading>() == 7, "DeviceReading changed: list its fields here");
+static_assert(count_members<DeviceReading>() == 8, "DeviceReading changed: list its fields here");
 
 template <typename Reading, typename Visit>
 void for_each_field(Reading &reading, Visit &&visit) requires
@@ -18,6 +18,7 @@ void for_each_field(Reading &reading, Visit &&visit) requires
     visit("zeroed", 0, reading.zeroed);
     visit("device_status", 0, reading.device_status);
     visit("fault_strings", 0, reading.fault_strings);
+    visit("overtaken", 0, reading.overtaken);
 }
 
 } // namespace spidar

@@ -18,14 +18,13 @@ static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list 
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
 static_assert(count_members<LengthCorrections>() == 6, "LengthCorrections changed: list them");
-static_assert(count_members<ServoSettings>() == 13, "ServoSettings changed: list its fields here");
+static_assert(count_members<ServoSettings>() == 12, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
 void for_each_field(Settings &settings, Visit &&visit) requires
     std::is_same_v<std::remove_const_t<Settings>, ServoSettings> {
     visit("rate_hz", 0, settings.rate_hz);
     visit("velocity_cutoff_hz", 0, settings.velocity_cutoff_hz);
-    visit("device_clocked", 0, settings.device_clocked);
     visit("reopen_interval_s", 0, settings.reopen_interval_s);
     visit_vectors("frame.motors_m", settings.frame.motors_m, visit);
     visit("frame.pulley_radius_m", 0, settings.frame.pulley_radius_m);
