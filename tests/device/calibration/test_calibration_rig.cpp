@@ -217,10 +217,9 @@ TEST_CASE("rig: an endpoint that takes 15 ms a write delays nothing: nobody watc
     // Nobody gives orders any more. A write takes 15 ms, so a second has no more than 67 of them: counting cycles
     // that each write would have taken a thousand.
     const int writes = device.writes;
-    const int reads = device.reads;
     CHECK(in_time([&] { return !device.motors_on; }));
     CHECK(device.writes - writes <= 1.2 * kUnwatched_s / 0.015);
-    CHECK(device.reads - reads > device.writes - writes); // the rig read on while the device wrote
+    CHECK(device.reads > device.writes); // the rig reads on while the device takes its time
     CHECK(in_time([&] {
         (void)f.rig->latest(f.news);
         return !f.news.motors_on && f.news.task.verdict == TaskVerdict::stopped;
