@@ -7,7 +7,10 @@
 #include <thread>
 #include <utility>
 
+#include "device/safety/monitors/thermal_budget.h"
+#include "device/safety/motor_heat.h"
 #include "device/safety/safety_gate.h"
+#include "device/settings/servo_settings.h"
 #include "device/simulation/simulated_transport.h"
 #include "device/threads/real_time_thread.h"
 #include "device/threads/spsc_ring.h"
@@ -41,6 +44,7 @@ struct CalibrationRig::Impl {
     SimulatedTransport *simulated = nullptr; // the transport, when it is one
     CalibrationTasks tasks;
     SafetyGate gate;
+    ThermalBudget heat;
     DeviceReading reading;
     bool has_reading = false;
     double since_report_s = 0.0;
@@ -60,6 +64,7 @@ struct CalibrationRig::Impl {
 
     bool open() noexcept;
     void shut() noexcept;
+    void keep_heat() noexcept;
     void cycle(double dt_s) noexcept;
     void take_orders(double dt_s) noexcept;
     void move_hand(double dt_s) noexcept;
@@ -82,6 +87,9 @@ bool CalibrationRig::Impl::open() noexcept {
             if (!usable(status)) {
                 problem = problem.empty() ? describe(status) : problem;
                 transport.reset();
+            } else {
+                heat.configure(SafetySettings());
+                heat.set_heat(recall_motor_heat(transport->device_name(), monotonic_ns()));
             }
         }
     } catch (const std::exception &error) { // no memory, no thread
@@ -96,8 +104,17 @@ bool CalibrationRig::Impl::open() noexcept {
     return transport != nullptr;
 }
 
+void CalibrationRig::Impl::keep_heat() noexcept {
+    try {
+        keep_motor_heat(transport->device_name(), heat.heat(), SafetySettings().thermal_time_s,
+                        monotonic_ns());
+    } catch (const std::exception &) { // no memory for it
+    }
+}
+
 void CalibrationRig::Impl::shut() noexcept {
     if (transport) {
+        keep_heat();
         if (writer) {
             writer->stop(); // motors off
             writer.reset();
@@ -195,13 +212,18 @@ void CalibrationRig::Impl::drive(double dt_s) noexcept {
             glm::dot(off, off) < kArrived_m * kArrived_m &&
             glm::dot(truth.twist.linear_m_s, truth.twist.linear_m_s) < kStill_m_s * kStill_m_s;
     }
-    const StringArray wanted_n = tasks.step(orders.task, input);
+    StringArray wanted_n = tasks.step(orders.task, input);
+    if (heat.is_spent() && tasks.active()) {
+        stop_task(TaskVerdict::too_warm);
+        wanted_n = {};
+    }
     const TaskVerdict verdict = tasks.result().verdict;
     if (verdict == TaskVerdict::moved_too_fast || verdict == TaskVerdict::stopped ||
         verdict == TaskVerdict::not_ready) {
         gate.shut();
     }
     const SafetyGate::Output output = gate.pass(wanted_n, dt_s);
+    heat.spend(output.tensions_n, dt_s);
     DriveCommand command;
     command.tensions_n = output.tensions_n;
     command.currents_a = currents_from_tensions(settings.motors, output.tensions_n);

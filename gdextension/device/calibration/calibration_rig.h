@@ -1,6 +1,6 @@
 // A device on the bench: opened for calibration alone, read by a thread of its own, its motors moved by one
 // CalibrationTask at a time and never by a game. Weak and slow (kTaskMaxTension_n, kTaskSlew_n_per_ms), off unless a task
-// runs, and off when the one who gave it stops looking for kUnwatched_s. Time is measured, and a device whose write may
+// runs, off when the one who gave it stops looking for kUnwatched_s, and off while a motor is too warm. Time is measured, and a device whose write may
 // block is written by a WriterThread, so that a slow endpoint delays nothing. No call here waits for the device, but the
 // destructor waits for the call to the device that is under way.
 #pragma once

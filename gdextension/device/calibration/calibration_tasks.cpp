@@ -48,6 +48,9 @@ const char *describe(TaskVerdict verdict) noexcept {
         return "Stopped; the motors are off.";
     case TaskVerdict::not_ready:
         return "The device cannot pull now.";
+    case TaskVerdict::too_warm:
+        return "A motor is too warm, so the motors were switched off. Let it cool for half a "
+               "minute and try again.";
     }
     return "Unknown verdict.";
 }

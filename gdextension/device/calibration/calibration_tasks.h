@@ -26,6 +26,7 @@ enum class TaskVerdict : std::uint8_t {
     moved_too_fast = 6, // a string faster than kTaskSpeed_m_s: motors off
     stopped = 7,        // motors off: stopped, or nobody watches any more
     not_ready = 8,      // the device cannot pull: RigNews::device_status says why
+    too_warm = 9,       // a motor's thermal budget is spent: motors off
 };
 
 // One plain English sentence; never null.

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "device/loop/motor_heat.h"
+#include "device/safety/motor_heat.h"
 #include "device/threads/real_time_thread.h"
 
 namespace spidar {

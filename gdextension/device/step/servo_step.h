@@ -42,7 +42,7 @@ public:
     // A failed write: counted; device lost.
     void report_write(Status write_status) noexcept;
 
-    // How warm each motor is, as a share of its thermal budget: it outlasts the loop that warmed it (loop/motor_heat.h).
+    // How warm each motor is, as a share of its thermal budget: it outlasts the loop that warmed it (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return parts_.monitor.heat().heat(); }
     void set_heat(const StringArray &heat) noexcept {
         parts_.monitor.set_heat(heat);

@@ -14,8 +14,8 @@ using spidar::RigState;
 static_assert(static_cast<int>(RigState::failed) == SpidarGCalibrator::DEVICE_FAILED);
 static_assert(static_cast<int>(spidar::CalibrationTask::weighing) ==
               SpidarGCalibrator::TASK_WEIGHING);
-static_assert(static_cast<int>(spidar::TaskVerdict::not_ready) ==
-              SpidarGCalibrator::VERDICT_NOT_READY);
+static_assert(static_cast<int>(spidar::TaskVerdict::too_warm) ==
+              SpidarGCalibrator::VERDICT_TOO_WARM);
 static_assert(static_cast<int>(spidar::HandScript::place) == SpidarGCalibrator::HAND_PLACE);
 
 namespace {

@@ -35,7 +35,8 @@ public:
         VERDICT_NOT_LIFTED,
         VERDICT_MOVED_TOO_FAST,
         VERDICT_STOPPED,
-        VERDICT_NOT_READY
+        VERDICT_NOT_READY,
+        VERDICT_TOO_WARM
     };
     enum Hand { HAND_HOME, HAND_FREE_MOTION, HAND_PLACE };
 

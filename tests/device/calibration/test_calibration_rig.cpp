@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "device/calibration/calibration_rig.h"
+#include "device/safety/motor_heat.h"
 #include "device/simulation/simulated_transport.h"
+#include "device/threads/real_time_thread.h"
 
 using namespace spidar;
 
@@ -154,6 +156,7 @@ namespace {
 
 // A real device whose endpoint takes its time for each write, and may stop to take any.
 struct SlowEndpoint {
+    std::string name;
     std::atomic<int> write_takes_ms{15};
     std::atomic<bool> motors_on{false};
     std::atomic<int> writes{0};
@@ -178,6 +181,7 @@ public:
         return Status::ok;
     }
     [[nodiscard]] bool write_may_block() const noexcept override { return true; }
+    [[nodiscard]] std::string device_name() const override { return device_.name; }
 
 private:
     SlowEndpoint &device_;
@@ -258,6 +262,46 @@ TEST_CASE("rig: a device that takes no more commands ends the task") {
     CHECK(in_time([&] { return !device.motors_on; }));
     f.rig.reset();
     CHECK_FALSE(device.motors_on_at_close);
+}
+
+TEST_CASE(
+    "rig: the heat of a motor comes from before and stays for whoever opens the device next") {
+    SlowEndpoint device;
+    device.write_takes_ms = 0;
+    device.name = "rig/heat";
+    Fixture f;
+    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
+    const auto open = [&] {
+        f.rig = std::make_unique<CalibrationRig>(f.settings, [&](std::string &) {
+            return std::make_unique<SlowEndpointTransport>(device);
+        });
+        f.rig->start_stepped();
+    };
+    open();
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    f.step(10.0);
+    CHECK(device.motors_on);
+    f.rig.reset();
+    CHECK_FALSE(device.motors_on);
+    // Ten seconds at 0.5 N of 3.5 N, with a time constant of 12 s; the ramp is 25 ms.
+    const double share = 0.5 * 0.5 / (3.5 * 3.5) * (1.0 - std::exp(-10.0 / 12.0));
+    const StringArray kept = recall_motor_heat("rig/heat", monotonic_ns());
+    CHECK(kept[5] == doctest::Approx(share).epsilon(0.05));
+
+    StringArray hot{};
+    hot[2] = 1.2;
+    keep_motor_heat("rig/heat", hot, 12.0, monotonic_ns());
+    open();
+    f.orders.task.number = 2;
+    f.step(0.2);
+    CHECK(f.news.task.verdict == TaskVerdict::too_warm);
+    CHECK_FALSE(f.news.motors_on);
+    CHECK_FALSE(device.motors_on);
+    f.step(5.0); // it cools
+    ++f.orders.task.number;
+    f.step(0.2);
+    CHECK(f.news.task.verdict == TaskVerdict::running);
+    CHECK(device.motors_on);
 }
 
 TEST_CASE("rig: the scripted hand of the simulated device covers the workspace") {

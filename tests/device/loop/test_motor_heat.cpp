@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "device/loop/motor_heat.h"
+#include "device/safety/motor_heat.h"
 #include "device/threads/real_time_thread.h"
 #include "support/servo_fixture.h"
 

@@ -9,7 +9,8 @@ const CalibrationSession := preload("calibration_session.gd")
 const ResidualPlot := preload("residual_plot.gd")
 
 const SHORT_VERDICTS: PackedStringArray = [
-	"...", "right", "no movement", "WRONG STRING", "other way round", "not lifted", "too fast", "stopped", "not ready"
+	"...", "right", "no movement", "WRONG STRING", "other way round", "not lifted", "too fast", "stopped", "not ready",
+	"too warm"
 ]
 
 var _session: CalibrationSession

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] double spent() const noexcept { return warmest_; }
     // NaN counts as too warm.
     [[nodiscard]] bool is_spent() const noexcept { return !(warmest_ < 1.0); }
-    // Share of its budget that each motor has spent: what outlasts a loop (loop/motor_heat.h).
+    // Share of its budget that each motor has spent: what outlasts a loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return heat_; }
     void set_heat(const StringArray &heat) noexcept;
     [[nodiscard]] int warmest_string() const noexcept;

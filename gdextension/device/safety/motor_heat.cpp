@@ -1,4 +1,4 @@
-#include "device/loop/motor_heat.h"
+#include "device/safety/motor_heat.h"
 
 #include <algorithm>
 #include <cmath>
