@@ -46,6 +46,8 @@ const char *describe(Status status) noexcept {
         return "The wrench or contact data is malformed; the request was ignored.";
     case Status::too_few_samples:
         return "There are not enough usable measurements to calibrate from; record more.";
+    case Status::invalid_shape:
+        return "The shape is empty or impossible; the sentence that comes with it names the field.";
     case Status::not_open:
         return "The device is not open; open it first.";
     case Status::open_failed:

@@ -26,6 +26,7 @@ enum class Status : std::int32_t {
     count_jump = -9,          // an encoder moved faster than a string can
     invalid_request = -10,    // wrench or contact data malformed
     too_few_samples = -11,    // calibration: not enough usable measurements
+    invalid_shape = -12,      // a shape of the scene or the tool is empty or impossible
     // Device.
     not_open = -20,
     open_failed = -21,

@@ -1,0 +1,49 @@
+// A shape that touches the scene: a pad of the grip, or a convex part of a held body. It is a core and a skin: all
+// points within skin_m of the core. The skins of two things meet while their cores stay apart, so distances and normals
+// stay exact at touch. A tool of several convex parts is several ToolShapes, each asked with its own placement.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/status.h"
+#include "device/contact/shapes/cooked_shape.h"
+
+namespace spidar {
+
+// Used when nothing else is asked for (m): a tenth of a pad, and 40 encoder counts.
+inline constexpr double kDefaultSkin_m = 1e-3;
+
+class ToolShape {
+public:
+    struct Data;
+
+    explicit ToolShape(std::unique_ptr<const Data> data);
+    ~ToolShape();
+    ToolShape(const ToolShape &) = delete;
+    ToolShape &operator=(const ToolShape &) = delete;
+
+    [[nodiscard]] double skin_m() const noexcept;
+    // Radius about the tool's origin that holds the tool, skin included (m).
+    [[nodiscard]] double reach_m() const noexcept;
+    [[nodiscard]] const Data &data() const noexcept { return *data_; }
+
+private:
+    std::unique_ptr<const Data> data_;
+};
+
+struct ToolResult {
+    Status status = Status::ok;
+    std::string sentence;                  // what was wrong; empty if nothing was
+    std::shared_ptr<const ToolShape> tool; // set if usable(status)
+};
+
+// A disc with its axis along Y: outer radius radius_m, outer thickness 2 half_thickness_m, edges rounded by skin_m.
+// With skin_m = half_thickness_m its core is flat, which is fastest on meshes.
+[[nodiscard]] ToolResult make_pad(double radius_m, double half_thickness_m, double skin_m);
+[[nodiscard]] ToolResult make_sphere(double radius_m);
+// The convex shape itself with its edges rounded by skin_m: its faces stay where they are. A shape thinner than twice
+// skin_m gets a thinner skin. Not for meshes, height maps and half spaces: give their hull.
+[[nodiscard]] ToolResult make_tool(const CookedShape &shape, double skin_m = kDefaultSkin_m);
+
+} // namespace spidar
