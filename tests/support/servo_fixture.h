@@ -7,6 +7,7 @@
 #include "device/loop/servo_loop.h"
 #include "device/simulation/simulated_transport.h"
 #include "device/step/servo_step.h"
+#include "support/tick_checks.h"
 
 namespace spidar::test {
 
@@ -48,6 +49,7 @@ struct Bench {
     Status read_status = Status::ok;
     bool simulated = true;
     DriveCommand drive;
+    TickChecks checks;
 
     Bench() { start(); }
     void start() { started = step.configure(settings); }
@@ -57,6 +59,7 @@ struct Bench {
     void tick(int times = 1, double dt_s = kTick_s) {
         for (int i = 0; i < times; ++i) {
             drive = step.step(read_status, reading, command, dt_s, simulated);
+            checks.check(settings, read_status, reading, drive, now(), dt_s);
         }
     }
     // Forces on and the ramp over.

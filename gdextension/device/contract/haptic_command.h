@@ -121,7 +121,7 @@ struct HapticCommand {
     std::uint32_t heartbeat = 0;
     // The loop's own watchdogs and panic_stop() set these, not the game: motors off for this reason, latched.
     std::uint32_t stop_count = 0;
-    Status stop_reason = Status::ok;
+    Status stop_reason = Status::panic_stopped;
 
     // A wrench that the game asks for itself, beside contacts and coupling. Each change of wrench_sequence applies it in
     // full for wrench_duration_s; then it fades out within SafetySettings::wrench_fade_s.

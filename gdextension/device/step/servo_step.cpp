@@ -249,7 +249,8 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
         clear_fault(usable(read_status));
     }
     if (edges.stop) {
-        raise(command.stop_reason, -1);
+        // A stop without a reason is a panic: FAULT always says why, or nobody could clear it.
+        raise(usable(command.stop_reason) ? Status::panic_stopped : command.stop_reason, -1);
     }
     if (jumped) {
         jump_clock(asked_dt_s);

@@ -7,6 +7,7 @@
 #include "core/presets/presets.h"
 #include "device/simulation/simulated_plant.h"
 #include "support/servo_fixture.h"
+#include "support/tick_checks.h"
 
 using namespace spidar;
 
@@ -17,6 +18,7 @@ struct RigidRig {
     PlantSettings plant_settings;
     ServoSettings settings;
     HapticCommand command;
+    test::TickChecks checks;
     ServoStep step;
 
     RigidRig() {
@@ -42,6 +44,7 @@ struct RigidRig {
             DeviceReading reading;
             reading.counts = plant.counts();
             const DriveCommand drive = step.step(Status::ok, reading, command, test::kTick_s, true);
+            checks.check(settings, Status::ok, reading, drive, step.snapshot(), test::kTick_s);
             plant.set_currents(drive.currents_a);
             plant.advance(test::kTick_s);
         }
