@@ -22,12 +22,9 @@ public:
         : TensionMethod(name), level_(level), safe_only_(safe_only) {}
 
     bool solve(const TensionProblem &problem, bool warm, StringArray &tensions_n) override {
-        if (simd_level() != level_) { // setting it asks the processor, which a servo loop does once
-            set_simd_level(level_);
-        }
         const ActiveSet *from = warm ? &last_ : nullptr;
-        const TensionSolution solution =
-            safe_only_ ? solve_exactly(problem, from) : solve_tension_problem(problem, from);
+        const TensionSolution solution = safe_only_ ? solve_exactly(problem, from)
+                                                    : solve_tension_problem(problem, from, level_);
         last_ = solution.active;
         tensions_n = solution.tensions_n;
         return solution.status == Status::ok;

@@ -137,10 +137,11 @@ void add_events(Digest &digest, const ServoStep &step) {
     }
 }
 
-unsigned long long digest_of_steps(long cases, std::uint64_t seed) {
+unsigned long long digest_of_steps(long cases, std::uint64_t seed, SimdLevel level) {
     Digest digest;
     for (long begin = 0; begin < cases; begin += kSequence) {
         test::ServoStepInput input(seed, static_cast<std::uint64_t>(begin / kSequence));
+        input.settings.tension.simd = level;
         const auto step = std::make_unique<ServoStep>();
         digest.number(step->configure(input.settings));
         for (long at = begin; at < begin + kSequence && at < cases; ++at) {
@@ -165,15 +166,18 @@ void add_solution(Digest &digest, const TensionSolution &solution) {
     digest.number(solution.status);
 }
 
-unsigned long long digest_of_problems(long cases, std::uint64_t seed) {
+unsigned long long digest_of_problems(long cases, std::uint64_t seed, SimdLevel level) {
     Digest digest;
+    TensionSettings settings;
+    settings.simd = level;
     TensionSolver solver; // the same problems as ticks of one device
+    (void)solver.configure(settings);
     for (long i = 0; i < cases; ++i) {
         const TensionProblem problem =
             test::random_problem(seed + static_cast<std::uint64_t>(i)).problem;
-        const TensionSolution solution = solve_tension_problem(problem, nullptr);
+        const TensionSolution solution = solve_tension_problem(problem, nullptr, level);
         add_solution(digest, solution);
-        add_solution(digest, solve_tension_problem(problem, &solution.active));
+        add_solution(digest, solve_tension_problem(problem, &solution.active, level));
         const TensionResult result = solver.update(problem.matrix, problem.wrench);
         digest.add(result.tensions_n);
         digest.number(result.at_min_mask);
@@ -188,18 +192,19 @@ unsigned long long digest_of_problems(long cases, std::uint64_t seed) {
 int main(int argc, char **argv) {
     const long cases = test::whole_option(argc, argv, "--cases", 1000000);
     const long seed = test::whole_option(argc, argv, "--seed", 1);
-    const char *const level = test::option_text(argc, argv, "--level");
-    const bool plain = level == nullptr || std::strcmp(level, "plain") == 0;
-    if (cases <= 0 || seed < 0 || (!plain && std::strcmp(level, "avx2") != 0)) {
+    const char *const name = test::option_text(argc, argv, "--level");
+    const bool plain = name == nullptr || std::strcmp(name, "plain") == 0;
+    if (cases <= 0 || seed < 0 || (!plain && std::strcmp(name, "avx2") != 0)) {
         std::fprintf(stderr, "usage: bits_digest [--cases N>0] [--seed S] [--level plain|avx2]\n");
         return 2;
     }
-    if (!set_simd_level(plain ? SimdLevel::plain : SimdLevel::avx2)) {
+    const SimdLevel level = plain ? SimdLevel::plain : SimdLevel::avx2;
+    if (!supports(level)) {
         std::fprintf(stderr, "bits_digest: this processor has no AVX2\n");
         return 2;
     }
     const auto start = static_cast<std::uint64_t>(seed);
-    std::printf("%ld servo steps:       %016llx\n", cases, digest_of_steps(cases, start));
-    std::printf("%ld tension problems:  %016llx\n", cases, digest_of_problems(cases, start));
+    std::printf("%ld servo steps:       %016llx\n", cases, digest_of_steps(cases, start, level));
+    std::printf("%ld tension problems:  %016llx\n", cases, digest_of_problems(cases, start, level));
     return 0;
 }

@@ -66,7 +66,7 @@ public:
         : input_(seed, number), step_(std::make_unique<ServoStep>()),
           twin_(std::make_unique<ServoStep>()) {
         const SimdLevel level = number % 2 == 0 ? SimdLevel::plain : SimdLevel::avx2;
-        set_simd_level(supports(level) ? level : SimdLevel::plain);
+        input_.settings.tension.simd = supports(level) ? level : SimdLevel::plain;
         configured_ = usable(step_->configure(input_.settings));
         wall_.configure(input_.settings);
         before_ = step_->snapshot();

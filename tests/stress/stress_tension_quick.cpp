@@ -325,13 +325,12 @@ int main(int argc, char **argv) {
             spoil(dice, problem);
             ++hostile_cases;
         }
-        const SimdLevel level = dice.one_in(2) ? SimdLevel::plain : SimdLevel::avx2;
-        set_simd_level(supports(level) ? level : SimdLevel::plain);
+        const SimdLevel level = dice.one_in(2) ? SimdLevel::plain : best_simd_level();
         for (StringBound &bound : last) { // any guess may cost time only
             bound = static_cast<StringBound>(dice.bits() % 3);
         }
         const TensionSolution solution =
-            solve_tension_problem(problem, dice.one_in(2) ? &last : nullptr);
+            solve_tension_problem(problem, dice.one_in(2) ? &last : nullptr, level);
         const Judgement judgement = judge(problem, solution);
         flagged += judgement.flagged ? 1U : 0U;
         if (judgement.violation > worst) {

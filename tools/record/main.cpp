@@ -67,7 +67,8 @@ int info(const std::string &path) {
     const RecordingInfo &about = reader.info();
     const std::string replay = why_no_replay(about);
     std::printf("version %s, started %s, vector level %s, %g Hz\n", about.version.c_str(),
-                about.started_utc.c_str(), describe(about.simd), about.settings.rate_hz);
+                about.started_utc.c_str(), describe(about.settings.tension.simd),
+                about.settings.rate_hz);
     std::printf("replay by this build: %s\n", replay.empty() ? "yes, to the bit" : replay.c_str());
     RecordedCycle cycle;
     RecordedCycle before;

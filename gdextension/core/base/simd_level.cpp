@@ -1,20 +1,6 @@
 #include "core/base/simd_level.h"
 
-#include <atomic>
-
 namespace spidar {
-
-namespace {
-
-SimdLevel best_level() noexcept {
-    return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
-}
-
-// Set before main() and known without a look at whether it is: a solve reads it.
-constinit std::atomic<SimdLevel> current_level{SimdLevel::plain};
-[[maybe_unused]] const bool kBestAtStart = set_simd_level(best_level());
-
-} // namespace
 
 bool supports(SimdLevel level) noexcept {
     if (level == SimdLevel::plain) {
@@ -28,16 +14,8 @@ bool supports(SimdLevel level) noexcept {
 #endif
 }
 
-SimdLevel simd_level() noexcept {
-    return current_level.load(std::memory_order_relaxed);
-}
-
-bool set_simd_level(SimdLevel level) noexcept {
-    if (!supports(level)) {
-        return false;
-    }
-    current_level.store(level, std::memory_order_relaxed);
-    return true;
+SimdLevel best_simd_level() noexcept {
+    return supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain;
 }
 
 const char *describe(SimdLevel level) noexcept {

@@ -1,5 +1,5 @@
-// Which build of the vector kernels runs. All give the exact optimum; their last bits differ, so a recording stores
-// the level it ran at and replay sets it.
+// Which build of the vector kernels a solver runs. All builds give the exact optimum, but their last bits differ: the
+// level is a setting of each solver, and a recording stores it.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,8 @@ enum class SimdLevel : std::uint8_t {
 // Can this processor, and this build, run that level?
 [[nodiscard]] bool supports(SimdLevel level) noexcept;
 
-// The level in use: the best one there is, until set_simd_level() says otherwise.
-[[nodiscard]] SimdLevel simd_level() noexcept;
-
-// For the whole process, from the next solve on. False, and nothing changes, when it is not supported.
-bool set_simd_level(SimdLevel level) noexcept;
+// The fastest level that is supported. Asks the processor: not for a servo loop.
+[[nodiscard]] SimdLevel best_simd_level() noexcept;
 
 [[nodiscard]] const char *describe(SimdLevel level) noexcept;
 

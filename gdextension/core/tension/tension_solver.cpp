@@ -91,15 +91,19 @@ Fault find_fault(const TensionSettings &s) noexcept {
         return {"ridge", s.ridge, "",
                 "give 1e-12 or more (1e-9 is usual): it makes the answer unique."};
     }
+    if (!supports(s.simd)) {
+        return {"simd", static_cast<double>(s.simd), "",
+                "give a level that this processor supports (0 is supported by all)."};
+    }
     return {};
 }
 
 } // namespace
 
-TensionSolution solve_tension_problem(const TensionProblem &problem,
-                                      const ActiveSet *warm) noexcept {
+TensionSolution solve_tension_problem(const TensionProblem &problem, const ActiveSet *warm,
+                                      SimdLevel level) noexcept {
     TensionSolution solution; // the one that is returned: no copy
-    if (!solve_fast(FastInput::of(problem), warm, solution)) {
+    if (!solve_fast(FastInput::of(problem), warm, level, solution)) {
         solution = solve_exactly(problem, warm);
     }
     return solution;
@@ -153,7 +157,8 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix,
         return last_result_;
     }
     // The fast path certifies its answer, so it refuses whatever is not finite.
-    if (solve_fast({problem_, matrix, wrench}, warm_ ? &last_active_ : nullptr, fast_)) {
+    if (solve_fast({problem_, matrix, wrench}, warm_ ? &last_active_ : nullptr, settings_.simd,
+                   fast_)) {
         return remember(fast_, matrix, wrench);
     }
     return update_carefully(matrix, wrench);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/simd_level.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/geometry/wrench_matrix.h"
@@ -16,8 +17,10 @@
 namespace spidar {
 
 // Exact optimum of `problem`, as solve_exactly() gives it: by the fast path where that can certify its answer.
+// level: one that the processor supports.
 [[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
-                                                    const ActiveSet *warm) noexcept;
+                                                    const ActiveSet *warm,
+                                                    SimdLevel level = best_simd_level()) noexcept;
 
 inline constexpr std::uint8_t kAllDofs = 0x7F;
 inline constexpr std::uint8_t kTranslationOnly = 0x07;
@@ -37,6 +40,7 @@ struct TensionSettings {
     // whatever suits the rest.
     std::uint8_t dof_mask = kAllDofs;
     std::uint8_t broken_mask = 0; // bit i: string i is broken, its tension is 0
+    SimdLevel simd = best_simd_level();
 };
 
 struct TensionResult {

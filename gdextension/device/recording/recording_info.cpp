@@ -7,6 +7,7 @@
 #include <ctime>
 #include <limits>
 
+#include "core/base/simd_level.h"
 #include "device/recording/build_identity.h"
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/reading_fields.h"
@@ -107,12 +108,6 @@ bool read_field(std::string_view name, std::string_view value, RecordingInfo &in
         return value_of(value, info.reading_words) && info.reading_words <= kMostWords;
     } else if (name == "state_bytes") {
         return value_of(value, info.state_bytes) && info.state_bytes <= kMostStateBytes;
-    } else if (name == "simd") {
-        int level = 0;
-        constexpr int kMostLevels = 16; // whether this processor has it is asked by why_no_replay()
-        const bool good = value_of(value, level) && level >= 0 && level < kMostLevels;
-        info.simd = static_cast<SimdLevel>(level);
-        return good;
     } else if (name.substr(0, kSettings.size()) == kSettings) {
         return read_setting(name.substr(kSettings.size()), value, info.settings);
     }
@@ -130,7 +125,6 @@ RecordingInfo describe_recording(const ServoSettings &settings) {
     info.command_words = count_fields(HapticCommand{});
     info.reading_words = count_fields(DeviceReading{});
     info.state_bytes = sizeof(ServoStep);
-    info.simd = simd_level();
     info.settings = settings;
     return info;
 }
@@ -142,7 +136,6 @@ std::string to_text(const RecordingInfo &info) {
     line(text, "version", info.version);
     line(text, "started_utc", info.started_utc);
     line(text, "build", hex(info.build));
-    line(text, "simd", text_of(info.simd));
     line(text, "command_schema", hex(info.command_schema));
     line(text, "command_words", text_of(info.command_words));
     line(text, "reading_words", text_of(info.reading_words));
@@ -201,9 +194,10 @@ std::string why_no_replay(const RecordingInfo &info) {
         return "The recording holds another form of commands or memory than this build has. "
                "Replay it with the build that made it.";
     }
-    if (!supports(info.simd)) {
-        return "The recording was made at vector level " +
-               std::to_string(static_cast<int>(info.simd)) + " (" + describe(info.simd) +
+    const SimdLevel level = info.settings.tension.simd;
+    if (!supports(level)) {
+        return "The recording was made at vector level " + std::to_string(static_cast<int>(level)) +
+               " (" + describe(level) +
                "), which this processor or this version of spidar_g lacks: its cycles can be read, "
                "but not replayed to the bit. Replay it where that level is supported.";
     }

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/simd_level.h"
 #include "device/settings/servo_settings.h"
 
 namespace spidar {
@@ -22,7 +21,6 @@ struct RecordingInfo {
     std::uint64_t command_words = 0;
     std::uint64_t reading_words = 0; // reading_fields.h
     std::uint64_t state_bytes = 0;   // of the step's memory
-    SimdLevel simd = SimdLevel::plain;
     ServoSettings settings;
 };
 

@@ -14,22 +14,7 @@ std::string Replay::load(const std::string &path) {
 }
 
 Status Replay::open() noexcept {
-    if (is_open_) {
-        return Status::ok;
-    }
-    level_before_ = simd_level();
-    if (!set_simd_level(reader_.info().simd)) {
-        return Status::open_failed;
-    }
-    is_open_ = true;
-    return Status::ok;
-}
-
-void Replay::close() noexcept {
-    if (is_open_) {
-        set_simd_level(level_before_);
-        is_open_ = false;
-    }
+    return supports(reader_.info().settings.tension.simd) ? Status::ok : Status::open_failed;
 }
 
 bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {

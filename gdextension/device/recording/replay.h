@@ -31,9 +31,8 @@ public:
     [[nodiscard]] const ServoSettings &settings() const noexcept { return reader_.info().settings; }
     [[nodiscard]] const RecordingInfo &info() const noexcept { return reader_.info(); }
 
-    // Sets the process to the vector level of the recording, and back when closed.
     Status open() noexcept override;
-    void close() noexcept override;
+    void close() noexcept override {}
     [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
     // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
@@ -53,8 +52,6 @@ public:
 private:
     RecordingReader reader_;
     RecordedCycle cycle_;
-    SimdLevel level_before_ = SimdLevel::plain;
-    bool is_open_ = false;
     std::atomic<std::uint64_t> cycles_{0};
     std::atomic<std::uint64_t> differing_{0};
     std::atomic<std::uint64_t> first_differing_{0};

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "core/base/simd_level.h"
 #include "support/servo_step_input.h"
 #include "support/step_twin.h"
 
@@ -162,9 +161,7 @@ TEST_CASE("step at rest: with stretch it begins only where the tensions are thos
           "before, to the bit") {
     // Found by stress_servo_step, two in 5 x 10^8 steps: a solve that was skipped gave a tension a rounding away, whose
     // stretch the next step would have followed.
-    const SimdLevel level = simd_level();
     for (const std::uint64_t sequence : {31186U, 53620U}) {
-        set_simd_level(supports(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::plain);
         spidar::test::ServoStepInput input(6001, sequence);
         const auto step = std::make_unique<ServoStep>();
         const auto whole = std::make_unique<ServoStep>();
@@ -180,5 +177,4 @@ TEST_CASE("step at rest: with stretch it begins only where the tensions are thos
             REQUIRE(step->snapshot().tensions_n == whole->snapshot().tensions_n);
         }
     }
-    set_simd_level(level);
 }

@@ -1,6 +1,7 @@
 // The fast way to the optimum of a TensionProblem, which answers only what it can certify itself.
 #pragma once
 
+#include "core/base/simd_level.h"
 #include "core/tension/exact/tension_problem.h"
 
 namespace spidar {
@@ -20,11 +21,11 @@ struct FastInput {
 
 // True: `solution` is the optimum to rounding, its KKT conditions checked with a gradient taken from A itself, every
 // sign beyond its rounding. False: `solution` means nothing; the exact search decides (bad input, degenerate or
-// nearly singular problems).
-[[nodiscard]] bool solve_fast(const FastInput &input, const ActiveSet *warm,
+// nearly singular problems). level: one that the processor supports.
+[[nodiscard]] bool solve_fast(const FastInput &input, const ActiveSet *warm, SimdLevel level,
                               TensionSolution &solution) noexcept;
 
-// The builds of it that solve_fast() chooses from, by simd_level().
+// The builds of it that solve_fast() chooses from.
 [[nodiscard]] bool solve_fast_plain(const FastInput &input, const ActiveSet *warm,
                                     TensionSolution &solution) noexcept;
 [[nodiscard]] bool solve_fast_avx2(const FastInput &input, const ActiveSet *warm,

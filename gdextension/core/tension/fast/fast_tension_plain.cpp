@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/base/simd_level.h"
 #include "core/tension/fast/simd_four_plain.h"
 
 #include "core/tension/fast/fast_tension_kernel.h"
@@ -23,9 +22,10 @@ bool solve_fast_plain(const FastInput &input, const ActiveSet *warm,
     return FastTension<FourPlain>(input).run(warm, solution);
 }
 
-bool solve_fast(const FastInput &input, const ActiveSet *warm, TensionSolution &solution) noexcept {
+bool solve_fast(const FastInput &input, const ActiveSet *warm, [[maybe_unused]] SimdLevel level,
+                TensionSolution &solution) noexcept {
 #if defined(__x86_64__) && defined(__GNUC__)
-    if (simd_level() == SimdLevel::avx2) {
+    if (level == SimdLevel::avx2) {
         return solve_fast_avx2(input, warm, solution);
     }
 #endif

@@ -13,7 +13,7 @@ static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list 
 static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
-static_assert(count_members<TensionSettings>() == 11, "TensionSettings changed: list them here");
+static_assert(count_members<TensionSettings>() == 12, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
@@ -64,6 +64,7 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("tension.change_weight", 0, tension.change_weight);
     visit("tension.dof_mask", 0, tension.dof_mask);
     visit("tension.broken_mask", 0, tension.broken_mask);
+    visit("tension.simd", 0, tension.simd);
     auto &grasp = settings.grasp;
     visit("grasp.enter_rad", 0, grasp.enter_rad);
     visit("grasp.leave_rad", 0, grasp.leave_rad);

@@ -1,6 +1,9 @@
 // The fast path: what it certifies is the optimum, at each SIMD level, and it answers nearly always. DOF masks.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -16,47 +19,68 @@ namespace {
 
 constexpr SimdLevel kLevels[] = {SimdLevel::plain, SimdLevel::avx2};
 
-// Puts the level back when a test ends, however it ends.
-class LevelInUse {
-public:
-    explicit LevelInUse(SimdLevel level) : supported_(set_simd_level(level)) {}
-    ~LevelInUse() { set_simd_level(before_); }
-    LevelInUse(const LevelInUse &) = delete;
-    LevelInUse &operator=(const LevelInUse &) = delete;
-    [[nodiscard]] bool supported() const { return supported_; }
-
-private:
-    SimdLevel before_ = simd_level();
-    bool supported_;
-};
+// The levels that this processor runs.
+std::vector<SimdLevel> levels() {
+    std::vector<SimdLevel> supported;
+    std::copy_if(std::begin(kLevels), std::end(kLevels), std::back_inserter(supported), supports);
+    return supported;
+}
 
 } // namespace
 
-TEST_CASE("simd level: set, queried and refused as the processor allows") {
-    const SimdLevel before = simd_level();
-    CHECK(supports(before));
+TEST_CASE("simd level: a setting of each solver, refused where the processor lacks it") {
+    CHECK(supports(SimdLevel::plain)); // runs everywhere
+    CHECK(supports(best_simd_level()));
+    CHECK(TensionSettings{}.simd == best_simd_level());
     for (const SimdLevel level : kLevels) {
-        CHECK(set_simd_level(level) == supports(level));
-        CHECK((simd_level() == level) == supports(level));
+        TensionSettings settings;
+        settings.simd = level;
+        CHECK((TensionSolver{}.configure(settings) == Status::ok) == supports(level));
         CHECK(describe(level)[0] != '\0');
-        CHECK(set_simd_level(before));
     }
     for (const int unknown : {2, 99}) { // 2 was AVX-512
-        CHECK_FALSE(set_simd_level(static_cast<SimdLevel>(unknown)));
-        CHECK(std::string(describe(static_cast<SimdLevel>(unknown))) == "unknown vectors");
+        TensionSettings settings;
+        settings.simd = static_cast<SimdLevel>(unknown);
+        CHECK_FALSE(supports(settings.simd));
+        CHECK(validate(settings).find("simd") != std::string::npos);
+        CHECK(TensionSolver{}.configure(settings) == Status::invalid_settings);
+        CHECK(std::string(describe(settings.simd)) == "unknown vectors");
     }
-    CHECK(simd_level() == before);
-    CHECK(set_simd_level(SimdLevel::plain)); // runs everywhere
-    CHECK(set_simd_level(before));
+}
+
+TEST_CASE(
+    "simd level: two solvers at two levels, turn by turn in one process, disturb each other in "
+    "no bit") {
+    const auto answers_of = [](TensionSolver &solver, int i) {
+        const TensionProblem problem =
+            test::random_problem(95000U + static_cast<std::uint64_t>(i)).problem;
+        return solver.update(problem.matrix, problem.wrench).tensions_n;
+    };
+    constexpr int kTicks = 300;
+    std::vector<std::vector<StringArray>> alone;
+    std::vector<TensionSolver> solvers;
+    for (const SimdLevel level : levels()) {
+        TensionSettings settings;
+        settings.simd = level;
+        TensionSolver solver;
+        REQUIRE(solver.configure(settings) == Status::ok);
+        solvers.push_back(solver);
+        auto &answers = alone.emplace_back();
+        for (int i = 0; i < kTicks; ++i) {
+            answers.push_back(answers_of(solver, i));
+        }
+    }
+    for (int i = 0; i < kTicks; ++i) {
+        for (std::size_t k = 0; k < solvers.size(); ++k) {
+            CHECK(answers_of(solvers[k], i) == alone[k][static_cast<std::size_t>(i)]);
+        }
+    }
+    // The levels are told apart by their last bits: else this test would show nothing.
+    CHECK((solvers.size() == 1 || alone.front() != alone.back()));
 }
 
 TEST_CASE("fast tension: what it certifies is optimal in quad precision, at every level") {
-    for (const SimdLevel level : kLevels) {
-        const LevelInUse in_use(level);
-        if (!in_use.supported()) {
-            CHECK(level != SimdLevel::plain);
-            continue;
-        }
+    for (const SimdLevel level : levels()) {
         int answered = 0;
         int easy = 0;
         for (std::uint64_t seed = 90000; seed < 91500; ++seed) {
@@ -65,7 +89,7 @@ TEST_CASE("fast tension: what it certifies is optimal in quad precision, at ever
             const bool is_easy = (named.kind == "central" || named.kind == "strong") &&
                                  named.problem.proximal_weight > 1e-7;
             easy += is_easy ? 1 : 0;
-            if (!solve_fast(FastInput::of(named.problem), nullptr, solution)) {
+            if (!solve_fast(FastInput::of(named.problem), nullptr, level, solution)) {
                 continue;
             }
             answered += is_easy ? 1 : 0;
@@ -92,9 +116,8 @@ TEST_CASE("fast tension: both levels and the safe search agree") {
         TensionProblem problem = test::random_problem(seed).problem;
         problem.proximal_weight = 1e-4;
         const TensionSolution safe = solve_exactly(problem, nullptr);
-        for (const SimdLevel level : kLevels) {
-            const LevelInUse in_use(level);
-            const TensionSolution fast = solve_tension_problem(problem, &safe.active);
+        for (const SimdLevel level : levels()) {
+            const TensionSolution fast = solve_tension_problem(problem, &safe.active, level);
             CAPTURE(seed);
             for (std::size_t i = 0; i < fast.tensions_n.size(); ++i) {
                 CHECK(std::abs(fast.tensions_n[i] - safe.tensions_n[i]) < 1e-11);
@@ -120,12 +143,7 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
           "stress_tension_quick)") {
     // Releasing a stiff string took its column of the table from a difference that was rounding alone at this scale:
     // a correction with that table then spoilt the tensions and ended there.
-    for (const SimdLevel level : kLevels) {
-        const LevelInUse in_use(level);
-        if (!in_use.supported()) {
-            CHECK(level != SimdLevel::plain);
-            continue;
-        }
+    for (const SimdLevel level : levels()) {
         int answered = 0;
         for (std::uint64_t seed = 93000; seed < 103000; ++seed) {
             test::NamedProblem named = test::random_problem(seed);
@@ -142,7 +160,7 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
                 }
             }
             TensionSolution fast;
-            if (!solve_fast(FastInput::of(problem), nullptr, fast)) {
+            if (!solve_fast(FastInput::of(problem), nullptr, level, fast)) {
                 continue;
             }
             ++answered;
@@ -158,8 +176,7 @@ TEST_CASE("fast tension: a string held and released again leaves the table symme
 
 TEST_CASE("DOF mask: a far bound guessed wrongly leaves no rounding behind (found by "
           "stress_tension_quick)") {
-    for (const SimdLevel level : kLevels) {
-        const LevelInUse in_use(level);
+    for (const SimdLevel level : levels()) {
         for (std::uint64_t seed = 110000; seed < 110200; ++seed) {
             TensionProblem problem = test::random_problem(seed).problem;
             problem.weights = {1, 1, 1, 0, 0, 0, 0};
@@ -167,7 +184,7 @@ TEST_CASE("DOF mask: a far bound guessed wrongly leaves no rounding behind (foun
             problem.lower_n[4] = -9e11;
             const ActiveSet guess = {StringBound::free, StringBound::free, StringBound::free,
                                      StringBound::free, StringBound::at_lower};
-            const StringArray given = solve_tension_problem(problem, &guess).tensions_n;
+            const StringArray given = solve_tension_problem(problem, &guess, level).tensions_n;
             const StringArray safe = solve_exactly(problem, nullptr).tensions_n;
             CAPTURE(seed);
             for (std::size_t i = 0; i < given.size(); ++i) {
@@ -228,8 +245,7 @@ TEST_CASE("DOF mask: a string that crosses from one bound to the other is no con
     // All strings saturate: none is free before or after, and only their sides change.
     test::Random random(77);
     const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
-    for (const SimdLevel level : kLevels) {
-        const LevelInUse in_use(level);
+    for (const SimdLevel level : levels()) {
         for (int round = 0; round < 300; ++round) {
             TensionProblem problem;
             problem.matrix = wrench_matrix(
@@ -246,7 +262,7 @@ TEST_CASE("DOF mask: a string that crosses from one bound to the other is no con
             for (StringBound &bound : guess) {
                 bound = static_cast<StringBound>(random.below(3));
             }
-            const StringArray given = solve_tension_problem(problem, &guess).tensions_n;
+            const StringArray given = solve_tension_problem(problem, &guess, level).tensions_n;
             CAPTURE(round);
             CHECK(test::certify(problem, given).tension_error_n < 1e-11);
         }
