@@ -64,7 +64,7 @@ struct CalibrationRig::Impl {
 
     bool open() noexcept;
     void shut() noexcept;
-    void keep_heat() noexcept;
+    bool keep_heat() noexcept; // false: there is no memory for it
     void cycle(double dt_s) noexcept;
     void take_orders(double dt_s) noexcept;
     void move_hand(double dt_s) noexcept;
@@ -104,17 +104,19 @@ bool CalibrationRig::Impl::open() noexcept {
     return transport != nullptr;
 }
 
-void CalibrationRig::Impl::keep_heat() noexcept {
+bool CalibrationRig::Impl::keep_heat() noexcept {
     try {
         keep_motor_heat(transport->device_name(), heat.heat(), SafetySettings().thermal_time_s,
                         monotonic_ns());
-    } catch (const std::exception &) { // no memory for it
+        return true;
+    } catch (const std::exception &) {
+        return false;
     }
 }
 
 void CalibrationRig::Impl::shut() noexcept {
     if (transport) {
-        keep_heat();
+        (void)keep_heat();
         if (writer) {
             writer->stop(); // motors off
             writer.reset();

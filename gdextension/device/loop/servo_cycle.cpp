@@ -26,14 +26,17 @@ void ServoCycle::recall_heat() noexcept {
         if (!device.empty()) {
             step_.set_heat(recall_motor_heat(device, monotonic_ns()));
         }
-    } catch (const std::exception &) { // no memory for a name: the motors count as cold
+    } catch (const std::exception &) { // no memory for a name
+        step_.set_heat({});
     }
 }
 
-void ServoCycle::keep_heat() noexcept {
+bool ServoCycle::keep_heat() noexcept {
     try {
         keep_motor_heat(source_->device_name(), step_.heat(), thermal_time_s_, monotonic_ns());
-    } catch (const std::exception &) { // no memory for it
+        return true;
+    } catch (const std::exception &) {
+        return false;
     }
 }
 

@@ -19,9 +19,9 @@ public:
     // At rest. What was asked and what happened before does not act after it.
     Status configure(const ServoSettings &settings) noexcept;
     // While no cycle runs and the source is open: the motors are as warm as an earlier loop left them, and what they are
-    // now is kept for a later one.
+    // now is kept for a later one. False: there is no memory for it.
     void recall_heat() noexcept;
-    void keep_heat() noexcept;
+    bool keep_heat() noexcept;
     // From the loop's thread: one cycle of this length.
     void run(double dt_s) noexcept SPIDAR_NONBLOCKING;
     // Where no cycle runs: what a reader sees of a device that did not open, or was closed.

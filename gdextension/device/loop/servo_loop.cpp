@@ -59,7 +59,7 @@ void ServoLoop::stop() noexcept {
         cycle_.source().motors_off();
     }
     cycle_.recordings().stop_at_rest();
-    cycle_.keep_heat();
+    (void)cycle_.keep_heat();
     cycle_.source().close();
     is_running_ = false;
     cycle_.show_closed();

@@ -115,6 +115,11 @@ bool SpidarG::zero_at_home() {
     if (!loop_) {
         return reject("zero_at_home: no device is open. Open one first.");
     }
+    if (panicked_.load() || (waits_for_arm_ && is_simulated())) {
+        return reject(
+            "zero_at_home: the device was stopped by panic_stop(): call clear_fault() and "
+            "arm() first.");
+    }
     if (!command_.forces_enabled) {
         return reject("zero_at_home: forces_enabled = false: switch it on, for the strings have to "
                       "be drawn taut with pretension.");

@@ -101,6 +101,10 @@ func test_a_stop_outlasts_closing_and_opening() -> void:
 	device.clear_fault()
 	device.advance_cycles(2000)
 	check_equal(device.get_state(), SpidarG.STATE_CONNECTED, "a cleared stop is not yet an arm()")
+	var told: Array[String] = []
+	device.request_rejected.connect(func(message: String) -> void: told.append(message))
+	check(not device.zero_at_home(), "nor does it pull for a zero")
+	check(told.size() == 1 and told[0].contains("arm()"), "and says what to call: %s" % [told])
 	device.notification(Node.NOTIFICATION_APPLICATION_FOCUS_OUT)
 	device.advance_cycles(50)
 	device.notification(Node.NOTIFICATION_APPLICATION_FOCUS_IN)
