@@ -22,7 +22,7 @@ TEST_CASE("status: every named value has a sentence of its own") {
         CHECK(seen.insert(text).second);
         CHECK(std::string(text).back() == '.');
     }
-    CHECK(named == 7 + 11 + 14 + 10); // usable, bad input, device, real device
+    CHECK(named == 7 + 12 + 14 + 10); // usable, bad input, device, real device
 }
 
 TEST_CASE("status: the sign tells whether the result is usable") {
