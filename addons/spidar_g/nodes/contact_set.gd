@@ -8,9 +8,10 @@ const ContactPlane := preload("contact_plane.gd")
 const MERGE_COSINE: float = 0.996  # 5 degrees
 ## A surface of the same body whose normal turned less than this in one frame is the same surface.
 const SAME_SURFACE_COSINE: float = 0.94  # 20 degrees
-## A push makes a body this much faster than the tool at most: held for a whole frame the force on a light body, which in
-## truth is gone once the body moves, would throw it.
+## A push makes a body this much faster than the tool at most, and no faster than takes it so far ahead before the next one:
+## held for a whole frame the force on a light body, which in truth is gone once the body moves, would throw it.
 const MOST_LEAD_M_S: float = 0.5
+const MOST_LEAD_M: float = 0.0085
 ## SpidarG takes 8 contacts; one is kept for the grasp stop.
 const MAX_PLANES: int = 7
 
@@ -88,12 +89,13 @@ func gained(id: int) -> Vector3:
 	return _gained.get(id, Vector3.ZERO)
 
 
-## Newton's third law at game rate: what a plane gave the hand, its body gets back, up to most_n_s
+## Newton's third law at game rate: what a plane gave the hand in since_s of device time, its body gets back, up to most_n
 ## and never so much that it is thrown. The force is the same in the game's time, the hand's speed is not.
-func push_bodies(most_n_s: float, tool_velocity_m_s: Vector3) -> void:
+func push_bodies(most_n: float, since_s: float, tool_velocity_m_s: Vector3) -> void:
 	var pace: float = Engine.time_scale
 	if pace <= 0.0:
 		return
+	var lead_m_s: float = minf(MOST_LEAD_M_S, MOST_LEAD_M / (pace * since_s))
 	for plane: ContactPlane in planes:
 		var impulse: Vector3 = -pace * gained(plane.id)
 		var body: RigidBody3D = plane.pushed_body
@@ -103,8 +105,8 @@ func push_bodies(most_n_s: float, tool_velocity_m_s: Vector3) -> void:
 			var velocity: Vector3 = PhysicsServer3D.body_get_state(
 				body.get_rid(), PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY
 			)
-			var fastest: float = maxf(tool_velocity_m_s.dot(along) / pace, 0.0) + MOST_LEAD_M_S
-			var most: float = minf(pace * most_n_s, body.mass * maxf(fastest - velocity.dot(along), 0.0))
+			var fastest: float = maxf(tool_velocity_m_s.dot(along) / pace, 0.0) + lead_m_s
+			var most: float = minf(pace * most_n * since_s, body.mass * maxf(fastest - velocity.dot(along), 0.0))
 			body.apply_impulse(impulse.limit_length(most), plane.point - body.global_position)
 
 

@@ -7,7 +7,7 @@ const HoldJoint := preload("hold_joint.gd")
 
 ## A held body torn this far from the grip (device metres) is stuck behind something.
 const MAX_STRETCH_M: float = 0.015
-## Load or stretch has to last this long to break a hold, s of the device's time.
+## Load has to last this long to break a hold, in the device's time, and stretch in physics ticks, s.
 const BREAK_TIME_S: float = 0.05
 
 var _overload_s: float = 0.0
@@ -20,20 +20,19 @@ func reset() -> void:
 	_torn_s = 0.0
 
 
-## since_s: device time in which the planes gained what they did; 0: nothing new is known of them. While the game's time
-## stands still no body can follow the grip, and none is torn from it.
+## Once a physics tick. since_s: device time in which the planes gained what they did; 0: nothing new is known of them. While
+## the game's time stands still no body can follow the grip, and none is torn from it.
 func breaks(
 	hold: HoldJoint, contacts: ContactSet, break_force_n: float, workspace_scale: float, since_s: float,
 	game_runs: bool
 ) -> bool:
-	if since_s <= 0.0:
-		return false
-	var impulse: Vector3 = Vector3.ZERO
-	for plane: ContactPlane in contacts.planes:
-		if plane.through_held_body:
-			impulse += contacts.gained(plane.id)
-	var overloaded: bool = impulse.length() > break_force_n * since_s
-	_overload_s = _overload_s + since_s if overloaded else 0.0
+	if since_s > 0.0:
+		var impulse: Vector3 = Vector3.ZERO
+		for plane: ContactPlane in contacts.planes:
+			if plane.through_held_body:
+				impulse += contacts.gained(plane.id)
+		var overloaded: bool = impulse.length() > break_force_n * since_s
+		_overload_s = _overload_s + since_s if overloaded else 0.0
 	var torn: bool = game_runs and hold.stretch_m() > MAX_STRETCH_M * workspace_scale
-	_torn_s = _torn_s + since_s if torn else 0.0
+	_torn_s = _torn_s + 1.0 / Engine.physics_ticks_per_second if torn else 0.0
 	return maxf(_overload_s, _torn_s) >= BREAK_TIME_S

@@ -238,7 +238,7 @@ func _physics_process(delta: float) -> void:
 func _read_device(forces_on: bool, since_s: float) -> void:
 	_contacts.read_impulses(spidar.get_contact_impulses(_requests.owner))
 	_stop.measure(_contacts, spidar.get_grasp_angle(), forces_on, since_s)
-	_contacts.push_bodies(_settings().max_force * since_s, spidar.get_linear_velocity())
+	_contacts.push_bodies(_settings().max_force, since_s, spidar.get_linear_velocity())
 	var node: Transform3D = spidar.global_transform.orthonormalized()
 	_load.follow(node.affine_inverse() * spidar.get_grip_transform().origin, since_s)
 

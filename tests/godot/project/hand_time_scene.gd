@@ -1,5 +1,5 @@
 ## Base of the tests of a hand's time: one play of grasp, lift, swing and press, timed by the device's own clock, so that it is
-## the same at every time scale, tick rate and drive mode.
+## the same at every time scale, tick rate, frame rate and drive mode.
 extends "res://hand_scene.gd"
 
 const MASS: float = 0.1
@@ -12,9 +12,17 @@ const TOLERANCE: float = 0.03
 
 var body: RigidBody3D
 var drive_mode: SpidarG.DriveMode = SpidarG.DRIVE_STEPPED
+## Not 0: a stepped device goes on from drawn frame to drawn frame, of uneven lengths, as one in a thread does. Ticks of one
+## frame then read one pose.
+var frames_per_s: int = 0
+## In real time the hand's target moves by uneven steps: its acceleration is then no longer the swing's.
+var with_inertia: bool = true
 var rejected: PackedStringArray = []
-## Real frames are of uneven length, which adds noise to an acceleration.
-var inertia_tolerance: float = TOLERANCE
+
+var _ticks_due: float = 0.0
+var _random := RandomNumberGenerator.new()
+## Moves `at` and `angle` to where the hand's target is at a time of the device.
+var _move := Callable()
 
 
 ## Everything that a hand measures, once, at this time scale. `label` begins every message.
@@ -29,7 +37,8 @@ func play(time_scale: float, label: String) -> void:
 	if check(hand.get_held_body() == body, "%s: held" % label):
 		await _squeeze(label)
 		await _weight(label)
-		await _inertia(label)
+		if with_inertia:
+			await _inertia(label)
 		if time_scale == 0.0:
 			await _back_to_one(label)
 			Engine.time_scale = 0.0
@@ -46,17 +55,33 @@ func glide(to: Vector3, to_angle: float, time_s: float) -> void:
 	var from: Vector3 = at
 	var from_angle: float = angle
 	var began_s: float = device.get_device_time_s()
-	var part: float = 0.0
-	while part < 1.0:
-		part = minf((device.get_device_time_s() - began_s) / time_s, 1.0)
+	_move = func(now_s: float) -> void:
+		var part: float = minf((now_s - began_s) / time_s, 1.0)
 		at = from.lerp(to, part)
 		angle = lerpf(from_angle, to_angle, part)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
-		await physics_frames(1)
+	while device.get_device_time_s() - began_s < time_s:
+		await tick()
+	_move.call(began_s + time_s)
+	_move = Callable()  # It holds on to this test.
 
 
 func rest(time_s: float) -> void:
 	await glide(at, angle, time_s)
+
+
+## One physics tick, and before it the drawn frame that it belongs to.
+func tick() -> void:
+	if frames_per_s > 0:
+		while _ticks_due < 1.0:
+			var cycles: int = roundi(1000.0 / frames_per_s * _random.randf_range(0.8, 1.2))
+			_ticks_due += 0.001 * cycles * Engine.physics_ticks_per_second
+			for _i: int in cycles:
+				_move_hand()
+				device.advance_cycles(1)
+		_ticks_due -= 1.0
+	else:
+		_move_hand()
+	await physics_frames(1)
 
 
 ## Mean of what is called once a tick, over seconds of the device: a tick counts for the time that it took.
@@ -65,7 +90,7 @@ func mean_of(value: Callable, time_s: float) -> float:
 	var last_s: float = began_s
 	var sum: float = 0.0
 	while last_s - began_s < time_s:
-		await physics_frames(1)
+		await tick()
 		var now_s: float = device.get_device_time_s()
 		var now: float = value.call()
 		sum += now * (now_s - last_s)
@@ -77,10 +102,18 @@ func asked(component: int) -> float:
 	return device.get_requested_wrench()[component]
 
 
+func _move_hand() -> void:
+	if _move.is_valid():
+		_move.call(device.get_device_time_s())
+	device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+
+
 func _prepare() -> void:
 	at = Vector3(0.0, FLOOR_Y + 0.06, 0.0)
 	angle = 0.0
 	rejected.clear()
+	_random.seed = 1
+	_ticks_due = 0.0
 	device = ideal_device()
 	device.drive_mode = drive_mode
 	device.forces_enabled = true
@@ -88,6 +121,7 @@ func _prepare() -> void:
 	hand = Hand.new()
 	device.add_child(hand)
 	add(device)
+	device.set_physics_process_internal(frames_per_s == 0)
 	if not tree.root.has_node(^"Floor"):
 		add_box(Vector3(1.0, 0.1, 1.0), Vector3(0.0, FLOOR_Y - 0.05, 0.0), 0.0).name = "Floor"
 	body = add_free_box(SIZE, MASS)
@@ -114,25 +148,27 @@ func _inertia(label: String) -> void:
 	# Least squares for the swing's sine and cosine: x in [0], force in [1].
 	var sine := Vector2.ZERO
 	var cosine := Vector2.ZERO
-	var count: int = 0
+	var time_s: float = 0.0
 	var middle: Vector3 = at
 	var began_s: float = device.get_device_time_s()
-	var periods: float = 0.0
-	while periods < 2.5:
-		periods = (device.get_device_time_s() - began_s) * SWING_HZ
-		var phase: float = TAU * periods
-		if periods >= 0.5:
-			var here := Vector2(device.get_grip_transform().origin.x - middle.x, asked(0))
+	_move = func(now_s: float) -> void:
+		at = middle + Vector3(SWING_M * sin(TAU * SWING_HZ * (now_s - began_s)), 0.0, 0.0)
+	var last_s: float = began_s
+	while last_s - began_s < 2.5 / SWING_HZ:
+		await tick()
+		var now_s: float = device.get_device_time_s()
+		var phase: float = TAU * SWING_HZ * (now_s - began_s)
+		if phase > PI:
+			var here := Vector2(device.get_grip_transform().origin.x - middle.x, asked(0)) * (now_s - last_s)
 			sine += sin(phase) * here
 			cosine += cos(phase) * here
-			count += 1
-		at = middle + Vector3(SWING_M * sin(phase), 0.0, 0.0)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
-		await physics_frames(1)
-	var way_m: float = 2.0 / count * Vector2(sine.x, cosine.x).length()
-	var force_n: float = 2.0 / count * Vector2(sine.y, cosine.y).length()
+			time_s += now_s - last_s
+		last_s = now_s
+	var way_m: float = 2.0 / time_s * Vector2(sine.x, cosine.x).length()
+	var force_n: float = 2.0 / time_s * Vector2(sine.y, cosine.y).length()
 	var expected_n: float = FELT_MASS * pow(TAU * SWING_HZ, 2.0) * way_m
-	check_near(force_n / expected_n, 1.0, inertia_tolerance, "%s: inertia, of mass times the hand's acceleration" % label)
+	check_near(force_n / expected_n, 1.0, TOLERANCE, "%s: inertia, of mass times the hand's acceleration" % label)
+	_move = Callable()
 	at = middle
 	await rest(0.2)
 

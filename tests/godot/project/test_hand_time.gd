@@ -2,6 +2,10 @@
 extends "res://hand_time_scene.gd"
 
 const RATES: Array[int] = [24, 30, 60, 120, 240]
+## Drawn frames and physics ticks a second.
+const FRAMES: Array[Vector2i] = [
+	Vector2i(15, 60), Vector2i(15, 240), Vector2i(24, 60), Vector2i(30, 24), Vector2i(40, 60), Vector2i(60, 240), Vector2i(144, 60)
+]
 
 
 func test_at_full_speed() -> void:
@@ -18,6 +22,22 @@ func test_in_fast_motion() -> void:
 
 func test_while_time_stands_still() -> void:
 	await _at_every_rate(0.0)
+
+
+func test_drawn_at_any_rate_at_full_speed() -> void:
+	await _at_every_frame_rate(1.0)
+
+
+func test_drawn_at_any_rate_in_slow_motion() -> void:
+	await _at_every_frame_rate(0.1)
+
+
+func test_drawn_at_any_rate_in_fast_motion() -> void:
+	await _at_every_frame_rate(3.0)
+
+
+func test_drawn_at_any_rate_while_time_stands_still() -> void:
+	await _at_every_frame_rate(0.0)
 
 
 func test_nothing_is_newly_held_while_time_stands_still() -> void:
@@ -76,4 +96,12 @@ func _at_every_rate(time_scale: float) -> void:
 	for rate: int in RATES:
 		Engine.physics_ticks_per_second = rate
 		await play(time_scale, "time scale %s, %d ticks a second" % [time_scale, rate])
+	Engine.physics_ticks_per_second = 60
+
+
+func _at_every_frame_rate(time_scale: float) -> void:
+	for rates: Vector2i in FRAMES:
+		frames_per_s = rates.x
+		Engine.physics_ticks_per_second = rates.y
+		await play(time_scale, "time scale %s, %d frames and %d ticks a second" % [time_scale, rates.x, rates.y])
 	Engine.physics_ticks_per_second = 60

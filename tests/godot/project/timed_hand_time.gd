@@ -19,7 +19,7 @@ func test_four_ticks_a_frame() -> void:
 
 
 func _drawn(frame_rate: int, rate: int, time_scale: float) -> void:
-	inertia_tolerance = 0.05
+	with_inertia = false
 	drive_mode = SpidarG.DRIVE_THREADED
 	Engine.max_fps = frame_rate
 	Engine.physics_ticks_per_second = rate

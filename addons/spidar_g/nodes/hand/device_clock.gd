@@ -2,7 +2,8 @@ extends RefCounted
 ## The device's time between the physics ticks of a hand. Forces, impulses and velocities of a device are in its own time: it
 ## goes on when Engine.time_scale slows the game, and stands still between physics ticks that share one drawn frame.
 
-## Two poses nearer in time than this part of a physics tick count as one: their difference would be mostly noise.
+## Poses nearer in time than this part of the way between the last two, or of a tick, count as one: ticks that share a drawn
+## frame are some milliseconds apart, and what a hand does in so short a time is mostly noise.
 const LEAST_PART: float = 0.5
 ## A plane is up to two ticks old when the next one replaces it.
 const AHEAD_TICKS: float = 1.5
@@ -14,6 +15,7 @@ var elapsed_s: float = 0.0
 ## How far ahead to look for what this tick sends, s.
 var ahead_s: float = 0.0
 var _read_s: float = NAN
+var _apart_s: float = 0.0
 
 
 ## Once a physics tick.
@@ -22,10 +24,11 @@ func read(device: SpidarG) -> void:
 	var now_s: float = device.get_device_time_s()
 	if is_nan(_read_s):
 		_read_s = now_s
-		ahead_s = AHEAD_TICKS * tick_s
+	_apart_s = clampf(_apart_s, tick_s, LONGEST_S)
+	ahead_s = AHEAD_TICKS * _apart_s
 	elapsed_s = now_s - _read_s
-	if elapsed_s < LEAST_PART * tick_s:
+	if elapsed_s < LEAST_PART * _apart_s:
 		elapsed_s = 0.0
 		return
 	_read_s = now_s
-	ahead_s = AHEAD_TICKS * clampf(elapsed_s, tick_s, LONGEST_S)
+	_apart_s = elapsed_s
