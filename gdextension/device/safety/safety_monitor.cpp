@@ -56,9 +56,10 @@ SafetyMonitor::Verdict SafetyMonitor::watch_strings(const Sample &sample, EventL
     }
     named_told_ = found;
     if (parts_.strings.faulty()) {
-        return {Action::motors_off, Status::string_fault, parts_.strings.string()};
+        return {StopReason::fault, Status::string_fault, parts_.strings.string()};
     }
-    return found ? Verdict{Action::stand_down, Status::string_fault, named.string} : Verdict{};
+    return found ? Verdict{StopReason::string_named, Status::string_fault, named.string}
+                 : Verdict{};
 }
 
 SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLog &events,
@@ -76,13 +77,13 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
         parts_.shake.found(parts_.bounce.speed_m_s());
     }
     if (parts_.speed.too_fast()) {
-        return {Action::motors_off, Status::over_speed, -1};
+        return {StopReason::fault, Status::over_speed, -1};
     }
     if (parts_.speed.fast(dt_s)) {
         events.tell(DeviceEventKind::fast_grip, -1, sample.fastest_m_s);
     }
     if (parts_.shake.unstable()) {
-        return {Action::motors_off, Status::unstable, -1};
+        return {StopReason::fault, Status::unstable, -1};
     }
     if (parts_.shake.scale() < 1.0) {
         events.tell(DeviceEventKind::shaking, -1, parts_.shake.swing_m_s());
@@ -96,7 +97,7 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
 
 SafetyMonitor::Verdict SafetyMonitor::watch_heat(EventLog &events) noexcept {
     if (parts_.heat.is_spent()) {
-        return {Action::stand_down, Status::overheated, parts_.heat.warmest_string()};
+        return {StopReason::overheated, Status::overheated, parts_.heat.warmest_string()};
     }
     if (parts_.heat.scale() < 1.0) {
         events.tell(DeviceEventKind::motors_warm, parts_.heat.warmest_string(),
@@ -118,11 +119,17 @@ SafetyMonitor::Verdict SafetyMonitor::watch(const Sample &sample, EventLog &even
         fading_ ? std::max(0.0, fade_ - dt_s / kFade_s) : std::min(1.0, fade_ + dt_s / kRecovery_s);
     scale_ =
         fade_ * parts_.shake.scale() * parts_.heat.scale() * WorkspaceGuard::scale(sample.grip);
+    if (!sample.motors_on) {
+        return {};
+    }
+    // A fault before a reason to fade; of two alike the first.
     Verdict worst = strings;
     for (const Verdict &other : {motion, heat}) {
-        worst = other.action > worst.action ? other : worst;
+        const bool is_worse = worst.status == Status::ok || (worst.reason != StopReason::fault &&
+                                                             other.reason == StopReason::fault);
+        worst = other.status != Status::ok && is_worse ? other : worst;
     }
-    return sample.motors_on ? worst : Verdict{};
+    return worst;
 }
 
 } // namespace spidar

@@ -1,5 +1,5 @@
-// All that watches the grip while forces act, and what it decides: scale the wrench down, let the forces go, or
-// switch the motors off. Each part has a file of its own.
+// All that watches the grip while forces act: it scales the wrench down, or names a reason to let go (motor_rule.h). Each
+// part has a file of its own.
 #pragma once
 
 #include "device/contract/device_event.h"
@@ -11,15 +11,16 @@
 #include "device/safety/monitors/string_monitor.h"
 #include "device/safety/monitors/thermal_budget.h"
 #include "device/safety/monitors/workspace_guard.h"
+#include "device/safety/motor_rule.h"
 
 namespace spidar {
 
 class SafetyMonitor {
 public:
-    enum class Action : std::uint8_t { none, stand_down, motors_off };
+    // A reason to let go, which motor_rule.h answers; none while `status` is ok.
     struct Verdict {
-        Action action = Action::none;
-        Status status = Status::ok; // why
+        StopReason reason = StopReason::fault;
+        Status status = Status::ok;
         int string = -1;
     };
     struct Sample {

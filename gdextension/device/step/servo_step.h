@@ -88,6 +88,9 @@ private:
     void advance_state(const HapticCommand &command, const Edges &edges,
                        const DeviceReading &reading, double dt_s) noexcept;
     void tell_state() noexcept;
+    // Does what motor_rule.h says, and tells it when that changes the state.
+    void stop(StopReason reason, Status why, int string) noexcept;
+    // A fault, or a panic.
     void raise(Status why, int string) noexcept;
     void lose(Status why) noexcept;
     // servo_step_rest.cpp: would the next step give what the last one gave?

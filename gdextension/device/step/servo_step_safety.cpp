@@ -53,11 +53,14 @@ int first_string(std::uint8_t mask) noexcept {
 
 } // namespace
 
-void ServoStep::raise(Status why, int string) noexcept {
-    const StopReason reason = why == Status::panic_stopped ? StopReason::panic : StopReason::fault;
+void ServoStep::stop(StopReason reason, Status why, int string) noexcept {
     if (parts_.machine.stop(reason, why, string)) {
         parts_.events.tell(kind_of(why), string);
     }
+}
+
+void ServoStep::raise(Status why, int string) noexcept {
+    stop(why == Status::panic_stopped ? StopReason::panic : StopReason::fault, why, string);
 }
 
 void ServoStep::lose(Status why) noexcept {
@@ -132,18 +135,8 @@ void ServoStep::watch(double dt_s) noexcept {
                                        rendering_,
                                        parts_.renderer.contact_push()};
     const SafetyMonitor::Verdict verdict = parts_.monitor.watch(sample, parts_.events, dt_s);
-    switch (verdict.action) {
-    case SafetyMonitor::Action::none:
-        break;
-    case SafetyMonitor::Action::stand_down:
-        if (parts_.machine.stop(verdict.status == Status::overheated ? StopReason::overheated
-                                                                     : StopReason::string_named)) {
-            parts_.events.tell(kind_of(verdict.status), verdict.string);
-        }
-        break;
-    case SafetyMonitor::Action::motors_off:
-        raise(verdict.status, verdict.string);
-        break;
+    if (verdict.status != Status::ok) {
+        stop(verdict.reason, verdict.status, verdict.string);
     }
 }
 
