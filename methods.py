@@ -202,6 +202,40 @@ def find_hidapi(env):
     return [env.File(os.path.abspath(path))]
 
 
+# --- Jolt ----------------------------------------------------------------------------------------
+
+JOLT_VERSION = "5.4.0"
+JOLT_SOURCES = (
+    "AABBTree/AABBTreeBuilder",
+    "Core/Memory",
+    "Geometry/ConvexHullBuilder",
+    "Geometry/ConvexHullBuilder2D",
+    "TriangleSplitter/TriangleSplitter",
+    "TriangleSplitter/TriangleSplitterBinning",
+)
+# Its memory comes from the C++ library like ours, so nothing is registered before its first use; no asserts.
+JOLT_DEFINES = ["JPH_DISABLE_CUSTOM_ALLOCATOR", "JPH_NO_DEBUG"]
+
+
+def find_jolt(option):
+    """Jolt's sources as a folder inside the checkout, a link to where they are: `jolt=`, or the user's cache."""
+    cache = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    root = option or os.path.join(cache, "spidar_g", f"jolt-{JOLT_VERSION}")
+    if not os.path.isfile(os.path.join(root, "Jolt", "Jolt.h")):
+        raise BuildError(
+            f"{root}: no Jolt/Jolt.h: run ./dev build, which brings Jolt {JOLT_VERSION}, or give "
+            "a checkout of it by jolt=PATH"
+        )
+    link = "build/jolt"
+    wanted = os.path.abspath(root)
+    if not os.path.islink(link) or os.readlink(link) != wanted:
+        os.makedirs("build", exist_ok=True)
+        if os.path.lexists(link):
+            os.unlink(link)
+        os.symlink(wanted, link)
+    return link
+
+
 def sources_header(*roots):
     """One number for what is in all sources under `roots`: builds of the same number hold the servo step's memory in
     the same way, and can replay each other's recordings."""

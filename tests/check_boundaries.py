@@ -24,6 +24,7 @@ OUTSIDE = (
     (r"<immintrin\.h>", ("core/tension/fast", "device/threads")),
     (r"<(pthread|sched|windows)\.h>|<sys/prctl\.h>", ("device/threads",)),
     (r"<hidapi/|<(dlfcn|unistd)\.h>|<sys/types\.h>", ("device/hid",)),
+    (r"<Jolt/", ("device/contact/shapes",)),
     (r'"spidar_(version|sources)\.h"', ("device/recording", "godot")),
     (r"<godot_cpp/|<gdextension_interface\.h>", ("godot",)),
 )

@@ -3,6 +3,7 @@
 build() {
     need "${build_needs[@]}"
     find_godot
+    find_jolt "$@"
     scons -Q -j"$jobs" "$@"
     # The demo then opens by a double click: Godot's list of extensions and its import are there.
     if compgen -G "addons/spidar_g/bin/*spidar_g.*" >/dev/null; then prepare_demo; fi
@@ -14,6 +15,7 @@ package() {
     local target options=()
     need "${build_needs[@]}" "${windows_needs[@]}"
     find_godot
+    find_jolt
     python3 tools/fetch/fetch_hidapi.py
     if [[ -n ${GODOT_API:-} ]]; then
         [[ -e $GODOT_API ]] || die "GODOT_API=$GODOT_API: no such file"

@@ -6,6 +6,7 @@ run_stages() { # run_stages NAME_OR_GROUP...
     need "${build_needs[@]}" "${test_needs[@]}"
     need_tidy
     find_godot
+    find_jolt
     echo "Godot: $GODOT"
     exec python3 tools/dev/run_stages.py run "$@"
 }

@@ -51,8 +51,6 @@ copy_is_ready() { [[ -x $copy/godot && $(cat "$copy/made" 2>/dev/null) == "$copy
 
 make_copy() {
     is_debian || die "Godot $minimum_godot or later is needed: put godot on PATH or set GODOT"
-    local keyring=/usr/share/keyrings/debian-archive-keyring.gpg
-    need "$keyring:debian-archive-keyring"
     if ! mkdir -p "$cache" 2>/dev/null || [[ ! -w $cache ]]; then
         die "$cache: cannot write there; set XDG_CACHE_HOME to a folder of your own"
     fi
@@ -63,7 +61,7 @@ make_copy() {
             echo "dev: patching the private Godot for its place, $copy"
         else
             echo "dev: no Godot $minimum_godot or later here; fetching a private one into $cache"
-            fetch_copy "$cache/godot.part" "$keyring"
+            fetch_copy "$cache/godot.part"
             rm -rf "$copy"
             mv "$cache/godot.part/copy" "$copy"
             rm -rf "$cache/godot.part"
@@ -80,20 +78,18 @@ debian_mirror() {
              && $1 ~ /debian/ {print $1; exit}'
 }
 
-fetch_copy() { # fetch_copy FOLDER KEYRING: unpacks into FOLDER/copy; an interrupted download resumes
-    local work keyring=$2 mirror package
+# private_apt FOLDER: an apt of its own in FOLDER, which knows godot_suite and nothing else. Prints its configuration file.
+# FOLDER is a plain name: apt's settings cannot hold every name a folder may have.
+private_apt() {
+    local work=$1 keyring=/usr/share/keyrings/debian-archive-keyring.gpg mirror
+    need "$keyring:debian-archive-keyring" >&2
     mirror=$(debian_mirror)
     [[ -n $mirror ]] || die "no Debian mirror among this machine's apt sources; install Godot" \
-        "$minimum_godot or later yourself, on PATH or as GODOT"
-    # apt's settings cannot hold every name a folder may have.
-    link_folder=$(mktemp -d)
-    trap 'rm -rf "$link_folder"' EXIT
-    mkdir -p "$1"
-    ln -s "$1" "$link_folder/work"
-    work=$link_folder/work
+        "$minimum_godot or later yourself, on PATH or as GODOT, and give a checkout of Jolt by jolt=PATH"
     mkdir -p "$work"/{lists,archives}/partial "$work/empty"
     : >"$work/status"
-    echo "deb [signed-by=$keyring] $mirror $godot_suite main" >"$work/sources.list"
+    printf '%s [signed-by=%s] %s %s main\n' deb "$keyring" "$mirror" "$godot_suite" \
+        deb-src "$keyring" "$mirror" "$godot_suite" >"$work/sources.list"
     {
         # Proxies and the like are this machine's own; its hooks are not run.
         apt-config dump | grep -E '^Acquire::(http|https|ftp|Check|Retries)' || true
@@ -116,7 +112,18 @@ Debug::NoLocking "true";
 CONF
     } >"$work/apt.conf"
     APT_CONFIG=$work/apt.conf apt-get -qq update
-    APT_CONFIG=$work/apt.conf apt-get -qq -y --download-only install \
+    echo "$work/apt.conf"
+}
+
+fetch_copy() { # fetch_copy FOLDER: unpacks into FOLDER/copy; an interrupted download resumes
+    local work configuration package
+    link_folder=$(mktemp -d)
+    trap 'rm -rf "$link_folder"' EXIT
+    mkdir -p "$1"
+    ln -s "$1" "$link_folder/work"
+    work=$link_folder/work
+    configuration=$(private_apt "$work")
+    APT_CONFIG=$configuration apt-get -qq -y --download-only install \
         godot libgl1 libegl1 libgl1-mesa-dri patchelf
     rm -rf "$work/copy"
     mkdir -p "$work/copy/root"

@@ -18,6 +18,7 @@ paper_numbers() { # paper_numbers FOLDER: the CSV files alone
 
 paper() {
     need "${build_needs[@]}"
+    find_jolt
     local python
     python=$(plotting_python)
     paper_numbers build/paper

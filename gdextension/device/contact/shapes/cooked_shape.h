@@ -40,7 +40,7 @@ struct ShapeDescription {
     // Mesh and height map: whether back faces are solid too. The front of a height map is up (+Y).
     bool two_sided = false;
     // Height map: columns along X and rows along Z, centred on the origin; heights_m[row * columns + column]. A NaN is a
-    // hole: the cells that touch it have no triangles.
+    // hole: the triangles that touch it are left out.
     int columns = 0;
     int rows = 0;
     double spacing_x_m = 1.0;
@@ -54,7 +54,7 @@ struct CookResult;
 
 class CookedShape {
 public:
-    struct Data; // convex_core.h and triangle_source.h; only this room looks inside
+    struct Data; // shape_data.h; only this room looks inside
 
     explicit CookedShape(std::unique_ptr<const Data> data);
     ~CookedShape();

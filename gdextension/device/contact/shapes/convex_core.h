@@ -1,0 +1,143 @@
+// What a convex shape is to the search for closest points: a core, and how far its skin lies round it. Inside this room.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/base/types.h"
+
+namespace spidar {
+
+enum class CoreKind : std::uint8_t { point, segment, disc, box, cylinder, points };
+
+// A face of a hull: a run of ConvexCore::face_points, counter-clockwise seen from outside.
+struct HullFace {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    Vec3 normal{0.0}; // unit, outwards
+    double offset_m = 0.0;
+};
+
+// About its own origin; segment, disc and cylinder have their axis along Y.
+struct ConvexCore {
+    CoreKind kind = CoreKind::point;
+    Vec3 half_m{0.0};           // of a box
+    double radius_m = 0.0;      // of a disc and a cylinder
+    double half_height_m = 0.0; // of a segment and a cylinder
+    std::vector<Vec3> points;   // of a hull
+    std::vector<HullFace> faces;
+    std::vector<Vec3> face_points; // the faces' corners, face after face
+};
+
+// The same without its own memory: also for a single triangle, whose only face is itself.
+struct CoreView {
+    CoreKind kind = CoreKind::point;
+    Vec3 half_m{0.0};
+    double radius_m = 0.0;
+    double half_height_m = 0.0;
+    std::span<const Vec3> points;
+    std::span<const HullFace> faces;
+    std::span<const Vec3> face_points;
+};
+
+[[nodiscard]] inline CoreView view_of(const ConvexCore &core) noexcept {
+    return {core.kind,   core.half_m, core.radius_m,   core.half_height_m,
+            core.points, core.faces,  core.face_points};
+}
+
+// The point of the core that is farthest along `way`, which need not be a unit vector and may be zero.
+[[nodiscard]] inline Vec3 support(const CoreView &core, const Vec3 &way) noexcept {
+    switch (core.kind) {
+    case CoreKind::point:
+        return Vec3(0.0);
+    case CoreKind::segment:
+        return {0.0, std::copysign(core.half_height_m, way.y), 0.0};
+    case CoreKind::box:
+        return {std::copysign(core.half_m.x, way.x), std::copysign(core.half_m.y, way.y),
+                std::copysign(core.half_m.z, way.z)};
+    case CoreKind::disc:
+    case CoreKind::cylinder: {
+        const double across = std::sqrt(way.x * way.x + way.z * way.z);
+        const double y =
+            core.kind == CoreKind::disc ? 0.0 : std::copysign(core.half_height_m, way.y);
+        if (!(across > 0.0)) {
+            return {0.0, y, 0.0};
+        }
+        const double scale = core.radius_m / across;
+        return {scale * way.x, y, scale * way.z};
+    }
+    case CoreKind::points:
+        break;
+    }
+    const Vec3 *best = core.points.data();
+    double farthest = glm::dot(*best, way);
+    for (const Vec3 &point : core.points.subspan(1)) {
+        const double distance = glm::dot(point, way);
+        if (distance > farthest) {
+            farthest = distance;
+            best = &point;
+        }
+    }
+    return *best;
+}
+
+// Half of the box round a turned core, about the core's origin: lower and upper corner.
+inline void bounds_of(const CoreView &core, const Mat3 &rotation, Vec3 &lower_m,
+                      Vec3 &upper_m) noexcept {
+    const Mat3 back = glm::transpose(rotation);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 way = back[axis]; // the axis, in the core's frame
+        upper_m[axis] = glm::dot(way, support(core, way));
+        lower_m[axis] = glm::dot(way, support(core, -way));
+    }
+}
+
+// From a point in the core's frame to the core, or less (m): 0 for a hull.
+[[nodiscard]] inline double distance_to_core(const CoreView &core, const Vec3 &point) noexcept {
+    const double above = std::fmax(std::abs(point.y) - core.half_height_m, 0.0);
+    switch (core.kind) {
+    case CoreKind::point:
+        return glm::length(point);
+    case CoreKind::segment:
+        return glm::length(Vec3(point.x, above, point.z));
+    case CoreKind::box:
+        return glm::length(glm::max(glm::abs(point) - core.half_m, Vec3(0.0)));
+    case CoreKind::disc:
+    case CoreKind::cylinder: {
+        const double across = std::sqrt(point.x * point.x + point.z * point.z) - core.radius_m;
+        return across > 0.0 ? std::sqrt(across * across + above * above) : above;
+    }
+    case CoreKind::points:
+        break;
+    }
+    return 0.0; // its box is looked at elsewhere
+}
+
+// Radius about the core's origin that holds the core.
+[[nodiscard]] inline double reach_of(const CoreView &core) noexcept {
+    switch (core.kind) {
+    case CoreKind::point:
+        return 0.0;
+    case CoreKind::segment:
+        return core.half_height_m;
+    case CoreKind::box:
+        return glm::length(core.half_m);
+    case CoreKind::disc:
+        return core.radius_m;
+    case CoreKind::cylinder:
+        return std::hypot(core.radius_m, core.half_height_m);
+    case CoreKind::points:
+        break;
+    }
+    double reach = 0.0;
+    for (const Vec3 &point : core.points) {
+        reach = std::max(reach, glm::length(point));
+    }
+    return reach;
+}
+
+} // namespace spidar

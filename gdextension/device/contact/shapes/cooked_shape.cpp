@@ -1,0 +1,268 @@
+#include "device/contact/shapes/cooked_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "core/base/finite.h"
+#include "device/contact/shapes/hull_builder.h"
+#include "device/contact/shapes/mesh_cooker.h"
+#include "device/contact/shapes/shape_data.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+struct Refusal {
+    Status status = Status::ok;
+    std::string sentence;
+};
+
+Refusal wrong(std::string sentence) {
+    return {Status::invalid_shape, std::move(sentence)};
+}
+
+Refusal not_finite(const char *field) {
+    return {Status::not_finite, std::string(field) + " is NaN or infinite."};
+}
+
+Refusal check_size(double value, const char *field) {
+    if (!std::isfinite(value)) {
+        return not_finite(field);
+    }
+    return value > 0.0 ? Refusal{} : wrong(std::string(field) + " must be above 0.");
+}
+
+bool refused(const Refusal &refusal) {
+    return !usable(refusal.status);
+}
+
+Refusal check_points(const ShapeDescription &shape) {
+    for (const Vec3 &point : shape.points_m) {
+        if (!all_finite(point)) {
+            return not_finite("A point of points_m");
+        }
+    }
+    return {};
+}
+
+void bound_points(CookedShape::Data &data) {
+    data.lower_m = Vec3(kInfinite);
+    data.upper_m = Vec3(-kInfinite);
+    for (const Vec3 &point : data.description.points_m) {
+        data.lower_m = glm::min(data.lower_m, point);
+        data.upper_m = glm::max(data.upper_m, point);
+    }
+}
+
+void bound_core(CookedShape::Data &data) {
+    bounds_of(view_of(data.core), Mat3(1.0), data.lower_m, data.upper_m);
+    data.lower_m -= Vec3(data.skin_m);
+    data.upper_m += Vec3(data.skin_m);
+}
+
+Refusal cook_box(CookedShape::Data &data) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Refusal refusal =
+            check_size(data.description.half_extents_m[axis], "half_extents_m of a box");
+        if (refused(refusal)) {
+            return refusal;
+        }
+    }
+    data.core.kind = CoreKind::box;
+    data.core.half_m = data.description.half_extents_m;
+    bound_core(data);
+    return {};
+}
+
+Refusal cook_round(CookedShape::Data &data) {
+    const ShapeDescription &shape = data.description;
+    Refusal refusal = check_size(shape.radius_m, "radius_m");
+    if (refused(refusal)) {
+        return refusal;
+    }
+    if (shape.kind != ShapeKind::sphere) {
+        const bool ball = shape.kind == ShapeKind::capsule && shape.half_height_m == 0.0;
+        refusal = ball ? Refusal{} : check_size(shape.half_height_m, "half_height_m");
+        if (refused(refusal)) {
+            return refusal;
+        }
+        data.core.half_height_m = shape.half_height_m;
+    }
+    if (shape.kind == ShapeKind::cylinder) {
+        data.core.kind = CoreKind::cylinder;
+        data.core.radius_m = shape.radius_m;
+    } else {
+        data.core.kind = shape.kind == ShapeKind::sphere ? CoreKind::point : CoreKind::segment;
+        data.skin_m = shape.radius_m;
+    }
+    bound_core(data);
+    return {};
+}
+
+Refusal cook_hull(CookedShape::Data &data) {
+    Refusal refusal = check_points(data.description);
+    if (refused(refusal)) {
+        return refusal;
+    }
+    if (data.description.points_m.size() < 4) {
+        return wrong("A hull needs at least 4 points_m.");
+    }
+    if (!build_hull(data.description.points_m, data.core)) {
+        return wrong("The points_m of the hull lie in one plane; give a flat shape as a mesh.");
+    }
+    bound_core(data);
+    return {};
+}
+
+Refusal cook_mesh(CookedShape::Data &data, int &dropped) {
+    ShapeDescription &shape = data.description;
+    Refusal refusal = check_points(shape);
+    if (refused(refusal)) {
+        return refusal;
+    }
+    if (shape.indices.empty() || shape.indices.size() % 3 != 0) {
+        return wrong("A mesh needs indices, three for each triangle.");
+    }
+    const auto outside = [&shape](std::uint32_t index) { return index >= shape.points_m.size(); };
+    if (std::any_of(shape.indices.begin(), shape.indices.end(), outside)) {
+        return wrong("An index of the mesh is no place in points_m.");
+    }
+    dropped = weld(shape);
+    if (shape.indices.empty()) {
+        return wrong("Every triangle of the mesh is without area.");
+    }
+    data.neighbours = find_neighbours(shape.indices);
+    data.tree = build_tree(shape.points_m, shape.indices);
+    bound_points(data);
+    return {};
+}
+
+Refusal cook_height_map(CookedShape::Data &data) {
+    const ShapeDescription &map = data.description;
+    Refusal refusal = check_size(map.spacing_x_m, "spacing_x_m");
+    if (!refused(refusal)) {
+        refusal = check_size(map.spacing_z_m, "spacing_z_m");
+    }
+    if (refused(refusal)) {
+        return refusal;
+    }
+    constexpr int kMostPoints = 32768; // along one side: cells are counted in 32 bits
+    if (map.columns < 2 || map.rows < 2 || map.columns > kMostPoints || map.rows > kMostPoints) {
+        return wrong("A height map needs 2 to 32768 columns and rows.");
+    }
+    const auto count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
+    if (map.heights_m.size() != count) {
+        return wrong("heights_m of a height map needs columns * rows values.");
+    }
+    double lowest = kInfinite;
+    double highest = -kInfinite;
+    for (const float height : map.heights_m) {
+        if (std::isinf(height)) {
+            return not_finite("A height of heights_m");
+        }
+        if (!std::isnan(height)) {
+            lowest = std::min(lowest, static_cast<double>(height));
+            highest = std::max(highest, static_cast<double>(height));
+        }
+    }
+    if (lowest > highest) {
+        return wrong("Every height of the height map is a hole.");
+    }
+    data.upper_m = {0.5 * (map.columns - 1) * map.spacing_x_m, highest,
+                    0.5 * (map.rows - 1) * map.spacing_z_m};
+    data.lower_m = {-data.upper_m.x, lowest, -data.upper_m.z};
+    return {};
+}
+
+Refusal cook_half_space(CookedShape::Data &data) {
+    ShapeDescription &wall = data.description;
+    if (!all_finite(wall.normal, wall.offset_m)) {
+        return not_finite("normal or offset_m of a half space");
+    }
+    const double length = glm::length(wall.normal);
+    if (!(length > 0.0)) {
+        return wrong("normal of a half space has no length.");
+    }
+    wall.normal /= length;
+    data.lower_m = Vec3(-kInfinite);
+    data.upper_m = Vec3(kInfinite);
+    return {};
+}
+
+Refusal cook_kind(CookedShape::Data &data, int &dropped) {
+    switch (data.description.kind) {
+    case ShapeKind::box:
+        return cook_box(data);
+    case ShapeKind::sphere:
+    case ShapeKind::capsule:
+    case ShapeKind::cylinder:
+        return cook_round(data);
+    case ShapeKind::hull:
+        return cook_hull(data);
+    case ShapeKind::mesh:
+        return cook_mesh(data, dropped);
+    case ShapeKind::height_map:
+        return cook_height_map(data);
+    case ShapeKind::half_space:
+        return cook_half_space(data);
+    }
+    return wrong("This kind of shape is not known.");
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T> &list) noexcept {
+    return list.capacity() * sizeof(T);
+}
+
+} // namespace
+
+CookedShape::CookedShape(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+CookedShape::~CookedShape() = default;
+
+ShapeKind CookedShape::kind() const noexcept {
+    return data_->description.kind;
+}
+
+bool CookedShape::convex() const noexcept {
+    return kind() != ShapeKind::mesh && kind() != ShapeKind::height_map;
+}
+
+Vec3 CookedShape::lower_m() const noexcept {
+    return data_->lower_m;
+}
+
+Vec3 CookedShape::upper_m() const noexcept {
+    return data_->upper_m;
+}
+
+std::size_t CookedShape::bytes() const noexcept {
+    const ShapeDescription &shape = data_->description;
+    return sizeof(Data) + bytes_of(shape.points_m) + bytes_of(shape.indices) +
+           bytes_of(shape.heights_m) + bytes_of(data_->core.points) + bytes_of(data_->core.faces) +
+           bytes_of(data_->core.face_points) + bytes_of(data_->neighbours) +
+           bytes_of(data_->tree.nodes) + bytes_of(data_->tree.order);
+}
+
+CookResult cook(ShapeDescription description) {
+    CookResult result;
+    auto data = std::make_unique<CookedShape::Data>();
+    data->description = std::move(description);
+    Refusal refusal = cook_kind(*data, result.dropped_triangles);
+    result.status = refusal.status;
+    result.sentence = std::move(refusal.sentence);
+    if (!usable(result.status)) {
+        return result;
+    }
+    if (result.dropped_triangles > 0) {
+        result.sentence = std::to_string(result.dropped_triangles) +
+                          " triangles without area were left out of the mesh.";
+    }
+    result.shape = std::make_shared<const CookedShape>(std::move(data));
+    return result;
+}
+
+} // namespace spidar

@@ -1,0 +1,15 @@
+// Contacts of a tool with the triangles gathered from a mesh or a height map.
+#pragma once
+
+#include "device/contact/shapes/contact_choice.h"
+#include "device/contact/shapes/convex_core.h"
+#include "device/contact/shapes/shape_data.h"
+
+namespace spidar {
+
+// Everything in the mesh's frame.
+void mesh_contacts(const CookedShape::Data &mesh, const ToolShape::Data &tool,
+                   const Placement &tool_at, double margin_m, PairMemory &memory,
+                   ContactCandidates &found) noexcept;
+
+} // namespace spidar

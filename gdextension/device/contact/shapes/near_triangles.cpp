@@ -1,0 +1,179 @@
+#include "device/contact/shapes/near_triangles.h"
+
+#include <algorithm>
+
+namespace spidar {
+
+namespace {
+
+// Beyond the margin (m): a hand at 0.4 m/s gathers every tenth cycle. A farther one would bring more triangles to look
+// at in each cycle.
+constexpr double kSlack_m = 4e-3;
+// A tool on a mesh too fine for the list gathers anew after this (m), for the list can never be complete.
+constexpr double kLeastSlack_m = 1e-3;
+// Faces that turn towards each other by less (sine) are one flat face: the edge between them is no edge.
+constexpr double kFlatEdge = 1e-6;
+
+// No point of the tool moves farther than this from the one placement to the other.
+double moved_at_most(const Placement &from, const Placement &to, double reach_m) noexcept {
+    double turn2 = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        const Vec3 change = to.rotation[column] - from.rotation[column];
+        turn2 += glm::dot(change, change);
+    }
+    // The Frobenius norm of the change is sqrt(8) sin(angle / 2).
+    return glm::length(to.origin_m - from.origin_m) + reach_m * std::sqrt(0.5 * turn2);
+}
+
+bool sharp(const TriangleSource &source, const Corners &triangle, std::uint32_t neighbour,
+           std::uint32_t first_shared, std::uint32_t second_shared) noexcept {
+    if (neighbour == kNone) {
+        return true;
+    }
+    const auto numbers = source.corner_numbers(neighbour);
+    const Corners other = source.corners(neighbour);
+    const Vec3 normal = normal_of(triangle);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (numbers[i] == first_shared || numbers[i] == second_shared) {
+            continue;
+        }
+        // The far corner, below the plane of this triangle: the edge stands out.
+        const Vec3 from = other[i] - triangle[0];
+        const double rise = glm::dot(from, normal);
+        const double limit = kFlatEdge * glm::length(from);
+        return rise < -limit || (source.two_sided() && rise > limit);
+    }
+    return true; // both have the same corners
+}
+
+struct NearerLast {
+    const std::array<double, kMaxNearTriangles> &distances;
+    bool operator()(std::size_t a, std::size_t b) const noexcept {
+        return distances[a] < distances[b];
+    }
+};
+
+class Gatherer {
+public:
+    Gatherer(const TriangleSource &source, const ToolShape::Data &tool, const Placement &tool_at,
+             double reach_m, PairMemory &memory) noexcept
+        : source_(source), memory_(memory), reach_m_(reach_m), core_(view_of(tool.core)),
+          back_(glm::transpose(tool_at.rotation)), origin_m_(tool_at.origin_m) {
+        bounds_of(core_, tool_at.rotation, lower_m_, upper_m_);
+        lower_m_ += tool_at.origin_m;
+        upper_m_ += tool_at.origin_m;
+    }
+
+    void run() noexcept {
+        const Vec3 reach(reach_m_);
+        source_.visit_box(lower_m_ - reach, upper_m_ + reach,
+                          [this](std::uint32_t triangle) { add(triangle); });
+    }
+
+    // All triangles nearer to the core than this are in the list.
+    [[nodiscard]] double complete_to_m() const noexcept { return reach_m_; }
+
+private:
+    // At most the distance: between the boxes of both, and from the core to the ball round the triangle.
+    [[nodiscard]] double bound(const Corners &triangle) const noexcept {
+        const Vec3 lower = glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
+        const Vec3 upper = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]);
+        const Vec3 apart = glm::max(glm::max(lower - upper_m_, lower_m_ - upper), Vec3(0.0));
+        const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+        double radius2 = 0.0;
+        for (const Vec3 &corner : triangle) {
+            radius2 = std::max(radius2, glm::dot(corner - middle, corner - middle));
+        }
+        const Vec3 inside = back_ * (middle - origin_m_);
+        return std::max(glm::length(apart), distance_to_core(core_, inside) - std::sqrt(radius2));
+    }
+
+    void add(std::uint32_t triangle) noexcept {
+        const double distance = bound(source_.corners(triangle));
+        if (distance >= reach_m_) {
+            return;
+        }
+        if (memory_.count == kMaxNearTriangles) {
+            // The farthest makes room: what is complete reaches as far as it was.
+            std::pop_heap(heap_.begin(), heap_.end(), NearerLast{distances_});
+            const std::size_t farthest = heap_.back();
+            reach_m_ = std::max(distances_[farthest], distance);
+            if (distance < distances_[farthest]) {
+                memory_.triangles[farthest].index = triangle;
+                distances_[farthest] = distance;
+            }
+            std::push_heap(heap_.begin(), heap_.end(), NearerLast{distances_});
+            return;
+        }
+        const auto place = static_cast<std::size_t>(memory_.count++);
+        memory_.triangles[place].index = triangle;
+        distances_[place] = distance;
+        heap_[place] = static_cast<std::uint16_t>(place);
+        if (memory_.count == kMaxNearTriangles) {
+            std::make_heap(heap_.begin(), heap_.end(), NearerLast{distances_});
+        }
+    }
+
+    const TriangleSource &source_;
+    PairMemory &memory_;
+    double reach_m_;
+    const CoreView core_;
+    const Mat3 back_;
+    const Vec3 origin_m_;
+    Vec3 lower_m_{0.0};
+    Vec3 upper_m_{0.0};
+    std::array<double, kMaxNearTriangles> distances_;
+    std::array<std::uint16_t, kMaxNearTriangles> heap_;
+};
+
+void link(const TriangleSource &source, PairMemory &memory) noexcept {
+    const auto end = memory.triangles.begin() + memory.count;
+    const auto by_index = [](const NearTriangle &a, const NearTriangle &b) {
+        return a.index < b.index;
+    };
+    std::sort(memory.triangles.begin(), end, by_index);
+    for (auto near = memory.triangles.begin(); near != end; ++near) {
+        const Corners triangle = source.corners(near->index);
+        const auto numbers = source.corner_numbers(near->index);
+        near->sharp_edges = 0;
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            const std::uint32_t neighbour = source.neighbour(near->index, edge);
+            if (sharp(source, triangle, neighbour, numbers[edge], numbers[(edge + 1) % 3])) {
+                near->sharp_edges = static_cast<std::uint8_t>(near->sharp_edges | (1U << edge));
+            }
+            NearTriangle wanted;
+            wanted.index = neighbour;
+            const auto found = std::lower_bound(memory.triangles.begin(), end, wanted, by_index);
+            near->neighbour[edge] =
+                found != end && found->index == neighbour
+                    ? static_cast<std::uint16_t>(found - memory.triangles.begin())
+                    : kNoTriangle;
+        }
+    }
+}
+
+} // namespace
+
+bool still_near(const PairMemory &memory, const ToolShape::Data &tool, const Placement &tool_at,
+                double margin_m) noexcept {
+    // A list that is full reaches as far as it can: gathering it again where it is would not help.
+    const double slack = memory.slack_m - (margin_m - memory.margin_m);
+    return memory.slack_m >= 0.0 &&
+           moved_at_most(memory.gathered_at, tool_at, tool.reach_m) <= slack;
+}
+
+void gather_triangles(const TriangleSource &source, const ToolShape::Data &tool,
+                      const Placement &tool_at, double margin_m, PairMemory &memory) noexcept {
+    memory.count = 0;
+    Gatherer gatherer(source, tool, tool_at, tool.skin_m + margin_m + kSlack_m, memory);
+    gatherer.run();
+    link(source, memory);
+    memory.gathered_at = tool_at;
+    memory.margin_m = margin_m;
+    // Too many triangles within the margin itself: what there is serves for a while.
+    const double slack_m = gatherer.complete_to_m() - tool.skin_m - margin_m;
+    memory.full = slack_m < kLeastSlack_m;
+    memory.slack_m = std::max(slack_m, kLeastSlack_m);
+}
+
+} // namespace spidar

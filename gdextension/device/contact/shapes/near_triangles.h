@@ -1,0 +1,17 @@
+// The triangles of a mesh near a tool, gathered once for many cycles.
+#pragma once
+
+#include "device/contact/shapes/closest_points.h"
+#include "device/contact/shapes/convex_core.h"
+#include "device/contact/shapes/triangle_source.h"
+
+namespace spidar {
+
+// Does the memory still hold all triangles within margin_m of the tool?
+[[nodiscard]] bool still_near(const PairMemory &memory, const ToolShape::Data &tool,
+                              const Placement &tool_at, double margin_m) noexcept;
+
+void gather_triangles(const TriangleSource &source, const ToolShape::Data &tool,
+                      const Placement &tool_at, double margin_m, PairMemory &memory) noexcept;
+
+} // namespace spidar

@@ -1,0 +1,134 @@
+// The triangles of a mesh, or of a height map's grid, by their number. Inside this room.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "device/contact/shapes/shape_data.h"
+#include "device/contact/shapes/triangle_distance.h"
+
+namespace spidar {
+
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// A cell of a height map has two triangles, 2 * cell and 2 * cell + 1, cut from (column + 1, row) to (column, row + 1)
+// as the engine's own physics cuts it. A cell is named by its lower corner, in rows of all columns.
+class TriangleSource {
+public:
+    explicit TriangleSource(const CookedShape::Data &data) noexcept
+        : data_(data), grid_(data.description.kind == ShapeKind::height_map) {}
+
+    [[nodiscard]] bool two_sided() const noexcept { return data_.description.two_sided; }
+
+    // The numbers of its corners: equal ones are one corner.
+    [[nodiscard]] std::array<std::uint32_t, 3>
+    corner_numbers(std::uint32_t triangle) const noexcept {
+        if (!grid_) {
+            const auto first = static_cast<std::size_t>(triangle) * 3;
+            const auto &indices = data_.description.indices;
+            return {indices[first], indices[first + 1], indices[first + 2]};
+        }
+        const auto columns = static_cast<std::uint32_t>(data_.description.columns);
+        const std::uint32_t cell = triangle / 2;
+        if (triangle % 2 == 0) {
+            return {cell, cell + columns, cell + 1};
+        }
+        return {cell + 1, cell + columns, cell + columns + 1};
+    }
+
+    [[nodiscard]] Corners corners(std::uint32_t triangle) const noexcept {
+        const auto numbers = corner_numbers(triangle);
+        return {corner(numbers[0]), corner(numbers[1]), corner(numbers[2])};
+    }
+
+    // The triangle on the other side of edge i, from corner i to the next; kNone at a border.
+    [[nodiscard]] std::uint32_t neighbour(std::uint32_t triangle, std::size_t edge) const noexcept {
+        if (!grid_) {
+            return data_.neighbours[triangle][edge];
+        }
+        const int columns = data_.description.columns;
+        const auto cell = static_cast<int>(triangle / 2);
+        const int column = cell % columns;
+        const int row = cell / columns;
+        if (triangle % 2 == 0) {
+            return edge == 0   ? grid_triangle(column - 1, row, 1)
+                   : edge == 1 ? triangle + 1
+                               : grid_triangle(column, row - 1, 1);
+        }
+        return edge == 0   ? triangle - 1
+               : edge == 1 ? grid_triangle(column, row + 1, 0)
+                           : grid_triangle(column + 1, row, 0);
+    }
+
+    // Calls visit(triangle) for all triangles that may meet the box, and for some others.
+    template <class Visit>
+    void visit_box(const Vec3 &lower_m, const Vec3 &upper_m, Visit &&visit) const {
+        if (!grid_) {
+            data_.tree.visit_box(lower_m, upper_m, visit);
+            return;
+        }
+        const ShapeDescription &map = data_.description;
+        if (!(lower_m.y <= data_.upper_m.y && upper_m.y >= data_.lower_m.y)) {
+            return;
+        }
+        const int first_column = cell_at(lower_m.x, map.spacing_x_m, map.columns);
+        const int last_column = cell_at(upper_m.x, map.spacing_x_m, map.columns);
+        const int first_row = cell_at(lower_m.z, map.spacing_z_m, map.rows);
+        const int last_row = cell_at(upper_m.z, map.spacing_z_m, map.rows);
+        for (int row = first_row; row <= last_row; ++row) {
+            for (int column = first_column; column <= last_column; ++column) {
+                for (int half = 0; half < 2; ++half) {
+                    const std::uint32_t triangle = grid_triangle(column, row, half);
+                    if (triangle != kNone) {
+                        visit(triangle);
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] Vec3 corner(std::uint32_t number) const noexcept {
+        const ShapeDescription &shape = data_.description;
+        if (!grid_) {
+            return shape.points_m[number];
+        }
+        const auto columns = static_cast<std::uint32_t>(shape.columns);
+        return {(number % columns - 0.5 * (shape.columns - 1)) * shape.spacing_x_m,
+                static_cast<double>(shape.heights_m[number]),
+                (number / columns - 0.5 * (shape.rows - 1)) * shape.spacing_z_m};
+    }
+
+    // kNone outside the grid and at a hole.
+    [[nodiscard]] std::uint32_t grid_triangle(int column, int row, int half) const noexcept {
+        const ShapeDescription &map = data_.description;
+        if (column < 0 || row < 0 || column >= map.columns - 1 || row >= map.rows - 1) {
+            return kNone;
+        }
+        const auto triangle = static_cast<std::uint32_t>(2 * (row * map.columns + column) + half);
+        for (const std::uint32_t number : corner_numbers(triangle)) {
+            if (std::isnan(map.heights_m[number])) {
+                return kNone;
+            }
+        }
+        return triangle;
+    }
+
+    // The cell that a coordinate falls into; the nearest one outside the grid.
+    [[nodiscard]] static int cell_at(double coordinate_m, double spacing_m, int points) noexcept {
+        const double place = std::floor(coordinate_m / spacing_m + 0.5 * (points - 1));
+        return static_cast<int>(std::fmin(std::fmax(place, 0.0), points - 2.0));
+    }
+
+    const CookedShape::Data &data_;
+    bool grid_;
+};
+
+// Unit, to the front.
+[[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
+    return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+}
+
+} // namespace spidar
