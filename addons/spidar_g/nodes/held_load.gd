@@ -73,8 +73,11 @@ func follow(centre: Vector3, since_s: float) -> void:
 	_age_s += since_s
 
 
-## Computes force and moment. device: turns its axes into the scene's. workspace_scale: scene metres per device metre.
-func pull(body: RigidBody3D, grip_centre: Vector3, device: Basis, workspace_scale: float) -> void:
+## Computes force and moment of a body that belongs at `place` when the grip's centre is at grip_centre. device: turns its axes
+## into the scene's. workspace_scale: scene metres per device metre.
+func pull(
+	body: RigidBody3D, place: Transform3D, grip_centre: Vector3, device: Basis, workspace_scale: float
+) -> void:
 	var state: PhysicsDirectBodyState3D = PhysicsServer3D.body_get_direct_state(body.get_rid())
 	force_n = Vector3.ZERO
 	if with_weight:
@@ -85,6 +88,6 @@ func pull(body: RigidBody3D, grip_centre: Vector3, device: Basis, workspace_scal
 		var inertia: Vector3 = mass * (device * _acceleration) / workspace_scale
 		force_n -= inertia.limit_length(INERTIA_FORCE_SHARE * max_force_n)
 	force_n *= clampf(_age_s / ONSET_TIME_S, 0.0, 1.0)
-	var centre: Vector3 = state.transform.origin + state.center_of_mass
+	var centre: Vector3 = place * state.center_of_mass_local
 	moment_nm = ((centre - grip_centre) / workspace_scale).cross(force_n) + _added_nm
 	force_n = (force_n + _added_n).limit_length(max_force_n)

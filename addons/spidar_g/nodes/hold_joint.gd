@@ -10,6 +10,7 @@ const MAX_RELEASE_SPEED_M_S: float = 2.0
 var body: RigidBody3D = null
 ## True from detain() to the next advance().
 var detained: bool = false
+var _time_runs: bool = true
 var _anchor: AnimatableBody3D = null
 var _joint: Generic6DOFJoint3D = null
 ## From the anchor to the body, as it was when caught.
@@ -57,6 +58,12 @@ func is_movable() -> bool:
 func advance(delta_s: float) -> void:
 	_age_s += delta_s
 	detained = false
+	if _time_runs != (delta_s > 0.0):
+		_time_runs = delta_s > 0.0
+		if _time_runs:
+			_tie_body()
+		else:
+			_untie_body()
 
 
 ## Until the next advance() the body stays at `seat`, wherever the grip goes.
@@ -71,8 +78,11 @@ func where(grip: Transform3D) -> Transform3D:
 	return _centred(grip) * _caught
 
 
-## Carries the anchor to the grip, moved by `shift` where the body met something that does not give way.
+## Carries the anchor to the grip, moved by `shift` where the body met something that does not give way. While the game's time
+## stands still nothing is carried or tied: an engine that divides a way by no time gives the body a place that is no number.
 func follow(grip: Transform3D, shift: Vector3) -> void:
+	if not _time_runs:
+		return
 	var target: Transform3D = _centred(grip)
 	target.origin += shift
 	if detained:
@@ -121,6 +131,10 @@ func _tie(anchor_at: Transform3D) -> void:
 	# Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
 	_anchor.transform = anchor_at
 	add_child(_anchor)
+	_tie_body()
+
+
+func _tie_body() -> void:
 	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
 	add_child(_joint)
 	_joint.global_transform = body.global_transform
@@ -129,13 +143,18 @@ func _tie(anchor_at: Transform3D) -> void:
 
 
 func _untie() -> void:
+	_untie_body()
+	if _anchor != null:
+		_anchor.queue_free()
+	_anchor = null
+
+
+func _untie_body() -> void:
 	if _joint != null:
 		_joint.node_a = NodePath()
 		_joint.node_b = NodePath()
 		_joint.queue_free()
-		_anchor.queue_free()
 	_joint = null
-	_anchor = null
 
 
 func _centred(grip: Transform3D) -> Transform3D:

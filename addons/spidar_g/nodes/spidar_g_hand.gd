@@ -341,8 +341,7 @@ func _find_tool_planes(grip: Transform3D, exclude: Array[RID], found: Array[Cont
 		var settings: SpidarGConfig = _settings()
 		var gap_per_rad: float = settings.jaw_open / settings.jaw_closed_angle
 		var closing: float = spidar.get_grasp_rate() * gap_per_rad * spidar.workspace_scale
-		var slack: float = JawSensor.SIDE_SLACK_M * spidar.workspace_scale
-		_jaw.side_planes(_finder, grip, _gap_m(), closing, slack, found)
+		_jaw.side_planes(_finder, grip, _gap_m(), closing, JawSensor.SIDE_SLACK_M * spidar.workspace_scale, found)
 	var shape: Shape3D = _pad.shape_for(spidar.workspace_scale)
 	# Planes act until the next ones come. What stands about a device that is carried along is carried too.
 	var ahead: Vector3 = spidar.global_basis.orthonormalized() * _load.velocity * _clock.ahead_s
@@ -359,7 +358,8 @@ func _request_load(grip: Transform3D) -> void:
 	_load.max_force_n = _settings().max_force
 	_load.with_weight = render_weight and not _hold.detained  # What has snapped in is carried by its socket.
 	_load.with_inertia = render_inertia and not _hold.detained
-	_load.pull(_hold.body, grip.origin, spidar.global_basis.orthonormalized(), spidar.workspace_scale)
+	var axes: Basis = spidar.global_basis.orthonormalized()
+	_load.pull(_hold.body, _hold.where(grip), grip.origin, axes, spidar.workspace_scale)
 	_requests.ask(_load.force_n, _load.moment_nm)
 
 

@@ -108,3 +108,27 @@ func _plane(normal: Vector3, offset: float, target: int, id: int) -> PackedFloat
 
 func _grasp_stop(angle: float, id: int) -> PackedFloat64Array:
 	return PackedFloat64Array([-1, 0, 0, -angle, 0, 0, 0, 0.25, 0.001, 0.0, SpidarG.CONTACT_GRASP_STOP, id])
+
+
+func test_impulse_over_device_time_is_the_mean_force() -> void:
+	for time_scale: float in [1.0, 0.1, 0.0]:
+		var lone: SpidarG = ideal_device()
+		lone.forces_enabled = true
+		add(lone)
+		await physics_frames(1)
+		lone.advance_cycles(1600)
+		Engine.time_scale = time_scale
+		# 10 mm into the hand.
+		var plane := PackedFloat64Array([0, 1, 0, 0.01, 0, 0, 0, 200, 0, 0, SpidarG.CONTACT_CENTRE, 7])
+		var impulse: float = 0.0
+		var began_s: float = 0.0
+		for i: int in 60:
+			lone.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+			lone.set_contacts(plane)
+			await physics_frames(1)
+			if i == 40:
+				impulse = lone.get_contact_impulses()[7].y
+				began_s = lone.get_device_time_s()
+		var force: float = (lone.get_contact_impulses()[7].y - impulse) / (lone.get_device_time_s() - began_s)
+		check_near(force / lone.get_requested_wrench()[1], 1.0, 0.002, "time scale %s" % time_scale)
+		lone.free()

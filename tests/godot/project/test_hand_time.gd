@@ -54,6 +54,26 @@ func test_nothing_is_newly_held_while_time_stands_still() -> void:
 	check_equal(rejected, PackedStringArray(), "nothing was refused")
 
 
+func test_a_hand_that_moves_while_time_stands_still_takes_the_body_along_afterwards() -> void:
+	await _prepare()
+	await glide(body.global_position, 0.0, 0.5)
+	await glide(body.global_position, SQUEEZE_ANGLE, 0.5)
+	await glide(at + Vector3(0.0, 0.05, 0.0), SQUEEZE_ANGLE, 0.5)
+	await rest(0.3)
+	Engine.time_scale = 0.0
+	await glide(at + Vector3(0.1, 0.03, 0.0), SQUEEZE_ANGLE, 0.3)
+	await rest(0.2)
+	check(body.global_position.distance_to(at) > 0.09, "the body stays: %s" % body.global_position)
+	check_near(asked(1), -MASS * GRAVITY, TOLERANCE, "its weight is felt")
+	for turn: int in [3, 4, 5]:
+		check_near(asked(turn), 0.0, 0.005, "and has no lever, N m")
+	Engine.time_scale = 1.0
+	await rest(0.3)
+	check(hand.get_held_body() == body, "held")
+	check_near(body.global_position.distance_to(hand.get_wanted_pose().origin), 0.0, 0.001, "and where the hand is")
+	check_equal(rejected, PackedStringArray(), "nothing was refused")
+
+
 func test_what_is_too_heavy_to_hold_stays_so_at_every_time_scale() -> void:
 	for time_scale: float in [0.0, 0.1, 3.0]:
 		await _prepare()
