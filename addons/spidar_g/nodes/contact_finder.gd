@@ -20,11 +20,11 @@ const STIFFNESS_META: StringName = &"spidar_stiffness_n_m"
 ## A body with this metadata (coefficient) is rougher or smoother than the rest.
 const FRICTION_META: StringName = &"spidar_friction"
 ## The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
-## let a light body bounce between the tool's push and its own answer. Frames of a game that runs fast are long.
+## let a light body bounce between the tool's push and its own answer. In fast motion a frame is long in the game's time.
 const PUSHED_STIFFNESS_RATIO: float = 1.0
 
 var collision_mask: int = 1
-## How far the device has gone on since the last physics step. Bodies that steps move stand where that step left them.
+## The motion of the device since the last physics step. Bodies that physics steps move still stand where that step left them.
 var gone_on: Transform3D = Transform3D.IDENTITY
 ## Scene metres.
 var margin_m: float = 0.04
@@ -35,8 +35,8 @@ var friction: float = 0.4
 var _query: PhysicsShapeQueryParameters3D = PhysicsShapeQueryParameters3D.new()
 
 
-## Appends to `found` the planes near `shape`, which the last step had at `transform`; bodies in `exclude` are not seen. The
-## shape moves on by `ahead` (scene metres) before the next planes come: of the planes that touch a body now and then, the one
+## Appends to `found` the planes near `shape`, which stood at `transform` at the last physics step. Bodies in `exclude` are not
+## seen. The shape moves on by `ahead` (scene metres) before the next planes come: of the planes that touch a body now and then, the one
 ## is taken that the shape stays clear of longest. Both hold the whole convex body behind them, so neither is passed unfelt.
 func find(
 	space: PhysicsDirectSpaceState3D,
@@ -64,7 +64,8 @@ func find(
 			at = now
 			var node: Node3D = object_of(hits, rid)
 			if node != null:
-				node.force_update_transform()  # It stands where its node is, but for a move of this very tick.
+				# The space learns of a node's move only at the end of a tick.
+				node.force_update_transform()
 		_query.transform = at
 		var plane: ContactPlane = _nearest_plane(space)
 		if plane == null:
@@ -101,7 +102,7 @@ static func unique_rids(hits: Array[Dictionary]) -> Array[RID]:
 	return rids
 
 
-## What was hit under this RID, among what a query of the space gives.
+## The node of the body `wanted` among the hits of a query.
 static func object_of(hits: Array[Dictionary], wanted: RID) -> Node3D:
 	for hit: Dictionary in hits:
 		var hit_rid: RID = hit["rid"]

@@ -8,15 +8,15 @@ var normal: Vector3 = Vector3.UP
 var separation_m: float = 0.0
 ## On the body's surface: where the reaction acts.
 var point: Vector3 = Vector3.ZERO
-## Of the body's surface, scene metres a second of device time.
+## Velocity of the body's surface, in scene metres per second of device time. A jump of the body is left out.
 var velocity: Vector3 = Vector3.ZERO
-## The same before a jump was told from a motion, of this tick and of the last one.
+## The velocity with jumps, as seen in this tick and in the one before.
 var seen_velocity: Vector3 = Vector3.ZERO
 var earlier_velocity: Vector3 = Vector3.ZERO
-## True for a body that no physics step moves: its velocity is only seen by its node, which is at `place`.
+## True for a body that physics steps do not move. Its velocity is seen only by the places of its node; `place` is the newest.
 var is_static: bool = false
 var place: Transform3D = Transform3D.IDENTITY
-## What the closing jaws add to it.
+## Velocity that the closing jaws add.
 var closing: Vector3 = Vector3.ZERO
 var stiffness_n_m: float = 350.0
 var damping_n_s_m: float = 2.0

@@ -8,8 +8,9 @@ const ContactPlane := preload("contact_plane.gd")
 const MERGE_COSINE: float = 0.996  # 5 degrees
 ## A surface of the same body whose normal turned less than this in one frame is the same surface.
 const SAME_SURFACE_COSINE: float = 0.94  # 20 degrees
-## A push makes a body this much faster than the tool at most, and no faster than takes it so far ahead before the next one:
-## held for a whole frame the force on a light body, which in truth is gone once the body moves, would throw it.
+## A push makes a body at most this much faster than the tool, and carries it at most this far ahead of the tool before the
+## next push. Without a limit a light body would be thrown: in truth the force is gone once the body moves, here it is held for a
+## whole frame.
 const MOST_LEAD_M_S: float = 0.5
 const MOST_LEAD_M: float = 0.0085
 ## SpidarG takes 8 contacts; one is kept for the grasp stop.
@@ -90,7 +91,8 @@ func gained(id: int) -> Vector3:
 
 
 ## Newton's third law at game rate: what a plane gave the hand in since_s of device time, its body gets back, up to most_n
-## and never so much that it is thrown. The force is the same in the game's time, the hand's speed is not.
+## and never so much that it is thrown. In slow motion the force stays the same, and
+## the hand is faster in the game's time.
 func push_bodies(most_n: float, since_s: float, tool_velocity_m_s: Vector3) -> void:
 	var pace: float = Engine.time_scale
 	if pace <= 0.0:
@@ -129,8 +131,9 @@ func shown_shift() -> Vector3:
 	return shift
 
 
-## A body that a script puts elsewhere has a velocity for one tick, as if it had been swept there. What it has in two ticks in
-## a row is a motion; only that is carried on. The engine moves a RigidBody3D by its velocity, so that is true at once.
+## Sets the velocity by which each plane is carried on. A body that a script puts elsewhere has a velocity in one tick alone, as
+## if it had been swept there. A motion lasts for two ticks, so the part that both ticks share is used. A RigidBody3D is moved by
+## its velocity, which is therefore used as it is.
 func _leave_out_jumps(found: Array[ContactPlane]) -> void:
 	var last: Dictionary[RID, ContactPlane] = {}
 	for plane: ContactPlane in planes:
@@ -145,7 +148,7 @@ func _leave_out_jumps(found: Array[ContactPlane]) -> void:
 		elif not plane.is_static:
 			plane.velocity = _steady(before.seen_velocity, plane.seen_velocity)
 		else:
-			# The engine gives the velocity of the step before; so does this, that all bodies of one lift have the same.
+			# One tick late, as the engine's velocities are: all bodies of a lift then have the same velocity.
 			var moved: Vector3 = plane.place * (before.place.affine_inverse() * plane.point) - plane.point
 			plane.seen_velocity += Engine.physics_ticks_per_second * moved
 			plane.earlier_velocity = before.seen_velocity

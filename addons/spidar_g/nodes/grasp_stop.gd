@@ -44,8 +44,8 @@ func is_for(rid: RID) -> bool:
 	return active and rid == _rid
 
 
-## With forces on, by the impulse that the strings were asked for in the last since_s of device time; with forces off, by
-## what the closing past the stop would ask for, so that games without a force display can grasp too.
+## Measures the squeeze over the last since_s of device time. With forces on it is the impulse that the strings were asked for,
+## divided by that time. With forces off it is the torque of the stop's spring, so that games without a force display can grasp.
 func measure(contacts: ContactSet, grasp_angle: float, forces_on: bool, since_s: float) -> void:
 	if not active:
 		return

@@ -23,7 +23,7 @@ var with_inertia: bool = true
 
 var force_n: Vector3 = Vector3.ZERO
 var moment_nm: Vector3 = Vector3.ZERO
-## Of the grip against the device, in the device's axes, scene m/s: the mean since the pose before.
+## Mean velocity of the grip between the last two poses, relative to the device and in its axes, scene m/s.
 var velocity: Vector3 = Vector3.ZERO
 var _added_n: Vector3 = Vector3.ZERO
 var _added_nm: Vector3 = Vector3.ZERO
@@ -54,8 +54,9 @@ func add(added_n: Vector3, added_nm: Vector3) -> void:
 		_added_nm += added_nm
 
 
-## Once a physics tick, held or not. centre: of the grip, from the device's origin in its axes, scene metres. since_s: device
-## time since the pose before, 0 when this is the same pose. A device that is carried through the scene moves no hand.
+## Takes each new pose, whether a body is held or not. centre: the grip's centre, from the device's origin and in the device's
+## axes, scene metres; so a device that is carried through the scene does not accelerate the hand. since_s: device time since the
+## pose before; 0 is ignored.
 func follow(centre: Vector3, since_s: float) -> void:
 	if since_s <= 0.0:
 		return
@@ -63,7 +64,7 @@ func follow(centre: Vector3, since_s: float) -> void:
 		_centre = centre
 	# The mean velocity: the device's own twist, sampled at game rate, would alias the strings' 100 Hz.
 	var newest: Vector3 = (centre - _centre) / since_s
-	# The two means are of the middles of their times.
+	# Each mean velocity belongs to the middle of its interval.
 	var apart_s: float = 0.5 * (since_s + _since_s) if _since_s > 0.0 else since_s
 	var blend: float = since_s / (since_s + 1.0 / (TAU * ACCELERATION_CUTOFF_HZ))
 	_acceleration += blend * ((newest - velocity) / apart_s - _acceleration)
@@ -73,8 +74,8 @@ func follow(centre: Vector3, since_s: float) -> void:
 	_age_s += since_s
 
 
-## Computes force and moment of a body that belongs at `place` when the grip's centre is at grip_centre. device: turns its axes
-## into the scene's. workspace_scale: scene metres per device metre.
+## Computes force and moment of a body that belongs at `place` when the grip's centre is at grip_centre. device: the device's axes
+## in the scene. workspace_scale: scene metres per device metre.
 func pull(
 	body: RigidBody3D, place: Transform3D, grip_centre: Vector3, device: Basis, workspace_scale: float
 ) -> void:

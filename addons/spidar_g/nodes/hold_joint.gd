@@ -79,7 +79,8 @@ func where(grip: Transform3D) -> Transform3D:
 
 
 ## Carries the anchor to the grip, moved by `shift` where the body met something that does not give way. While the game's time
-## stands still nothing is carried or tied: an engine that divides a way by no time gives the body a place that is no number.
+## stands still the body is neither tied nor carried: GodotPhysics divides by the length of the step, and the body's place becomes
+## NAN.
 func follow(grip: Transform3D, shift: Vector3) -> void:
 	if not _time_runs:
 		return

@@ -1,5 +1,5 @@
 extends RefCounted
-## When the world takes a held body away: it presses on the body, or tears it from the grip, for long enough.
+## Decides when the world takes a held body away: when it has pressed on the body, or torn it from the grip, for long enough.
 
 const ContactPlane := preload("contact_plane.gd")
 const ContactSet := preload("contact_set.gd")
@@ -7,7 +7,7 @@ const HoldJoint := preload("hold_joint.gd")
 
 ## A held body torn this far from the grip (device metres) is stuck behind something.
 const MAX_STRETCH_M: float = 0.015
-## Load has to last this long to break a hold, in the device's time, and stretch in physics ticks, s.
+## How long it takes to break a hold, s: a load by the device's time, a stretch by the number of physics ticks.
 const BREAK_TIME_S: float = 0.05
 
 var _overload_s: float = 0.0
@@ -20,8 +20,8 @@ func reset() -> void:
 	_torn_s = 0.0
 
 
-## Once a physics tick. since_s: device time in which the planes gained what they did; 0: nothing new is known of them. While
-## the game's time stands still no body can follow the grip, and none is torn from it.
+## Call it once a physics tick. since_s: the device time in which the planes gained their impulses; 0 when nothing new is known
+## of them. game_runs is false while the game's time stands still: no body can follow the grip then, and none counts as torn.
 func breaks(
 	hold: HoldJoint, contacts: ContactSet, break_force_n: float, workspace_scale: float, since_s: float,
 	game_runs: bool

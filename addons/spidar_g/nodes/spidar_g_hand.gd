@@ -343,7 +343,7 @@ func _find_tool_planes(grip: Transform3D, exclude: Array[RID], found: Array[Cont
 		var closing: float = spidar.get_grasp_rate() * gap_per_rad * spidar.workspace_scale
 		_jaw.side_planes(_finder, grip, _gap_m(), closing, JawSensor.SIDE_SLACK_M * spidar.workspace_scale, found)
 	var shape: Shape3D = _pad.shape_for(spidar.workspace_scale)
-	# Planes act until the next ones come. What stands about a device that is carried along is carried too.
+	# Planes act until the next ones come. Relative to the device: what is near it rides along with it, or moves slowly.
 	var ahead: Vector3 = spidar.global_basis.orthonormalized() * _load.velocity * _clock.ahead_s
 	for side: int in 2:
 		var at: Transform3D = _pad.transform_of(side, grip, _shown_gap_m())

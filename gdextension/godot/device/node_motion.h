@@ -1,5 +1,5 @@
-// How the node moves through the scene. What is fixed to a moving node rests for the device, so velocities of the scene
-// lose the node's own before they reach it.
+// How the node moves through the scene. What moves along with the node is at rest for the device, so the node's own velocity
+// is taken off the velocities of the scene before they reach the device.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -12,7 +12,7 @@ namespace spidar {
 
 class NodeMotion {
 public:
-    // The node's place, tick_s after the one before.
+    // Takes the node's newest place, tick_s after the one before.
     void note(const WorldFrame &place, double tick_s) noexcept {
         if (known_) {
             const Mat3 turn = place.rotation * glm::transpose(place_.rotation);
@@ -22,14 +22,16 @@ public:
         place_ = place;
         known_ = true;
     }
-    // Velocity of what is fixed to the node, at this place from its origin in the scene's axes (unit: scene m/s).
+    // Velocity of a point that is fixed to the node (unit: scene m/s). from_origin: from the node's origin to the point, in the
+    // axes of the scene.
     [[nodiscard]] Vec3 velocity_at(const Vec3 &from_origin) const noexcept {
         return linear_.steady + glm::cross(angular_.steady, from_origin);
     }
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_.steady; }
 
 private:
-    // A velocity as two ticks in a row show it: a node that is put elsewhere jumps, and does not move.
+    // The part of a velocity that two ticks in a row share: a node that a script puts elsewhere has a velocity in one tick
+    // alone.
     struct Rate {
         Vec3 seen{0.0};
         Vec3 steady{0.0};

@@ -2,17 +2,17 @@ extends RefCounted
 ## The device's time between the physics ticks of a hand. Forces, impulses and velocities of a device are in its own time: it
 ## goes on when Engine.time_scale slows the game, and stands still between physics ticks that share one drawn frame.
 
-## Poses nearer in time than this part of the way between the last two, or of a tick, count as one: ticks that share a drawn
-## frame are some milliseconds apart, and what a hand does in so short a time is mostly noise.
+## Two poses count as one when they are nearer in time than this part of the last interval, or of a physics tick. Ticks that
+## share a drawn frame are some milliseconds apart, and differences over so short a time are mostly noise.
 const LEAST_PART: float = 0.5
-## A plane is up to two ticks old when the next one replaces it.
+## A plane is up to two intervals old when the next one replaces it; this is the mean.
 const AHEAD_TICKS: float = 1.5
-## What is sent fades when it is older than this, s.
+## The device fades planes that are older than this, s.
 const LONGEST_S: float = 0.1
 
 ## Device time between the pose that this tick reads and the last one that was read, s; 0: it is still the same pose.
 var elapsed_s: float = 0.0
-## How far ahead to look for what this tick sends, s.
+## How far ahead planes of this tick should look, s.
 var ahead_s: float = 0.0
 var _read_s: float = NAN
 var _apart_s: float = 0.0
