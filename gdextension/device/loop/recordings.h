@@ -56,6 +56,13 @@ public:
         return recorder != nullptr ? recorder->statistics() : last_;
     }
 
+    // From the controlling thread: what the game has just read.
+    void note(const GameRead &read) noexcept {
+        if (Recorder *const recorder = current_.load(std::memory_order_relaxed)) {
+            recorder->note(read);
+        }
+    }
+
     // From the loop's thread: what this cycle is recorded by, null for nothing; and the end of a cycle.
     [[nodiscard]] Recorder *current() const noexcept {
         return current_.load(std::memory_order_acquire);

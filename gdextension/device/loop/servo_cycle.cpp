@@ -40,12 +40,18 @@ bool ServoCycle::keep_heat() noexcept {
     }
 }
 
-void ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
+void ServoCycle::recall() noexcept {
+    if (source_->recall(step_)) {
+        snapshots_.write(step_.snapshot());
+    }
+}
+
+bool ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
     Recorder *const recorder = recordings_.current();
     CycleInput &input = given_.input;
     input.dt_s = dt_s;
     if (!source_->next(given_, step_, host_events_)) {
-        return; // the end: what was last shown stays
+        return false; // the end: what was last shown stays
     }
     if (recorder != nullptr) {
         recorder->begin(step_);
@@ -70,6 +76,7 @@ void ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
     snapshots_.write(snapshot);
     source_->finish(snapshot, drive, input.dt_s);
     recordings_.end_cycle();
+    return true;
 }
 
 void ServoCycle::show_open_failed(Status why) noexcept {

@@ -22,8 +22,10 @@ public:
     // now is kept for a later one. False: there is no memory for it.
     void recall_heat() noexcept;
     bool keep_heat() noexcept;
-    // From the loop's thread: one cycle of this length.
-    void run(double dt_s) noexcept SPIDAR_NONBLOCKING;
+    // While no cycle runs and the source is open: a source that begins in the middle shows what came before.
+    void recall() noexcept;
+    // From the loop's thread: one cycle of this length. False: the source has none left.
+    bool run(double dt_s) noexcept SPIDAR_NONBLOCKING;
     // Where no cycle runs: what a reader sees of a device that did not open, or was closed.
     void show_open_failed(Status why) noexcept;
     void show_closed() noexcept;
@@ -31,11 +33,17 @@ public:
     [[nodiscard]] CycleSource &source() noexcept { return *source_; }
     [[nodiscard]] Recordings &recordings() noexcept { return recordings_; }
     [[nodiscard]] const Recordings &recordings() const noexcept { return recordings_; }
+    // The newest cycle. From the loop's thread.
+    [[nodiscard]] std::uint64_t tick() const noexcept { return step_.snapshot().counters.ticks; }
     // Of the host, beside the step's. From the loop's thread.
     [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
     // From the controlling thread; false: nothing new.
     bool latest(ServoSnapshot &snapshot) noexcept { return snapshots_.read(snapshot); }
-    bool next_event(DeviceEvent &event) noexcept { return events_.take(event); }
+    // False as well when the next event happened after until_s, in snapshot time.
+    bool next_event(DeviceEvent &event, double until_s) noexcept {
+        const DeviceEvent *const waiting = events_.oldest();
+        return waiting != nullptr && !(waiting->time_s > until_s) && events_.take(event);
+    }
 
 private:
     // When nobody reads them, the newest are dropped.

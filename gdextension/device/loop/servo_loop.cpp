@@ -25,6 +25,7 @@ Status ServoLoop::start_stepped(const ServoSettings &settings) {
         return status;
     }
     cycle_.recall_heat();
+    cycle_.recall();
     timing_.restart(settings.rate_hz);
     is_running_ = true;
     return cycle_.source().begin(false);
@@ -76,6 +77,15 @@ int ServoLoop::advance(std::uint32_t numerator, std::uint32_t denominator) noexc
         cycle_.run(period_s);
     }
     return static_cast<int>(cycles);
+}
+
+void ServoLoop::advance_to(std::uint64_t tick) noexcept {
+    if (!running() || threaded()) {
+        return;
+    }
+    const FlushDenormals flush;
+    while (cycle_.tick() < tick && cycle_.run(1.0 / settings_.rate_hz)) {
+    }
 }
 
 } // namespace spidar

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -40,14 +41,21 @@ public:
     [[nodiscard]] double since_last_cycle_s() const noexcept {
         return thread_.since_last_cycle_s();
     }
-    // What happened, in order. False: nothing more. From the controlling thread.
-    bool next_event(DeviceEvent &event) noexcept { return cycle_.next_event(event); }
+    // What happened, in order. False: nothing more, or nothing before until_s (snapshot time). From the controlling
+    // thread.
+    bool next_event(DeviceEvent &event,
+                    double until_s = std::numeric_limits<double>::infinity()) noexcept {
+        return cycle_.next_event(event, until_s);
+    }
     [[nodiscard]] bool running() const noexcept { return is_running_; }
     [[nodiscard]] bool threaded() const noexcept { return thread_.running(); }
 
     // Stepped only: advance by numerator/denominator seconds of simulated time in whole servo cycles; the rest
     // is carried (rational accumulator: 1/60 s at 1 kHz gives 16 or 17 cycles). Returns the cycles run.
     int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
+
+    // Stepped only: whole cycles until the newest one is `tick`, or a replay is at its end.
+    void advance_to(std::uint64_t tick) noexcept;
 
     // Newest command wins. Wait-free.
     void publish(const HapticCommand &command) noexcept { cycle_.source().publish(command); }
@@ -68,6 +76,8 @@ public:
     }
     void stop_recording() noexcept { cycle_.recordings().stop(); }
     [[nodiscard]] bool recording() const noexcept { return cycle_.recordings().recording(); }
+    // What the game has just read of this loop: a recording keeps it, so that a replay hands it out in the same way.
+    void note_read(const GameRead &read) noexcept { cycle_.recordings().note(read); }
     // Of the recording that runs, or else of the last one.
     [[nodiscard]] RecorderStatistics recording_statistics() const noexcept {
         return cycle_.recordings().statistics();

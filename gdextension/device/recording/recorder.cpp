@@ -22,6 +22,9 @@ constexpr int kLooksPerFlush = 10;
 constexpr std::size_t kInlineBatch = 256;
 // Commands change at most once a game frame.
 constexpr double kCommandsPerCycle = 0.25;
+// A game reads a cycle once, and again only in a physics tick that comes before the next cycle. So no read is ever lost
+// while no cycle is.
+constexpr double kReadsPerCycle = 2.0;
 // A segment starts again only when the ring has room to go on: not one cycle at a time on a disk that is too slow.
 constexpr std::size_t kRestartPart = 2;
 
@@ -45,7 +48,8 @@ std::size_t ring_size(double rate_hz) {
 
 Recorder::Recorder(const ServoSettings &settings, bool in_time)
     : info_(describe_recording(settings)), in_time_(in_time), cycles_(ring_size(settings.rate_hz)),
-      commands_(ring_size(kCommandsPerCycle * settings.rate_hz)), memory_(sizeof(ServoStep)) {}
+      commands_(ring_size(kCommandsPerCycle * settings.rate_hz)),
+      reads_(ring_size(kReadsPerCycle * settings.rate_hz)), memory_(sizeof(ServoStep)) {}
 
 Recorder::~Recorder() {
     close();
@@ -140,6 +144,10 @@ void Recorder::end(CycleInput input, const DriveCommand &drive, const ServoSnaps
     }
 }
 
+void Recorder::note(const GameRead &read) noexcept {
+    (void)reads_.offer(read);
+}
+
 void Recorder::mark_lost(std::uint64_t lost) {
     if (lost != lost_marked_) {
         file_.gap(lost - lost_marked_);
@@ -164,6 +172,10 @@ void Recorder::drain() {
         }
         file_.cycle(*record, command_);
         cycles_.pop();
+    }
+    GameRead read;
+    while (reads_.take(read)) {
+        file_.read(read);
     }
     bytes_.store(file_.bytes(), std::memory_order_relaxed);
     failed_.store(!file_.good(), std::memory_order_relaxed);

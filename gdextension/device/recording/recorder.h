@@ -47,6 +47,8 @@ public:
     void begin(const ServoStep &step) noexcept;
     void end(CycleInput input, const DriveCommand &drive, const ServoSnapshot &snapshot,
              const HapticCommand &command, bool command_is_new) noexcept;
+    // From the controlling thread, without waiting: what the game has just read.
+    void note(const GameRead &read) noexcept;
 
     [[nodiscard]] RecorderStatistics statistics() const noexcept;
 
@@ -61,6 +63,7 @@ private:
     // The loop's.
     SpscRing<CycleRecord> cycles_;
     SpscRing<HapticCommand> commands_;
+    SpscRing<GameRead> reads_;     // the controlling thread's
     bool segment_needed_ = true;   // the next cycle starts a segment
     bool segment_started_ = false; // its memory is stored
     bool command_missing_ = false; // a new command came in a cycle that was lost

@@ -23,6 +23,9 @@ enum class ChunkKind : std::uint8_t {
     cycles = 3,
     gap = 4, // so many cycles are missing here (varint)
     end = 5, // the recording was closed; cycles in it, cycles missing (varints)
+    // GameReads, two varints each: cycles since the read before, times 2, plus 1 for a physics tick; sets of contacts
+    // since the read before.
+    reads = 6,
 };
 inline constexpr std::array<std::uint8_t, 8> kRecordingMagic = {'S', 'P', 'I', 'D',
                                                                 'A', 'R', 'G', '\n'};
@@ -37,6 +40,7 @@ public:
 
     void memory(std::span<const std::uint8_t> bytes);
     void cycle(const CycleRecord &record, const HapticCommand &command);
+    void read(const GameRead &read);
     void gap(std::uint64_t cycles_lost);
     // What is waiting goes to the system: a process that is killed later does not lose it.
     void flush();
@@ -54,6 +58,8 @@ private:
     std::ofstream file_;
     CycleEncoder encoder_;
     std::vector<std::uint8_t> pending_;
+    std::vector<std::uint8_t> pending_reads_;
+    GameRead last_read_;
     std::vector<std::uint8_t> chunk_;
     std::uint32_t number_ = 0;
     std::uint64_t cycles_ = 0;
@@ -69,9 +75,12 @@ public:
     // The same for bytes from anywhere; `name` stands in messages.
     [[nodiscard]] std::string open(std::unique_ptr<std::istream> stream, const std::string &name);
 
+    // A reader gives either the cycles of a file or the game's reads: the two passes have a reader each.
     // Reads the next cycle. False at the end of the recording, or where the file is damaged: closed() is true only when
     // the recording was ended properly.
     [[nodiscard]] bool next(RecordedCycle &cycle);
+    // Reads the game's next read. False: there is none before the end or the damage.
+    [[nodiscard]] bool next(GameRead &read);
 
     [[nodiscard]] const RecordingInfo &info() const noexcept { return info_; }
     // The memory of the servo step just before the segment that the last cycle read belongs to.
@@ -96,6 +105,8 @@ private:
     std::vector<std::uint8_t> chunk_; // contents of the one being read
     std::vector<std::uint8_t> memory_;
     ByteReader cycles_left_;
+    ByteReader reads_left_;
+    GameRead last_read_;
     CycleDecoder decoder_{0, 0};
     std::uint64_t cycles_ = 0;
     std::uint64_t lost_ = 0;

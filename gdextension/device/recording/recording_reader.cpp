@@ -53,6 +53,7 @@ void RecordingReader::give_up(const std::string &what) {
               std::to_string(file_bytes_) + "; the " + std::to_string(cycles_) +
               " cycles before it are whole.";
     cycles_left_ = ByteReader();
+    reads_left_ = ByteReader();
 }
 
 bool RecordingReader::read_chunk(ChunkKind &kind) {
@@ -68,7 +69,7 @@ bool RecordingReader::read_chunk(ChunkKind &kind) {
     const std::uint64_t number = from.fixed(kNumberBytes);
     const std::uint64_t size = from.fixed(kNumberBytes);
     if (number != number_ || size > kMostChunkBytes || kind < ChunkKind::info ||
-        kind > ChunkKind::end) {
+        kind > ChunkKind::reads) {
         give_up("is damaged");
         return false;
     }
@@ -109,6 +110,9 @@ bool RecordingReader::take(ChunkKind kind) {
             give_up("goes on after its end, or lacks cycles,");
         }
         return false;
+    case ChunkKind::reads:
+        reads_left_ = from;
+        return true;
     case ChunkKind::info: // only the first chunk is one
         break;
     }
@@ -128,6 +132,29 @@ bool RecordingReader::next(RecordedCycle &cycle) {
         return false;
     }
     ++cycles_;
+    return true;
+}
+
+bool RecordingReader::next(GameRead &read) {
+    while (reads_left_.empty()) {
+        ChunkKind kind{};
+        if (!damage_.empty() || !read_chunk(kind) || kind == ChunkKind::end) {
+            return false;
+        }
+        if (kind == ChunkKind::reads) {
+            reads_left_ = ByteReader(chunk_);
+        }
+    }
+    const std::uint64_t word = reads_left_.varint();
+    const std::uint64_t sets = reads_left_.varint();
+    if (!reads_left_.good()) {
+        give_up("holds a read of the game that is none");
+        return false;
+    }
+    last_read_.tick += word >> 1U;
+    last_read_.physics_tick = (word & 1U) != 0;
+    last_read_.contacts_sequence += sets;
+    read = last_read_;
     return true;
 }
 

@@ -27,6 +27,8 @@ std::string RecordingWriter::open(const std::string &path, const RecordingInfo &
     encoder_ = CycleEncoder();
     pending_.clear();
     pending_.reserve(2 * kFullChunk_bytes);
+    pending_reads_.clear();
+    last_read_ = GameRead();
     number_ = 0;
     cycles_ = 0;
     lost_ = 0;
@@ -72,6 +74,13 @@ void RecordingWriter::cycle(const CycleRecord &record, const HapticCommand &comm
     }
 }
 
+void RecordingWriter::read(const GameRead &read) {
+    ByteWriter to(pending_reads_);
+    to.varint(((read.tick - last_read_.tick) << 1U) | (read.physics_tick ? 1U : 0U));
+    to.varint(read.contacts_sequence - last_read_.contacts_sequence);
+    last_read_ = read;
+}
+
 void RecordingWriter::gap(std::uint64_t cycles_lost) {
     flush();
     std::vector<std::uint8_t> contents;
@@ -84,6 +93,10 @@ void RecordingWriter::flush() {
     if (!pending_.empty()) {
         chunk(ChunkKind::cycles, pending_);
         pending_.clear();
+    }
+    if (!pending_reads_.empty()) {
+        chunk(ChunkKind::reads, pending_reads_);
+        pending_reads_.clear();
     }
     if (good_) {
         file_.flush();

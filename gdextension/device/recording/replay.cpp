@@ -10,33 +10,61 @@ namespace spidar {
 
 std::string Replay::load(const std::string &path) {
     std::string problem = reader_.open(path);
+    if (problem.empty()) {
+        problem = reads_.open(path);
+    }
     return problem.empty() ? why_no_replay(reader_.info()) : problem;
+}
+
+bool Replay::next_read(GameRead &read) noexcept {
+    try {
+        return reads_.next(read);
+    } catch (const std::bad_alloc &) { // no memory for the next chunk: as good as the end
+        return false;
+    }
 }
 
 Status Replay::open() noexcept {
     return supports(reader_.info().settings.tension.simd) ? Status::ok : Status::open_failed;
 }
 
-bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {
-    bool more = false;
-    try {
-        more = !finished_.load(std::memory_order_relaxed) && reader_.next(cycle_);
-    } catch (const std::bad_alloc &) { // no memory for the next chunk: as good as the end
-        more = false;
+bool Replay::fetch() noexcept {
+    if (fetched_) {
+        return true;
     }
-    const std::size_t memory_bytes = reader_.memory().size();
-    more = more && (!cycle_.segment_start || memory_bytes == sizeof step);
+    try {
+        fetched_ = !finished_.load(std::memory_order_relaxed) && reader_.next(cycle_);
+    } catch (const std::bad_alloc &) { // no memory for the next chunk: as good as the end
+        fetched_ = false;
+    }
+    return fetched_;
+}
+
+bool Replay::restore(ServoStep &step) const noexcept {
+    const std::span<const std::uint8_t> memory = reader_.memory();
+    if (memory.size() != sizeof step) {
+        return false;
+    }
+    // Of this build (why_no_replay), trivially copyable (recorder.cpp), and whole by its checksum.
+    std::memcpy(static_cast<void *>(&step), memory.data(), sizeof step);
+    return true;
+}
+
+bool Replay::recall(ServoStep &step) noexcept {
+    return fetch() && cycle_.segment_start && restore(step);
+}
+
+bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {
+    const bool more = fetch() && (!cycle_.segment_start || restore(step));
     lost_.store(reader_.lost(), std::memory_order_relaxed);
     if (!more) {
         finished_.store(true, std::memory_order_release);
         return false;
     }
-    if (cycle_.segment_start) {
-        // Of this build (why_no_replay), trivially copyable (recorder.cpp), and whole by its checksum.
-        std::memcpy(static_cast<void *>(&step), reader_.memory().data(), sizeof step);
-    }
+    fetched_ = false;
     if (cycle_.command_is_new) {
         load_words(cycle_.command_words, given.command);
+        contacts_sequence_ = given.command.contacts_sequence;
     }
     given.command_is_new = true; // for who records the replay
     given.input = cycle_.input;

@@ -34,12 +34,20 @@ public:
     Status open() noexcept override;
     void close() noexcept override {}
     [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
+    // The memory before the first cycle.
+    bool recall(ServoStep &step) noexcept override;
     // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
     // Compares.
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;
+
+    // From the controlling thread: what the recorded game read next. False: nothing more.
+    [[nodiscard]] bool next_read(GameRead &read) noexcept;
+
+    // The set of contacts that the last cycle rendered. From the loop's thread, or when it rests.
+    [[nodiscard]] std::uint64_t contacts_sequence() const noexcept { return contacts_sequence_; }
 
     // The cycle that was last replayed, as recorded. From the loop's thread, or when it rests.
     [[nodiscard]] const RecordedCycle &cycle() const noexcept { return cycle_; }
@@ -50,8 +58,16 @@ public:
     [[nodiscard]] std::string damage() const;
 
 private:
+    // The next cycle; false: none is left.
+    bool fetch() noexcept;
+    // Of the segment that cycle_ starts. False: there is no memory of a step.
+    bool restore(ServoStep &step) const noexcept;
+
     RecordingReader reader_;
+    RecordingReader reads_;
     RecordedCycle cycle_;
+    bool fetched_ = false; // cycle_ is still to be replayed
+    std::uint64_t contacts_sequence_ = 0;
     std::atomic<std::uint64_t> cycles_{0};
     std::atomic<std::uint64_t> differing_{0};
     std::atomic<std::uint64_t> first_differing_{0};

@@ -51,6 +51,8 @@ public:
     virtual void publish(const HapticCommand & /*command*/) noexcept {}
     // Before a start: the newest published command, of which nothing acts any more but a panic stop that still holds.
     virtual void restart(HapticCommand & /*command*/) noexcept {}
+    // Once open, before the first cycle. True: `step` is as it was before that cycle, which a game may see.
+    virtual bool recall(ServoStep & /*step*/) noexcept { return false; }
     // As Transport::device_name(), once open.
     [[nodiscard]] virtual std::string device_name() const { return {}; }
     // Motors off as soon as can be, and in every later run too until the fault is cleared. From any thread, one atomic.

@@ -298,7 +298,7 @@ void SpidarG::_notification(int what) {
         set_away(false);
         break;
     case NOTIFICATION_INTERNAL_PROCESS:
-        pull_snapshot();
+        pull_snapshot(false);
         break;
     default:
         break;
@@ -323,10 +323,14 @@ void SpidarG::physics_tick() {
     }
     publish_forces();
     beat();
-    if (drive_mode_ == DRIVE_STEPPED) {
-        loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
+    if (replay_ != nullptr) {
+        replay_tick();
+    } else {
+        if (drive_mode_ == DRIVE_STEPPED) {
+            loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
+        }
+        pull_snapshot(true);
     }
-    pull_snapshot();
     call_deferred("_note_place");
 }
 
@@ -342,7 +346,7 @@ int SpidarG::advance_cycles(int cycles) {
     publish_forces();
     const int run = loop_->advance(static_cast<std::uint32_t>(cycles),
                                    static_cast<std::uint32_t>(std::lround(settings_.rate_hz)));
-    pull_snapshot();
+    pull_snapshot(false);
     return run;
 }
 

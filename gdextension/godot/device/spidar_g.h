@@ -25,6 +25,7 @@
 #include "godot/base/world_frame.h"
 #include "godot/device/node_motion.h"
 #include "godot/device/recording_places.h"
+#include "godot/device/replay_contacts.h"
 #include "godot/device/request_owners.h"
 #include "godot/settings/project_options.h"
 #include "godot/settings/spidar_g_calibration.h"
@@ -274,7 +275,10 @@ private:
     // The velocities of this plane of the scene as seen from the node.
     [[nodiscard]] spidar::ContactPlane seen_from_node(spidar::ContactPlane plane) const;
     // Takes the newest snapshot and emits the signals of the edges it shows.
-    void pull_snapshot();
+    // recorded: what this read repeats in a replay.
+    void pull_snapshot(bool physics_tick, const spidar::GameRead *recorded = nullptr);
+    // One physics tick of a replay: what the recorded game read in its tick, and since the tick before.
+    void replay_tick();
     void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
@@ -345,6 +349,7 @@ private:
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
+    spidar::ReplayContacts replay_contacts_;
     std::unique_ptr<spidar::HidWatch> hid_watch_; // while the real device is not open
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;

@@ -1,6 +1,7 @@
 // Recording what the servo loop does, and playing a recording in place of a device.
 #include "godot/device/spidar_g.h"
 
+#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
@@ -126,10 +127,12 @@ void SpidarG::open_replay() {
         return;
     }
     settings_ = replay->settings();
+    requests_.clear();
+    requests_.configure(settings_.safety.wrench_fade_s, settings_.safety.contacts_gone_s);
+    replay_contacts_ = spidar::ReplayContacts();
     replay_ = replay.get();
     change_loop(std::make_unique<spidar::ServoLoop>(std::move(replay)));
-    const Status status = drive_mode_ == DRIVE_STEPPED ? loop_->start_stepped(settings_)
-                                                       : loop_->start_threaded(settings_);
+    const Status status = loop_->start_stepped(settings_); // by the game's ticks: replay_tick()
     if (!spidar::usable(status)) {
         replay_ = nullptr;
         change_loop(nullptr);
@@ -139,6 +142,24 @@ void SpidarG::open_replay() {
     }
     replay_end_told_ = false;
     set_process_internal(true);
+}
+
+void SpidarG::replay_tick() {
+    spidar::GameRead read;
+    while (replay_ != nullptr && replay_->next_read(read)) { // a listener may stop the replay
+        loop_->advance_to(read.tick);
+        pull_snapshot(read.physics_tick, &read);
+        if (read.physics_tick) {
+            return;
+        }
+    }
+    if (replay_ == nullptr) {
+        return;
+    }
+    // The recorded game read no more: what is left passes at the clock's pace.
+    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
+    loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
+    pull_snapshot(true);
 }
 
 void SpidarG::watch_recordings() {

@@ -109,6 +109,7 @@ void SpidarG::publish_wrench() {
 
 void SpidarG::publish_contacts() {
     requests_.write_contacts(command_, snapshot_.time_s); // the game saw this one
+    replay_contacts_.note(command_);
     if (loop_) {
         loop_->publish(command_);
     }

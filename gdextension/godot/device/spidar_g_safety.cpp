@@ -180,9 +180,10 @@ void SpidarG::watch_loop() {
     stall_told_ = stalled;
 }
 
+// What happened after the newest snapshot is told with the next one: a replay tells it in the same tick.
 void SpidarG::emit_events() {
     spidar::DeviceEvent event;
-    while (loop_ && loop_->next_event(event)) { // a listener may close the device
+    while (loop_ && loop_->next_event(event, snapshot_.time_s)) { // a listener may close the device
         tell(event);
     }
 }

@@ -3,6 +3,7 @@
 
 #include <godot_cpp/variant/utility_functions.hpp>
 
+#include "device/recording/replay.h"
 #include "godot/base/type_conversions.h"
 
 using godot::String;
@@ -10,12 +11,21 @@ using godot::UtilityFunctions;
 using spidar::DeviceState;
 using spidar::Status;
 
-void SpidarG::pull_snapshot() {
+void SpidarG::pull_snapshot(bool physics_tick, const spidar::GameRead *recorded) {
     if (!loop_) {
         return;
     }
     const spidar::ServoSnapshot before = snapshot_;
-    if (loop_->latest(snapshot_)) {
+    const bool is_newer = loop_->latest(snapshot_);
+    if (is_newer || physics_tick) {
+        loop_->note_read({snapshot_.counters.ticks, physics_tick, command_.contacts_sequence});
+    }
+    if (is_newer && recorded != nullptr) {
+        replay_contacts_.renumber(command_.contacts_sequence,
+                                  recorded->contacts_sequence - replay_->contacts_sequence(),
+                                  snapshot_);
+    }
+    if (is_newer) {
         if (snapshot_.state == DeviceState::closed) {
             forget_player();
         }

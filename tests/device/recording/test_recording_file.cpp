@@ -39,6 +39,7 @@ std::string small_recording(int cycles, const TemporaryFile &file) {
             writer.memory(memory);
         }
         writer.cycle(record, command);
+        writer.read({record.tick, i % 3 == 0, static_cast<std::uint64_t>(i / 2)});
         if (random() % 4 == 0) {
             writer.flush();
         }
@@ -54,6 +55,7 @@ struct Contents {
     bool closed = false;
     std::vector<std::uint32_t> digests;
     std::vector<CountArray> counts;
+    std::vector<std::uint64_t> reads; // the ticks
 };
 
 Contents read(const std::string &bytes) {
@@ -67,6 +69,14 @@ Contents read(const std::string &bytes) {
     }
     contents.damage = reader.damage();
     contents.closed = reader.closed();
+    RecordingReader second;
+    GameRead read;
+    contents.problem = second.open(std::make_unique<std::istringstream>(bytes), "test");
+    while (contents.problem.empty() && second.next(read)) {
+        CHECK(read.physics_tick == ((read.tick - 1) % 3 == 0));
+        CHECK(read.contacts_sequence == (read.tick - 1) / 2);
+        contents.reads.push_back(read.tick);
+    }
     return contents;
 }
 
@@ -85,13 +95,15 @@ TEST_CASE("recording: cut at every byte, it opens up to there and says where") {
     REQUIRE(all.damage == "");
     REQUIRE(all.closed);
     REQUIRE(all.digests.size() == 60);
+    REQUIRE(all.reads.size() == 60);
     std::size_t most = 0;
     bool once_opened = false;
     for (std::size_t size = 0; size < whole.size(); ++size) {
         const Contents cut = read(whole.substr(0, size));
         const bool told = !cut.problem.empty() || !cut.damage.empty();
         const bool right = begins_with(all.digests, cut.digests) &&
-                           begins_with(all.counts, cut.counts) && !cut.closed && told &&
+                           begins_with(all.counts, cut.counts) &&
+                           begins_with(all.reads, cut.reads) && !cut.closed && told &&
                            cut.digests.size() >= most && (cut.problem.empty() || !once_opened);
         if (!right) {
             CAPTURE(size);

@@ -1,6 +1,7 @@
 // A recorded run and its replay: the same bits, wherever the recording began and whatever happened in it.
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <new>
 #include <thread>
 
@@ -90,6 +91,88 @@ TEST_CASE("replay: a recording that starts in the middle of a touch, twice in on
     CHECK(late.bits == from(session.bits, second_from));
     CHECK(late.report.differing == 0);
     CHECK(late.damage == "");
+}
+
+TEST_CASE("replay: the game is handed what it read then, read for read, in both drive modes") {
+    for (const bool threaded : {false, true}) {
+        const TemporaryFile file;
+        Session session;
+        const Status started = threaded ? session.loop->start_threaded(session.settings)
+                                        : session.loop->start_stepped(session.settings);
+        REQUIRE(started == Status::ok);
+        REQUIRE(session.loop->start_recording(file.path()) == "");
+        struct Seen {
+            GameRead read;
+            std::uint64_t bits;
+        };
+        std::vector<Seen> seen;
+        ServoSnapshot now;
+        for (int i = 0; i < 60; ++i) {
+            ++session.command.contacts_sequence;
+            session.command.contact_count = i % 3;
+            session.loop->publish(session.command);
+            if (threaded) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(i % 7));
+            } else {
+                session.loop->advance(static_cast<std::uint32_t>(i % 7), 1000);
+            }
+            const bool is_newer = session.loop->latest(now);
+            const bool physics_tick = i % 4 != 0; // also one that finds no newer cycle
+            if ((is_newer || physics_tick) && now.counters.ticks > 0) {
+                seen.push_back(
+                    {{now.counters.ticks, physics_tick, session.command.contacts_sequence},
+                     bits_of(now)});
+                session.loop->note_read(seen.back().read);
+            }
+        }
+        session.loop->stop();
+
+        auto made = std::make_unique<Replay>();
+        Replay &source = *made;
+        REQUIRE(made->load(file.path()) == "");
+        const ServoSettings settings = made->settings();
+        ServoLoop loop(std::move(made));
+        REQUIRE(loop.start_stepped(settings) == Status::ok);
+        RecordingReader reader;
+        RecordedCycle cycle;
+        REQUIRE(reader.open(file.path()) == "");
+        REQUIRE(reader.next(cycle));
+        const std::uint64_t first = cycle.tick;
+        for (const Seen &expected : seen) {
+            GameRead read;
+            REQUIRE(source.next_read(read));
+            CHECK(read == expected.read);
+            loop.advance_to(read.tick);
+            (void)loop.latest(now);
+            // A read that came before the first recorded cycle is handed what that cycle began with.
+            CHECK(now.counters.ticks == std::max(read.tick, first - 1));
+            CHECK((read.tick < first - 1 || bits_of(now) == expected.bits));
+            CHECK(source.contacts_sequence() <= read.contacts_sequence);
+        }
+        CHECK(seen.back().read.tick > first);
+        GameRead read;
+        CHECK_FALSE(source.next_read(read));
+        loop.advance_to(std::numeric_limits<std::uint64_t>::max()); // ends with the recording
+        CHECK(source.report().finished);
+        CHECK(source.report().differing == 0);
+    }
+}
+
+TEST_CASE("loop: an event that is newer than what the game has read waits for it") {
+    Session session;
+    REQUIRE(session.loop->start_stepped(session.settings) == Status::ok);
+    session.loop->advance(1, 10);
+    ServoSnapshot now;
+    REQUIRE(session.loop->latest(now));
+    DeviceEvent event;
+    while (session.loop->next_event(event, now.time_s)) {
+        CHECK(event.time_s <= now.time_s);
+    }
+    session.device->inject({SimulatedFault::count_jump, 3, 0.0, 0.1});
+    session.loop->advance(1, 10);
+    CHECK_FALSE(session.loop->next_event(event, now.time_s)); // of cycles that nobody has read yet
+    REQUIRE(session.loop->latest(now));
+    CHECK(session.loop->next_event(event, now.time_s));
 }
 
 TEST_CASE(

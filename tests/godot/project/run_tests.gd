@@ -4,7 +4,7 @@
 ## runner looks for SCRIPT ERROR. User argument: a part of the names to run.
 extends SceneTree
 
-const FRAME_LIMIT: int = 6000
+const FRAME_LIMIT: int = 12000
 
 var _done: bool = false
 

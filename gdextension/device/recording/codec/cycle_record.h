@@ -42,6 +42,15 @@ void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
 using MillinewtonArray = std::array<std::int32_t, kStringCount>;
 [[nodiscard]] MillinewtonArray millinewtons_of(const CycleOutput &output) noexcept;
 
+// The game looked at the device: what it saw then is the snapshot of this cycle.
+struct GameRead {
+    std::uint64_t tick = 0;    // of the cycle, as CycleRecord::tick
+    bool physics_tick = false; // the look of a physics tick; else one between two of them
+    std::uint64_t contacts_sequence =
+        0; // of the newest set of contacts that the game had asked for
+    bool operator==(const GameRead &) const = default;
+};
+
 struct CycleRecord {
     CycleInput input;
     CycleOutput output;
