@@ -67,7 +67,7 @@ private:
     GainCaps caps_{};
     std::array<Track, kMaxContacts> tracks_{};
     std::size_t count_ = 0;
-    std::uint8_t active_mask_ = 0;
+    std::uint32_t active_mask_ = 0;
     GameClock clock_;
     double state_time_s_ = -1.0; // of the last set
     GripPose pose_;              // last rendered

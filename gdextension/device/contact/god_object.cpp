@@ -7,26 +7,26 @@ namespace spidar {
 
 namespace {
 
-constexpr std::size_t kMost = kMaxConstraints;
-using Values = std::array<double, kMost>;
-
-// Added to the diagonal, relative to it: eight rows in seven DOF, or equal ones, leave the pushes open. It takes
-// this part off the stiffness of a lone constraint and makes equal ones share.
-constexpr double kRegularisation = 1e-11;
 // A constraint is broken when its row falls short by more than this part of the deepest.
 constexpr double kBroken = 1e-12;
 // Each exchange of the active set lowers the energy, so none comes back; far more than problems of this size take.
 constexpr int kMostExchanges = 48;
 
+template <int kRows>
+using Values = std::array<double, kRows>;
+
+template <int kRows>
 struct Problem {
     std::size_t count = 0;
-    std::array<Values, kMost> gram{};
-    Values depth{};
+    double softness = 0.0;
+    std::array<Values<kRows>, kRows> gram; // filled up to count
+    Values<kRows> depth;
 };
 
 // Solves gram * push = depth on the constraints of `mask`; the others' push is zero.
-Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
-    std::array<std::size_t, kMost> index{};
+template <int kRows>
+Values<kRows> solve_subset(const Problem<kRows> &problem, std::uint32_t mask) noexcept {
+    std::array<std::size_t, kRows> index;
     std::size_t n = 0;
     for (std::size_t i = 0; i < problem.count; ++i) {
         if ((mask >> i) & 1U) {
@@ -34,11 +34,11 @@ Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
         }
     }
     // LDL^T without square roots.
-    std::array<Values, kMost> l{};
-    Values pivot{};
-    Values y{};
+    std::array<Values<kRows>, kRows> l; // filled row by row, and so are the other two
+    Values<kRows> pivot;
+    Values<kRows> y;
     for (std::size_t r = 0; r < n; ++r) {
-        const Values &row = problem.gram[index[r]];
+        const Values<kRows> &row = problem.gram[index[r]];
         double d = row[index[r]];
         double sum = problem.depth[index[r]];
         for (std::size_t c = 0; c < r; ++c) {
@@ -51,10 +51,10 @@ Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
             sum -= l[r][c] * y[c];
         }
         // Regularised, so only rounding can bring a pivot down to nothing.
-        pivot[r] = std::max(d, 0.5 * kRegularisation * row[index[r]]);
+        pivot[r] = std::max(d, 0.5 * problem.softness * row[index[r]]);
         y[r] = sum;
     }
-    Values push{};
+    Values<kRows> push{};
     for (std::size_t r = n; r-- > 0;) {
         double v = y[r] / pivot[r];
         for (std::size_t k = r + 1; k < n; ++k) {
@@ -66,9 +66,10 @@ Values solve_subset(const Problem &problem, std::uint32_t mask) noexcept {
 }
 
 // Constraints of `mask` whose push is negative.
-std::uint32_t negatives(const Values &push, std::uint32_t mask) noexcept {
+template <std::size_t kRows>
+std::uint32_t negatives(const std::array<double, kRows> &push, std::uint32_t mask) noexcept {
     std::uint32_t found = 0;
-    for (std::size_t i = 0; i < kMost; ++i) {
+    for (std::size_t i = 0; i < kRows; ++i) {
         found |= ((mask >> i) & 1U) != 0 && !(push[i] > 0.0) ? 1U << i : 0U;
     }
     return found;
@@ -76,11 +77,13 @@ std::uint32_t negatives(const Values &push, std::uint32_t mask) noexcept {
 
 } // namespace
 
-GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstraints> &rows,
-                                   int count, std::uint8_t first_guess) noexcept {
-    GodObjectSolution solution;
-    Problem problem;
-    problem.count = static_cast<std::size_t>(std::clamp(count, 0, kMaxConstraints));
+template <int kRows>
+RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
+                            std::uint32_t first_guess, double softness) noexcept {
+    RowPushes<kRows> solution;
+    Problem<kRows> problem;
+    problem.count = static_cast<std::size_t>(std::clamp(count, 0, kRows));
+    problem.softness = softness;
     double deepest = 0.0;
     bool finite = true;
     for (std::size_t i = 0; i < problem.count; ++i) {
@@ -102,7 +105,7 @@ GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstrain
             problem.gram[j][i] = dot;
         }
         sum += problem.gram[i][i];
-        problem.gram[i][i] *= 1.0 + kRegularisation;
+        problem.gram[i][i] = problem.gram[i][i] * (1.0 + softness) + rows[i].compliance;
     }
     if (!std::isfinite(sum)) {
         return solution;
@@ -110,7 +113,7 @@ GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstrain
 
     // A guess whose pushes are all positive is a feasible start; otherwise what is negative is dropped.
     std::uint32_t active = first_guess & ((1U << problem.count) - 1U);
-    Values push{};
+    Values<kRows> push{};
     while (active != 0) {
         push = solve_subset(problem, active);
         ++solution.solves;
@@ -148,7 +151,7 @@ GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstrain
         active |= joining;
         // Towards the new set's solution, as far as every push stays positive (Lawson and Hanson 1974).
         for (std::size_t drop = 0; drop < problem.count; ++drop) {
-            const Values target = solve_subset(problem, active);
+            const Values<kRows> target = solve_subset(problem, active);
             ++solution.solves;
             if (negatives(target, active) == 0) {
                 push = target;
@@ -173,12 +176,19 @@ GodObjectSolution solve_god_object(const std::array<ConstraintRow, kMaxConstrain
     }
     for (std::size_t i = 0; i < problem.count; ++i) {
         if (!std::isfinite(push[i])) {
-            return GodObjectSolution();
+            return RowPushes<kRows>();
         }
     }
     solution.push = push;
-    solution.active_mask = static_cast<std::uint8_t>(active);
+    solution.active_mask = active;
     return solution;
 }
+
+template RowPushes<kMaxConstraints>
+solve_rows<kMaxConstraints>(const std::array<ConstraintRow, kMaxConstraints> &rows, int count,
+                            std::uint32_t first_guess, double softness) noexcept;
+template RowPushes<kMaxRows>
+solve_rows<kMaxRows>(const std::array<ConstraintRow, kMaxRows> &rows, int count,
+                     std::uint32_t first_guess, double softness) noexcept;
 
 } // namespace spidar

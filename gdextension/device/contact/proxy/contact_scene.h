@@ -1,0 +1,31 @@
+// The shapes of the scene that lie near the tool, as a game publishes them once a tick. Device frame, SI: already divided
+// by the workspace's scale.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/shapes/placement.h"
+
+namespace spidar {
+
+struct ScenePart {
+    const CookedShape *shape = nullptr; // the game keeps it alive
+    Placement at;
+    Vec3 velocity_m_s{0.0}; // of at.origin_m
+    Vec3 angular_rad_s{0.0};
+    // Of this part's own surface, in series with the tool's; 0: it does not give way.
+    double stiffness_n_m = 0.0;
+    double damping_n_s_m = 0.0;
+    double friction = 0.0; // Coulomb coefficient
+    std::int32_t id = 0;   // of this shape of this body; persistent
+};
+
+inline constexpr int kMaxSceneParts = 32;
+struct ContactScene {
+    std::array<ScenePart, kMaxSceneParts> parts{};
+    int count = 0;
+};
+
+} // namespace spidar

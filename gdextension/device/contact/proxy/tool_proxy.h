@@ -1,0 +1,129 @@
+// The god-object of a tool of real shapes in a scene of real shapes, in seven degrees of freedom (contact-engine of
+// docs/haptic_rendering.md). The proxy follows the device as far as no surface is in its way: it never enters one, at any
+// speed. The wrench is the pull of the stiffnesses from the device to the proxy, damped along the contacts, with Coulomb
+// friction at each point.
+//
+// Once a cycle: the closest points of tool and scene at the proxy give one-sided rows n . J dq >= -gap; the nearest pose to
+// the device's under all rows is the next proxy (god_object.h). A step is never longer than what the closest points
+// guarantee.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "device/contact/god_object.h"
+#include "device/contact/proxy/contact_scene.h"
+#include "device/contact/proxy/tool.h"
+#include "device/contact/shapes/closest_points.h"
+#include "device/contract/haptic_command.h"
+#include "device/contract/motion.h"
+
+namespace spidar {
+
+// A point where tool and scene are within the margin.
+struct ProxyContact {
+    std::uint8_t tool_part = 0; // place in Tool::parts and ContactScene::parts
+    std::uint8_t scene_part = 0;
+    std::int32_t tool_id = 0;
+    std::int32_t scene_id = 0;
+    std::uint32_t face = 0;
+    Vec3 point_m{0.0}; // on the surface of the scene
+    Vec3 normal{0.0};  // out of the scene
+    double gap_m = 0.0;
+    double push_n = 0.0;    // along the normal, 0 when it does not touch
+    Vec3 friction_n{0.0};   // on the tool
+    Vec3 stretch_m{0.0};    // of the friction's spring
+};
+
+// What it gave a part of the scene in this cycle.
+struct PartForce {
+    Vec3 force_n{0.0};
+    Vec3 moment_nm{0.0}; // about the part's origin
+};
+
+struct ProxySettings {
+    // Between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
+    DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
+    // Of each contact, along its normal and along its surface.
+    double damping_n_s_m = 2.0;
+    // Surfaces nearer than this are looked at in a cycle.
+    double margin_m = 0.004;
+};
+
+// What saves time from cycle to cycle (PairMemory): large, and made where it may be allocated.
+class ProxyMemory {
+public:
+    ProxyMemory();
+    // Of this pair; another pair's is forgotten for it when there are many.
+    [[nodiscard]] PairMemory &of(std::int32_t tool_id, std::int32_t scene_id) noexcept;
+
+private:
+    static constexpr std::size_t kPairs = 32;
+    struct Slot {
+        std::int32_t tool_id = 0;
+        std::int32_t scene_id = 0;
+        std::uint64_t used = 0;
+        PairMemory memory;
+    };
+    std::unique_ptr<std::array<Slot, kPairs>> slots_;
+    std::uint64_t clock_ = 0;
+};
+
+class ToolProxy {
+public:
+    void configure(const ProxySettings &settings) noexcept { settings_ = settings; }
+    // The proxy is here: where the tool appears, in no surface.
+    void put(const ToolPose &pose) noexcept;
+
+    // One cycle of dt_s. device: filtered and predicted; velocity: of it. The scene as it was at the end of the last cycle;
+    // during this one its parts move on by their velocities, and `scene` is moved on with them.
+    void update(const Tool &tool, ContactScene &scene, const ToolPose &device, const Twist &velocity,
+                double dt_s, ProxyMemory &memory) noexcept;
+
+    [[nodiscard]] const ToolPose &pose() const noexcept { return pose_; }
+    // On the hand.
+    [[nodiscard]] const Wrench &wrench() const noexcept { return wrench_; }
+    [[nodiscard]] int contact_count() const noexcept { return count_; }
+    [[nodiscard]] const ProxyContact &contact(int i) const noexcept {
+        return contacts_[static_cast<std::size_t>(i)];
+    }
+    [[nodiscard]] const std::array<PartForce, kMaxSceneParts> &given() const noexcept {
+        return given_;
+    }
+    // Pairs whose closest points were asked for in the last cycle, and passes that it took.
+    [[nodiscard]] int queries() const noexcept { return queries_; }
+    [[nodiscard]] int passes() const noexcept { return passes_; }
+
+private:
+    using Contacts = std::array<ProxyContact, kMaxRows>;
+    using Rows = std::array<ConstraintRow, kMaxRows>;
+
+    void find_contacts(const Tool &tool, const ContactScene &scene, ProxyMemory &memory) noexcept;
+    void offer(const ProxyContact &contact) noexcept;
+    // True: the device is farther than one step may go.
+    bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
+                      double dt_s) noexcept;
+    void push(const Tool &tool, const ContactScene &scene, const Twist &velocity) noexcept;
+    void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
+             const Twist &velocity, double dt_s) noexcept;
+    [[nodiscard]] Vec3 carried_stretch(const ProxyContact &contact) const noexcept;
+
+    ProxySettings settings_;
+    ToolPose pose_;
+    ToolPose device_; // of the last cycle
+    bool placed_ = false;
+    Contacts contacts_{};
+    int count_ = 0;
+    Contacts before_{}; // of the last cycle
+    int before_count_ = 0;
+    Rows rows_{}; // of the last pass, for `contacts_`
+    std::uint32_t active_mask_ = 0;
+    std::uint32_t pushing_mask_ = 0;
+    Wrench wrench_{};
+    std::array<PartForce, kMaxSceneParts> given_{};
+    int queries_ = 0;
+    int passes_ = 0;
+};
+
+} // namespace spidar
