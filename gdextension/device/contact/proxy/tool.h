@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "device/contact/shapes/placement.h"
 #include "device/contact/shapes/tool_shape.h"
 #include "device/contract/motion.h"
 

@@ -73,9 +73,8 @@ void move_on(ScenePart &part, double dt_s) noexcept {
 bool is_far(const ToolShape &tool, const Placement &tool_at, const ScenePart &part,
             double margin_m) noexcept {
     const Vec3 centre_m = glm::transpose(part.at.rotation) * (tool_at.origin_m - part.at.origin_m);
-    const Vec3 outside_m = glm::max(glm::max(part.shape->lower_m() - centre_m,
-                                             centre_m - part.shape->upper_m()),
-                                    Vec3(0.0));
+    const Vec3 outside_m = glm::max(
+        glm::max(part.shape->lower_m() - centre_m, centre_m - part.shape->upper_m()), Vec3(0.0));
     const double reach_m = tool.reach_m() + margin_m;
     return glm::dot(outside_m, outside_m) > reach_m * reach_m;
 }
@@ -208,7 +207,8 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     double reach_m = 0.0;
     for (int t = 0; t < tool.count; ++t) {
         const ToolPart &part = tool.parts[static_cast<std::size_t>(t)];
-        const double jaw_m = part.mount == ToolMount::grip ? 0.0 : 0.5 * tool.jaws.gap_m(pose_.grasp_rad);
+        const double jaw_m =
+            part.mount == ToolMount::grip ? 0.0 : 0.5 * tool.jaws.gap_m(pose_.grasp_rad);
         reach_m = std::max(reach_m, glm::length(part.at.origin_m) + jaw_m + part.shape->reach_m());
     }
     const auto length_of = [&](const std::array<double, 8> &move) {
@@ -216,9 +216,8 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         return glm::length(by.linear_m) + reach_m * glm::length(by.angular_rad) +
                0.5 * std::abs(tool.jaws.slope_m_rad(pose_.grasp_rad) * by.grasp_rad);
     };
-    const double most_m =
-        std::max(kPartOfMargin * (settings_.margin_m - fastest_m_s * dt_s),
-                 kLeastStep * settings_.margin_m);
+    const double most_m = std::max(kPartOfMargin * (settings_.margin_m - fastest_m_s * dt_s),
+                                   kLeastStep * settings_.margin_m);
     const double length_m = length_of(step);
     const bool cut = length_m > most_m;
     if (cut) {
@@ -300,7 +299,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         const auto k = static_cast<std::size_t>(i);
         contacts_[k].push_n = std::min(solved.push[k], kMostPush * (alone[k] + deepest_n));
         for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-            sum[dof] += contacts_[k].push_n * rows[k].row[dof] * std::sqrt(settings_.stiffness[dof]);
+            sum[dof] +=
+                contacts_[k].push_n * rows[k].row[dof] * std::sqrt(settings_.stiffness[dof]);
         }
     }
     wrench_ = of_lanes<Wrench>(sum);

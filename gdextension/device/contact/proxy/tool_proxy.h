@@ -31,9 +31,9 @@ struct ProxyContact {
     Vec3 point_m{0.0}; // on the surface of the scene
     Vec3 normal{0.0};  // out of the scene
     double gap_m = 0.0;
-    double push_n = 0.0;    // along the normal, 0 when it does not touch
-    Vec3 friction_n{0.0};   // on the tool
-    Vec3 stretch_m{0.0};    // of the friction's spring
+    double push_n = 0.0;  // along the normal, 0 when it does not touch
+    Vec3 friction_n{0.0}; // on the tool
+    Vec3 stretch_m{0.0};  // of the friction's spring
 };
 
 // What it gave a part of the scene in this cycle.
@@ -78,8 +78,8 @@ public:
 
     // One cycle of dt_s. device: filtered and predicted; velocity: of it. The scene as it was at the end of the last cycle;
     // during this one its parts move on by their velocities, and `scene` is moved on with them.
-    void update(const Tool &tool, ContactScene &scene, const ToolPose &device, const Twist &velocity,
-                double dt_s, ProxyMemory &memory) noexcept;
+    void update(const Tool &tool, ContactScene &scene, const ToolPose &device,
+                const Twist &velocity, double dt_s, ProxyMemory &memory) noexcept;
 
     [[nodiscard]] const ToolPose &pose() const noexcept { return pose_; }
     // On the hand.

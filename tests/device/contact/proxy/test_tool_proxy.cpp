@@ -1,0 +1,372 @@
+// The tool's proxy against answers in closed form: planes, edges, faces, jaws; nothing is passed at any speed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/geometry/rotation_log.h"
+#include "device/contact/proxy/tool_proxy.h"
+
+using namespace spidar;
+
+namespace {
+
+constexpr double kTick_s = 0.001;
+
+std::shared_ptr<const CookedShape> box(const Vec3 &half_extents_m) {
+    ShapeDescription description;
+    description.kind = ShapeKind::box;
+    description.half_extents_m = half_extents_m;
+    CookResult cooked = cook(std::move(description));
+    REQUIRE(usable(cooked.status));
+    return cooked.shape;
+}
+
+std::shared_ptr<const CookedShape> half_space() {
+    ShapeDescription description;
+    description.kind = ShapeKind::half_space;
+    CookResult cooked = cook(std::move(description));
+    REQUIRE(usable(cooked.status));
+    return cooked.shape;
+}
+
+// A tool, a scene, and a hand that holds the device anywhere.
+struct Rig {
+    ProxySettings settings;
+    Tool tool;
+    ContactScene scene;
+    ProxyMemory memory;
+    ToolProxy proxy;
+    ToolPose device;
+    std::vector<std::shared_ptr<const void>> keep;
+
+    Rig() {
+        settings.damping_n_s_m = 0.0;
+        proxy.configure(settings);
+    }
+    void add_tool(const ToolResult &made, ToolMount mount = ToolMount::grip,
+                  const Placement &at = {}) {
+        REQUIRE(usable(made.status));
+        keep.push_back(made.tool);
+        ToolPart &part = tool.parts[static_cast<std::size_t>(tool.count++)];
+        part = {made.tool.get(), mount, at, tool.count};
+    }
+    ScenePart &add(const std::shared_ptr<const CookedShape> &shape, const Placement &at = {}) {
+        keep.push_back(shape);
+        ScenePart &part = scene.parts[static_cast<std::size_t>(scene.count++)];
+        part.shape = shape.get();
+        part.at = at;
+        part.id = scene.count;
+        return part;
+    }
+    void start_at(const ToolPose &pose) {
+        proxy.configure(settings);
+        device = pose;
+        proxy.put(pose);
+    }
+    void tick(const Twist &velocity = {}) {
+        proxy.update(tool, scene, device, velocity, kTick_s, memory);
+    }
+    // The device goes there at this speed and stays.
+    void move_to(const ToolPose &target, int ticks) {
+        const Displacement whole = between(device, target);
+        const ToolPose from = device;
+        for (int i = 1; i <= ticks; ++i) {
+            const double part = static_cast<double>(i) / ticks;
+            device = moved(
+                from, {part * whole.linear_m, part * whole.angular_rad, part * whole.grasp_rad});
+            tick();
+        }
+        for (int i = 0; i < 20; ++i) {
+            tick();
+        }
+    }
+};
+
+ToolPose at(const Vec3 &position_m) {
+    ToolPose pose;
+    pose.position_m = position_m;
+    return pose;
+}
+
+} // namespace
+
+TEST_CASE("tool pose: between() is the inverse of moved()") {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    for (int round = 0; round < 1000; ++round) {
+        const auto draw = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+        const ToolPose from{draw(), rotation_exp(draw()), normal(random)};
+        const Displacement by{draw(), 0.5 * draw(), normal(random)};
+        const Displacement back = between(from, moved(from, by));
+        CHECK(glm::distance(back.linear_m, by.linear_m) < 1e-12);
+        CHECK(glm::distance(back.angular_rad, by.angular_rad) < 1e-9);
+        CHECK(back.grasp_rad == doctest::Approx(by.grasp_rad));
+    }
+}
+
+TEST_CASE("tool: how a point of it moves is the derivative of where it is") {
+    std::mt19937_64 random(4);
+    std::normal_distribution<double> normal;
+    const Jaws jaws;
+    for (int round = 0; round < 1000; ++round) {
+        const auto draw = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+        const ToolMount mount = static_cast<ToolMount>(random() % 3);
+        const ToolPart part{nullptr, mount, {0.05 * draw(), rotation_exp(draw())}, 0};
+        const ToolPose pose{0.1 * draw(), rotation_exp(draw()), 0.3 * normal(random)};
+        const Vec3 local_m = 0.02 * draw();
+        const auto point_of = [&](const ToolPose &where) {
+            const Placement placed = placement_of(part, jaws, where);
+            return placed.origin_m + placed.rotation * local_m;
+        };
+        const Vec3 direction = glm::normalize(draw());
+        const Displacement along = moves_along(part, jaws, pose, point_of(pose), direction);
+        constexpr double kStep = 1e-6;
+        const auto slope = [&](const Displacement &by) {
+            const Displacement back{-by.linear_m, -by.angular_rad, -by.grasp_rad};
+            return glm::dot(direction, point_of(moved(pose, by)) - point_of(moved(pose, back))) /
+                   (2.0 * kStep);
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 unit(0.0);
+            unit[axis] = kStep;
+            CHECK(slope({unit, Vec3(0.0), 0.0}) ==
+                  doctest::Approx(along.linear_m[axis]).epsilon(1e-6));
+            CHECK(std::abs(slope({Vec3(0.0), unit, 0.0}) - along.angular_rad[axis]) < 1e-7);
+        }
+        CHECK(std::abs(slope({Vec3(0.0), Vec3(0.0), kStep}) - along.grasp_rad) < 1e-7);
+    }
+}
+
+TEST_CASE("proxy: in free space it is where the device is, however fast, and nothing pushes") {
+    Rig rig;
+    rig.add_tool(make_sphere(0.012));
+    rig.add(box(Vec3(0.5, 0.1, 0.5)), {Vec3(0.0, -0.2, 0.0), Mat3(1.0)});
+    rig.start_at(at(Vec3(0.0)));
+    rig.device = at(Vec3(0.3, 0.2, 0.1));
+    for (int i = 0; i < 200; ++i) {
+        rig.tick();
+        CHECK(glm::length(rig.proxy.wrench().force_n) == 0.0);
+    }
+    CHECK(glm::distance(rig.proxy.pose().position_m, rig.device.position_m) < 1e-12);
+    CHECK(rig.proxy.queries() == 0);
+}
+
+TEST_CASE("proxy: a sphere on a plane is pushed by stiffness times depth, and stays on it") {
+    Rig rig;
+    rig.add_tool(make_sphere(0.012));
+    rig.add(half_space());
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.01, 0.007, 0.0)), 100);
+    const Wrench wrench = rig.proxy.wrench();
+    CHECK(wrench.force_n.y == doctest::Approx(1000.0 * 0.005).epsilon(1e-4));
+    CHECK(std::abs(wrench.force_n.x) < 1e-4);
+    CHECK(glm::length(wrench.moment_nm) < 1e-4);
+    CHECK(rig.proxy.pose().position_m.y == doctest::Approx(0.012).epsilon(1e-4));
+    CHECK(rig.proxy.pose().position_m.x == doctest::Approx(0.01));
+    CHECK(rig.proxy.given()[0].force_n.y == doctest::Approx(-wrench.force_n.y));
+}
+
+TEST_CASE("proxy: a face of four points pushes like one plane, with and without a turn") {
+    Rig rig;
+    rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.03))));
+    rig.add(half_space());
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.0, 0.006, 0.0)), 100);
+    CHECK(rig.proxy.contact_count() == 4);
+    CHECK(rig.proxy.wrench().force_n.y == doctest::Approx(4.0).epsilon(1e-3));
+    CHECK(glm::length(rig.proxy.wrench().moment_nm) < 1e-3);
+    for (int i = 0; i < 4; ++i) { // coplanar points share
+        CHECK(rig.proxy.contact(i).push_n == doctest::Approx(1.0).epsilon(0.02));
+    }
+    // Turned a little while pressed: the face keeps it flat, and the moment is that of the turn's own stiffness.
+    ToolPose turned = rig.device;
+    turned.rotation = rotation_exp(Vec3(0.01, 0.0, 0.0));
+    rig.move_to(turned, 50);
+    CHECK(rig.proxy.wrench().force_n.y == doctest::Approx(4.0).epsilon(1e-2));
+    CHECK(rig.proxy.wrench().moment_nm.x == doctest::Approx(-2.0 * 0.01).epsilon(1e-2));
+}
+
+TEST_CASE("proxy: a bar pressed on an edge far from the hand turns the hand") {
+    for (const double lever_m : {0.075, 0.05, 0.0}) {
+        for (const double side : {1.0, -1.0}) {
+            Rig rig;
+            rig.add_tool(make_tool(*box(Vec3(0.1, 0.01, 0.01))));
+            // A block from the lever outwards, its top at y = 0; about the middle: one wide block.
+            const Vec3 half = lever_m > 0.0 ? Vec3(0.01, 0.02, 0.02) : Vec3(0.15, 0.02, 0.02);
+            const double centre_m = lever_m > 0.0 ? side * (lever_m + half.x) : 0.0;
+            rig.add(box(half), {Vec3(centre_m, -0.02, 0.0), Mat3(1.0)});
+            rig.start_at(at(Vec3(0.0, 0.015, 0.0)));
+            rig.move_to(at(Vec3(0.0, 0.005, 0.0)), 100);
+            const Wrench wrench = rig.proxy.wrench();
+            const double gives_m_n = 1.0 / 1000.0 + lever_m * lever_m / 2.0;
+            const double force_n = 0.005 / gives_m_n;
+            CAPTURE(lever_m);
+            CAPTURE(side);
+            CHECK(wrench.force_n.y == doctest::Approx(force_n).epsilon(0.02));
+            CHECK(wrench.moment_nm.z ==
+                  doctest::Approx(side * lever_m * force_n).epsilon(0.02).scale(0.01));
+            CHECK(std::abs(wrench.moment_nm.x) < 0.002);
+            CHECK(std::abs(wrench.moment_nm.y) < 0.002);
+        }
+    }
+}
+
+TEST_CASE("proxy: a body between the jaws stops the fingers, and what is pressed is felt as grasp "
+          "torque") {
+    Rig rig;
+    for (const ToolMount mount : {ToolMount::jaw_minus, ToolMount::jaw_plus}) {
+        const double out = mount == ToolMount::jaw_plus ? 0.012 : -0.012;
+        rig.add_tool(make_sphere(0.012), mount, {Vec3(out, 0.0, 0.0), Mat3(1.0)});
+    }
+    rig.add(box(Vec3(0.015, 0.03, 0.03)));
+    rig.start_at(ToolPose());
+    const double stop_rad = rig.tool.jaws.closed_rad * (1.0 - 0.03 / rig.tool.jaws.open_m);
+    ToolPose closed;
+    closed.grasp_rad = stop_rad + 0.1;
+    rig.move_to(closed, 200);
+    CHECK(rig.proxy.pose().grasp_rad == doctest::Approx(stop_rad).epsilon(1e-3));
+    CHECK(rig.proxy.wrench().grasp_torque_nm == doctest::Approx(-0.4 * 0.1).epsilon(1e-2));
+    CHECK(glm::length(rig.proxy.wrench().force_n) < 1e-3);
+    // Each jaw presses with the torque over half the slope of the gap.
+    const double slope_m_rad = rig.tool.jaws.open_m / rig.tool.jaws.closed_rad;
+    for (int i = 0; i < rig.proxy.contact_count(); ++i) {
+        CHECK(rig.proxy.contact(i).push_n == doctest::Approx(0.04 / slope_m_rad).epsilon(0.02));
+    }
+    // Off the middle the body pushes one jaw more: the hand is moved, not only stopped.
+    closed.position_m.x = 0.0005;
+    rig.move_to(closed, 50);
+    CHECK(rig.proxy.wrench().force_n.x == doctest::Approx(-1000.0 * 0.0005).epsilon(2e-2));
+}
+
+TEST_CASE("proxy: friction holds within the cone and slips at it; a face holds a turn too") {
+    Rig rig;
+    rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.02))));
+    rig.add(half_space()).friction = 0.5;
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.0, 0.006, 0.0)), 100); // 4 N
+    rig.move_to(at(Vec3(0.001, 0.006, 0.0)), 100);
+    CHECK(rig.proxy.wrench().force_n.x == doctest::Approx(-1.0).epsilon(0.02)); // sticks: 1000 N/m
+    rig.move_to(at(Vec3(0.02, 0.006, 0.0)), 400);
+    CHECK(rig.proxy.wrench().force_n.x == doctest::Approx(-2.0).epsilon(0.02)); // slips: 0.5 * 4 N
+    rig.move_to(at(Vec3(0.0185, 0.006, 0.0)), 100);
+    CHECK(rig.proxy.wrench().force_n.x ==
+          doctest::Approx(-0.5).epsilon(0.1)); // and sticks on the way back
+    ToolPose turned = rig.device;
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.0, 0.006, 0.0)), 100);
+    turned = rig.device;
+    turned.rotation = rotation_exp(Vec3(0.0, 0.02, 0.0));
+    rig.move_to(turned, 100);
+    // Four points at 28 mm, each with a quarter of 1000 N/m: 0.8 N m/rad.
+    CHECK(rig.proxy.wrench().moment_nm.y == doctest::Approx(-0.02 * 0.0008 * 1000.0).epsilon(0.1));
+    turned.rotation = rotation_exp(Vec3(0.0, 0.3, 0.0));
+    rig.move_to(turned, 300);
+    const double most_nm = 0.5 * 4.0 * std::sqrt(0.0008);
+    CHECK(rig.proxy.wrench().moment_nm.y == doctest::Approx(-most_nm).epsilon(0.1));
+}
+
+TEST_CASE("proxy: nothing is passed by throws, and force rises to the end") {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int round = 0; round < 200; ++round) {
+        Rig rig;
+        rig.add_tool(make_pad(0.012, 0.003, 0.001));
+        const double thickness_m = 0.001 + 0.019 * 0.5 * (1.0 + uniform(random));
+        const double top_m = 0.0;
+        rig.add(box(Vec3(0.1, 0.5 * thickness_m, 0.1)),
+                {Vec3(0.0, top_m - 0.5 * thickness_m, 0.0), Mat3(1.0)});
+        const Vec3 start(0.03 * uniform(random), 0.05, 0.03 * uniform(random));
+        ToolPose from = at(start);
+        from.rotation = rotation_exp(1.5 * Vec3(uniform(random), uniform(random), uniform(random)));
+        rig.start_at(from);
+        const double speed_m_s = 0.1 + 1.9 * 0.5 * (1.0 + uniform(random));
+        const Vec3 along = glm::normalize(Vec3(0.3 * uniform(random), -1.0, 0.3 * uniform(random)));
+        double worst_m = 1.0;
+        for (int i = 0; start.y + i * kTick_s * speed_m_s * along.y > -0.05; ++i) {
+            rig.device.position_m = start + (i * kTick_s * speed_m_s) * along;
+            rig.tick();
+            worst_m = std::min(worst_m, rig.proxy.pose().position_m.y - top_m);
+        }
+        CAPTURE(round);
+        CHECK(worst_m > 0.0);
+        CHECK(rig.proxy.wrench().force_n.y > 30.0);
+    }
+}
+
+TEST_CASE("proxy: a plate that moves into a resting tool pushes it along") {
+    for (const double speed_m_s : {0.05, 0.2, 0.5, 1.0, 2.0}) {
+        for (const double thickness_m : {0.001, 0.005, 0.02}) {
+            Rig rig;
+            rig.add_tool(make_sphere(0.012));
+            ScenePart &plate =
+                rig.add(box(Vec3(0.1, 0.5 * thickness_m, 0.1)), {Vec3(0.0, -0.1, 0.0), Mat3(1.0)});
+            plate.velocity_m_s.y = speed_m_s;
+            rig.start_at(at(Vec3(0.003, 0.0, 0.001)));
+            double felt_n = 0.0;
+            while (rig.scene.parts[0].at.origin_m.y < 0.04) {
+                rig.tick();
+                const double above_m = rig.proxy.pose().position_m.y - 0.012 -
+                                       (rig.scene.parts[0].at.origin_m.y + 0.5 * thickness_m);
+                CHECK(above_m > -1e-4);
+                felt_n = rig.proxy.wrench().force_n.y;
+            }
+            CAPTURE(speed_m_s);
+            CAPTURE(thickness_m);
+            CHECK(felt_n ==
+                  doctest::Approx(1000.0 * (0.04 + 0.012 + 0.5 * thickness_m)).epsilon(0.05));
+        }
+    }
+}
+
+TEST_CASE("proxy: a way round in contact without friction gives back what it took") {
+    Rig rig;
+    rig.add_tool(make_tool(*box(Vec3(0.05, 0.01, 0.02))));
+    rig.add(box(Vec3(0.04, 0.02, 0.04)), {Vec3(0.0, -0.02, 0.0), Mat3(1.0)});
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.01, 0.006, 0.0)), 200);
+    double work_j = 0.0;
+    double turned_over_j = 0.0;
+    constexpr int kSteps = 4000;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double turn = 2.0 * std::numbers::pi * i / kSteps;
+        const ToolPose before = rig.device;
+        rig.device = at(Vec3(0.01 * std::cos(turn), 0.006 + 0.002 * std::sin(2.0 * turn),
+                             0.005 * std::sin(turn)));
+        rig.device.rotation = rotation_exp(
+            Vec3(0.05 * std::sin(turn), 0.1 * std::sin(turn), 0.05 * (std::cos(turn) - 1.0)));
+        const Wrench held = rig.proxy.wrench();
+        rig.tick();
+        const Wrench now = rig.proxy.wrench();
+        const Displacement by = between(before, rig.device);
+        const double step_j = 0.5 * (glm::dot(held.force_n + now.force_n, by.linear_m) +
+                                     glm::dot(held.moment_nm + now.moment_nm, by.angular_rad));
+        work_j += step_j;
+        turned_over_j += std::abs(step_j);
+    }
+    CHECK(turned_over_j > 0.01);
+    CHECK(std::abs(work_j) < 0.02 * turned_over_j);
+}
+
+TEST_CASE("proxy: what is not finite pushes nothing, and the proxy waits") {
+    Rig rig;
+    rig.add_tool(make_sphere(0.012));
+    rig.add(half_space());
+    rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
+    rig.move_to(at(Vec3(0.0, 0.007, 0.0)), 100);
+    const ToolPose waits = rig.proxy.pose();
+    rig.device.position_m.x = std::numeric_limits<double>::quiet_NaN();
+    rig.tick();
+    CHECK(glm::length(rig.proxy.wrench().force_n) == 0.0);
+    CHECK(rig.proxy.pose().position_m == waits.position_m);
+    rig.device = at(Vec3(0.0, 0.007, 0.0));
+    rig.tick();
+    CHECK(rig.proxy.wrench().force_n.y == doctest::Approx(5.0).epsilon(1e-3));
+}
