@@ -19,7 +19,8 @@ template <int kRows>
 struct Problem {
     std::size_t count = 0;
     double softness = 0.0;
-    std::array<Values<kRows>, kRows> gram; // filled up to count
+    // Filled up to count: to clear them first would cost as much as a solve.
+    std::array<Values<kRows>, kRows> gram;
     Values<kRows> depth;
 };
 
@@ -81,7 +82,7 @@ template <int kRows>
 RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
                             std::uint32_t first_guess, double softness) noexcept {
     RowPushes<kRows> solution;
-    Problem<kRows> problem;
+    Problem<kRows> problem; // NOLINT(cppcoreguidelines-pro-type-member-init)
     problem.count = static_cast<std::size_t>(std::clamp(count, 0, kRows));
     problem.softness = softness;
     double deepest = 0.0;
@@ -187,8 +188,8 @@ RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int co
 template RowPushes<kMaxConstraints>
 solve_rows<kMaxConstraints>(const std::array<ConstraintRow, kMaxConstraints> &rows, int count,
                             std::uint32_t first_guess, double softness) noexcept;
-template RowPushes<kMaxRows>
-solve_rows<kMaxRows>(const std::array<ConstraintRow, kMaxRows> &rows, int count,
-                     std::uint32_t first_guess, double softness) noexcept;
+template RowPushes<kMaxRows> solve_rows<kMaxRows>(const std::array<ConstraintRow, kMaxRows> &rows,
+                                                  int count, std::uint32_t first_guess,
+                                                  double softness) noexcept;
 
 } // namespace spidar

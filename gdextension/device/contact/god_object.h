@@ -18,7 +18,8 @@ inline constexpr int kMaxRows = 24;       // of shapes
 struct ConstraintRow {
     std::array<double, 8> row{};
     double depth = 0.0;
-    double compliance = 0.0; // of what gives way behind the constraint; unit: that of depth per push
+    double compliance =
+        0.0; // of what gives way behind the constraint; unit: that of depth per push
 };
 
 template <int kRows>

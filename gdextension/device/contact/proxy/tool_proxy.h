@@ -10,12 +10,11 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
 #include "device/contact/god_object.h"
 #include "device/contact/proxy/contact_scene.h"
+#include "device/contact/proxy/proxy_memory.h"
 #include "device/contact/proxy/tool.h"
-#include "device/contact/shapes/closest_points.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/motion.h"
 
@@ -49,25 +48,6 @@ struct ProxySettings {
     double damping_n_s_m = 2.0;
     // Surfaces nearer than this are looked at in a cycle.
     double margin_m = 0.004;
-};
-
-// What saves time from cycle to cycle (PairMemory): large, and made where it may be allocated.
-class ProxyMemory {
-public:
-    ProxyMemory();
-    // Of this pair; another pair's is forgotten for it when there are many.
-    [[nodiscard]] PairMemory &of(std::int32_t tool_id, std::int32_t scene_id) noexcept;
-
-private:
-    static constexpr std::size_t kPairs = 32;
-    struct Slot {
-        std::int32_t tool_id = 0;
-        std::int32_t scene_id = 0;
-        std::uint64_t used = 0;
-        PairMemory memory;
-    };
-    std::unique_ptr<std::array<Slot, kPairs>> slots_;
-    std::uint64_t clock_ = 0;
 };
 
 class ToolProxy {
