@@ -16,7 +16,7 @@ template <int kRows>
 using Values = std::array<double, kRows>;
 
 template <int kRows>
-struct Problem {
+struct Problem { // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::size_t count = 0;
     double softness = 0.0;
     // Filled up to count: to clear them first would cost as much as a solve.
@@ -82,7 +82,7 @@ template <int kRows>
 RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
                             std::uint32_t first_guess, double softness) noexcept {
     RowPushes<kRows> solution;
-    Problem<kRows> problem; // NOLINT(cppcoreguidelines-pro-type-member-init)
+    Problem<kRows> problem;
     problem.count = static_cast<std::size_t>(std::clamp(count, 0, kRows));
     problem.softness = softness;
     double deepest = 0.0;
