@@ -21,10 +21,9 @@ func reset() -> void:
 
 
 ## Call it once a physics tick. since_s: the device time in which the planes gained their impulses; 0 when nothing new is known
-## of them. game_runs is false while the game's time stands still: no body can follow the grip then, and none counts as torn.
+## of them.
 func breaks(
-	hold: HoldJoint, contacts: ContactSet, break_force_n: float, workspace_scale: float, since_s: float,
-	game_runs: bool
+	hold: HoldJoint, contacts: ContactSet, break_force_n: float, workspace_scale: float, since_s: float
 ) -> bool:
 	if since_s > 0.0:
 		var impulse: Vector3 = Vector3.ZERO
@@ -33,6 +32,6 @@ func breaks(
 				impulse += contacts.gained(plane.id)
 		var overloaded: bool = impulse.length() > break_force_n * since_s
 		_overload_s = _overload_s + since_s if overloaded else 0.0
-	var torn: bool = game_runs and hold.stretch_m() > MAX_STRETCH_M * workspace_scale
+	var torn: bool = hold.stretch_m() > MAX_STRETCH_M * workspace_scale
 	_torn_s = _torn_s + 1.0 / Engine.physics_ticks_per_second if torn else 0.0
 	return maxf(_overload_s, _torn_s) >= BREAK_TIME_S

@@ -211,7 +211,7 @@ func _physics_process(delta: float) -> void:
 	if _clock.elapsed_s > 0.0:
 		_read_device(forces_on, _clock.elapsed_s)
 	if _hold != null:
-		_watch_hold(delta)
+		_watch_hold()
 	if _hold == null:
 		_jaw.centring_m = 0.0 if forces_on else JawSensor.CENTRING_M * spidar.workspace_scale
 		_sense_jaws(grip)
@@ -300,13 +300,13 @@ func _attach(body: RigidBody3D, grip: Transform3D) -> void:
 
 
 ## Lets go when the jaws open past the body, or when the world tears at it for long enough.
-func _watch_hold(delta: float) -> void:
+func _watch_hold() -> void:
 	if not _hold.is_movable():
 		release()
 		return
 	var opened: bool = spidar.get_grasp_angle() < _stop.angle_rad - RELEASE_ANGLE
 	var broken: bool = _watch.breaks(
-		_hold, _contacts, break_force_n, spidar.workspace_scale, _clock.elapsed_s, delta > 0.0
+		_hold, _contacts, break_force_n, spidar.workspace_scale, _clock.elapsed_s
 	)
 	if opened or broken or _hold.body.freeze:
 		release()

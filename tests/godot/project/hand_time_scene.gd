@@ -9,6 +9,7 @@ const SIZE := Vector3(0.03, 0.04, 0.03)
 const SWING_HZ: float = 0.5
 const SWING_M: float = 0.06
 const TOLERANCE: float = 0.03
+const CYCLES_OF_A_TICK: int = 3
 
 var body: RigidBody3D
 var drive_mode: SpidarG.DriveMode = SpidarG.DRIVE_STEPPED
@@ -20,6 +21,7 @@ var with_inertia: bool = true
 var rejected: PackedStringArray = []
 
 var _ticks_due: float = 0.0
+var _cycles_ahead: int = 0
 var _random := RandomNumberGenerator.new()
 ## Moves `at` and `angle` to where the hand's target is at a time of the device.
 var _move := Callable()
@@ -75,13 +77,21 @@ func tick() -> void:
 		while _ticks_due < 1.0:
 			var cycles: int = roundi(1000.0 / frames_per_s * _random.randf_range(0.8, 1.2))
 			_ticks_due += 0.001 * cycles * Engine.physics_ticks_per_second
-			for _i: int in cycles:
-				_move_hand()
-				device.advance_cycles(1)
+			_run_device(maxi(cycles - _cycles_ahead, 0))
+			_cycles_ahead = 0
 		_ticks_due -= 1.0
+		if _ticks_due >= 1.0:  # The ticks of one frame take some time too.
+			_run_device(CYCLES_OF_A_TICK)
+			_cycles_ahead += CYCLES_OF_A_TICK
 	else:
 		_move_hand()
 	await physics_frames(1)
+
+
+func _run_device(cycles: int) -> void:
+	for _i: int in cycles:
+		_move_hand()
+		device.advance_cycles(1)
 
 
 ## Mean of what is called once a tick, over seconds of the device: a tick counts for the time that it took.
@@ -114,6 +124,7 @@ func _prepare() -> void:
 	rejected.clear()
 	_random.seed = 1
 	_ticks_due = 0.0
+	_cycles_ahead = 0
 	device = ideal_device()
 	device.drive_mode = drive_mode
 	device.forces_enabled = true

@@ -31,6 +31,16 @@ func test_so_does_a_static_table_and_a_lift_that_is_moved_by_frames() -> void:
 			table.free()
 
 
+func test_a_lift_feels_the_same_at_every_time_scale() -> void:
+	for time_scale: float in [0.1, 3.0]:
+		for table: StaticBody3D in [AnimatableBody3D.new(), StaticBody3D.new()]:
+			Engine.time_scale = time_scale
+			var kind: String = table.get_class()
+			var felt: PackedFloat64Array = await _ride(time_scale * Vector3(0, 1, 0), table)
+			check_near(felt[1], 0.81, 0.03, "%s on a lift at time scale %s" % [kind, time_scale])
+	Engine.time_scale = 1.0
+
+
 func test_a_floor_of_the_scene_is_where_it_is_for_a_vehicle() -> void:
 	await _set_up_car(Vector3.ZERO, AnimatableBody3D.new(), 0.2)
 	var floor_body := StaticBody3D.new()
@@ -189,7 +199,7 @@ func test_a_step_of_a_platform_feels_alike_whatever_body_it_is() -> void:
 		check_near(peaks[2], peaks[0], 0.03 * peaks[0], "step of %.0f mm: in step with physics" % step_mm)
 
 
-## What is felt on a table of this kind that moves along.
+## What is felt on a table of this kind that moves along. velocity: in the device's time.
 func _ride(velocity: Vector3, table: StaticBody3D, in_frames: bool = false) -> PackedFloat64Array:
 	await _set_up_car(Vector3.ZERO, table)
 	var move: Callable = func() -> void: car.position += velocity / 60.0
