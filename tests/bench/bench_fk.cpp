@@ -30,14 +30,20 @@ constexpr double kFailureSigmas = 20.0;
 
 struct LengthSet {
     const char *name;
-    double noise_m; // standard deviation; negative: rounded to encoder counts
+    double noise_m;       // standard deviation; negative: rounded to encoder counts
+    bool uniform = false; // +-noise_m a string
+    bool steady = false;  // the same in every tick
 };
 
 constexpr LengthSet kSets[] = {{"T1 clean", 0.0},
                                {"T1 counts", -1.0},
                                {"T1 0.1 mm", 1e-4},
                                {"T1 1 mm", 1e-3},
-                               {"T1 3 mm", 3e-3}};
+                               {"T1 3 mm", 3e-3},
+                               {"T1 +-3 mm steady", 3e-3, true, true},
+                               {"T1 +-5 mm steady", 5e-3, true, true},
+                               {"T1 +-3 mm white", 3e-3, true, false},
+                               {"T1 +-5 mm white", 5e-3, true, false}};
 
 // Trajectory T1: to 0.7 m/s and 2.5 rad/s through most of the workspace.
 GripPose pose_t1(const GripGeometry &grip, double t) {
@@ -99,13 +105,18 @@ public:
                   usable(cold_.configure(frame_, grip_)) && make_layout(frame_, grip_, layout_);
         std::mt19937_64 engine(kSeed);
         std::normal_distribution<double> normal;
+        std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+        StringArray errors{};
         for (std::size_t tick = 0; tick < ticks_; ++tick) {
             truths_.push_back(pose_t1(grip_, kPeriod_s * static_cast<double>(tick + 1)));
             StringArray lengths = string_lengths(frame_, grip_, truths_.back());
-            for (double &length : lengths) {
-                length = set_.noise_m < 0.0
-                             ? kPaperMetresPerCount * std::round(length / kPaperMetresPerCount)
-                             : length + set_.noise_m * normal(engine);
+            for (std::size_t i = 0; i < lengths.size(); ++i) {
+                if (tick == 0 || !set_.steady) {
+                    errors[i] = set_.uniform ? uniform(engine) : normal(engine);
+                }
+                lengths[i] = set_.noise_m < 0.0 ? kPaperMetresPerCount *
+                                                      std::round(lengths[i] / kPaperMetresPerCount)
+                                                : lengths[i] + set_.noise_m * errors[i];
             }
             lengths_m_.push_back(lengths);
         }

@@ -126,6 +126,8 @@ stress() { # stress BIN_FOLDER PROBLEMS DEVICE_RUNS
             $program != */stress_servo_step ]] || cases=$((5 * cases))
         [[ $program != */stress_servo ]] || cases=$3
         [[ $program != */stress_replay ]] || cases=1
+        # A case is ten seconds of motion for each of six kinds of errors; the time of sanitized code is nobody's bar.
+        [[ $program != */stress_tracking ]] || { [[ $1 == build/bin ]] && cases=20 || continue; }
         [[ $program != */stress_tension_quick ]] || ((cases *= 5)) # some us each
         # 500 reports a case; 20000 cases also try every short error pattern.
         [[ $program != */stress_hid ]] || ((cases <= 20000)) || cases=20000

@@ -18,12 +18,18 @@ namespace {
 constexpr double kFaceMargin_m = 1e-6;
 // No string is longer: the diagonal of the largest frame is 35 m.
 constexpr double kLongestString_m = 40.0;
-// After the steps of a warm tick a residual above this asks for a cold start. Calibrated strings
-// err by less, and the redundant eighth length shows only a third of the error of one string.
+// After the steps of a warm tick a residual above this asks for a cold start, unless lengths have erred before. Calibrated
+// strings err by less, and the redundant eighth length shows only a third of the error of one string.
 constexpr double kWarmResidualGate_m = 1e-3;
 // A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
 // looked at too, and must fit 50 times better: next to it a wrong branch may fit to a millimetre.
 constexpr double kContentResidual_m = 2e-5;
+// A residual this many times its recent level is no usual one.
+constexpr double kUnusual = 3.0;
+// Lengths that err by sigma move the foreseen pose by up to this many sigma in a tick, near badly determined poses.
+constexpr double kNoiseReach = 4.0;
+// With errors a second step of less than this share of the first still settles.
+constexpr double kSettlingShare = 0.5;
 // Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
 constexpr double kMaxWarmStep_m = 5e-3;
 // Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
@@ -56,10 +62,21 @@ CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
     return {a.position_m - b.position_m, a.poles_m - b.poles_m};
 }
 
-// Residual once a step is taken, by the linear model that the step comes from.
-double rms_after(const CrossedErrors &errors, const CrossedStep &step) noexcept {
-    const double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
+// Residual once a step is taken, by the linear model that the step comes from. The step of a prior decreases the
+// sum of both; its share is taken off again. off: from the pose of the step to the expected one.
+double rms_after(const CrossedErrors &errors, const CrossedStep &step, double prior,
+                 const CrossedPose &off) noexcept {
+    double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
+    if (prior > 0.0) {
+        const double along_m2 =
+            dot(step.position_m, off.position_m)[0] + sum_of(dot(step.poles_m, off.poles_m));
+        left_m2 += prior * (2.0 * along_m2 - step.size_m2);
+    }
     return std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
+}
+
+double sum_of_squares(const KinematicsResult &result) noexcept {
+    return kStringCount * result.residual_rms_m * result.residual_rms_m;
 }
 
 double squared(const CrossedPose &change) noexcept {
@@ -102,7 +119,7 @@ void ForwardKinematics::set_last_pose(const GripPose &pose) noexcept {
 KinematicsResult ForwardKinematics::hold(const KinematicsResult &from,
                                          Status status) const noexcept {
     KinematicsResult result = from;
-    result.pose = last_pose_;
+    result.pose = last_pose();
     result.status = status;
     return result;
 }
@@ -129,6 +146,10 @@ KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
     }
     last_pose_ = result.pose;
     warm_ = true;
+    fresh_ = false;
+    if (blend_.active()) {
+        result.pose = blend_.next(result.pose);
+    }
     return result;
 }
 
@@ -142,60 +163,92 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
 }
 
+// No search for a residual that is usual: errors of the strings that stay are no reason to doubt the pose.
+bool ForwardKinematics::residual_alarms(double residual_rms_m) const noexcept {
+    const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
+    return !(residual_rms_m <=
+             (fresh_ ? kWarmResidualGate_m : std::fmax(kWarmResidualGate_m, kUnusual * usual_m)));
+}
+
 KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
     const double d = layout_.pole_half_length_m;
+    const double prior = prior_.weight();
+    const bool noisy = prior > 0.0;
     const CrossedPose last = lanes_of(last_pose_);
-    CrossedPose pose = foreseeing_ ? one_change_on(last, foreseen_change_, d) : last;
+    CrossedPose pose = noisy         ? one_change_on(last, prior_.expected_change(), d)
+                       : foreseeing_ ? one_change_on(last, foreseen_change_, d)
+                                     : last;
+    const CrossedPose expected = pose;
     CrossedErrors errors = errors_at(layout_, lengths_m, pose);
-    CrossedFactor factor = factorise(errors, pose, d);
+    CrossedFactor factor = factorise(errors, pose, d, prior);
     const CrossedStep first = solve(factor, errors);
-    if (!factor.solvable || !(first.size_m2 <= kMaxWarmStep_m * kMaxWarmStep_m)) {
-        const bool forget = !factor.solvable || !(first.size_m2 <= kForgetStep_m * kForgetStep_m);
-        const bool trust = first.size_m2 <= kTrustedStep_m * kTrustedStep_m;
-        return search(lengths_m, forget ? nullptr : &last_pose_, trust ? kContentResidual_m : 0.0);
+    const double reach_m = noisy ? kNoiseReach * prior_.length_sigma_m() : 0.0;
+    const auto within = [reach_m, &first](double limit_m) {
+        return first.size_m2 <= (limit_m + reach_m) * (limit_m + reach_m);
+    };
+    if (!factor.solvable || !within(kMaxWarmStep_m)) {
+        const bool forget = !factor.solvable || !within(kForgetStep_m);
+        return search(lengths_m, forget ? nullptr : &last_pose_,
+                      within(kTrustedStep_m) ? kContentResidual_m : 0.0);
     }
     pose = moved(pose, first, d);
     KinematicsResult result;
     result.steps = 1;
-    result.residual_rms_m = rms_after(errors, first);
+    result.residual_rms_m = rms_after(errors, first, prior, CrossedPose());
     // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
     // factorisation (k s)^2 s. One that leaves too little to matter is not looked at again.
     const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
     const double allowed = enough_m * enough_m * factor.min_pivot;
     const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
     if (!(bend2 * first.size_m2 <= allowed)) {
-        errors = errors_at(layout_, lengths_m, pose);
-        const bool again = bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot;
-        if (!again) {
-            factor = factorise(errors, pose, d);
-        }
+        const auto step_on = [&](bool again) {
+            errors = errors_at(layout_, lengths_m, pose);
+            if (!again) {
+                factor = factorise(errors, pose, d, prior);
+            }
+            return again || noisy ? solve_nearby(factor, errors, pose, prior, expected)
+                                  : solve(factor, errors);
+        };
+        const auto take = [&](const CrossedStep &step) {
+            const CrossedPose off = minus(expected, pose);
+            pose = moved(pose, step, d);
+            ++result.steps;
+            result.residual_rms_m = rms_after(errors, step, prior, off);
+        };
         const CrossedStep second =
-            again ? solve_nearby(factor, errors, pose) : solve(factor, errors);
-        if (!factor.solvable || !(second.size_m2 <= kMaxSecondStep_m * kMaxSecondStep_m)) {
+            step_on(bend2 * bend2 * first.size_m2 <= allowed * factor.min_pivot);
+        const double settling_m2 = noisy ? kSettlingShare * kSettlingShare * first.size_m2 : 0.0;
+        if (!factor.solvable ||
+            !(second.size_m2 <= std::fmax(kMaxSecondStep_m * kMaxSecondStep_m, settling_m2))) {
             return search(lengths_m, &last_pose_, kContentResidual_m);
         }
-        pose = moved(pose, second, d);
-        result.steps = 2;
-        result.residual_rms_m = rms_after(errors, second);
-        if (!(second.size_m2 <= kThirdStep_m * kThirdStep_m)) {
-            errors = errors_at(layout_, lengths_m, pose);
-            factor = factorise(errors, pose, d);
-            const CrossedStep third = solve(factor, errors);
+        take(second);
+        const double curved_m = kLengthCurvature * second.size_m2;
+        if (!(second.size_m2 <= kThirdStep_m * kThirdStep_m) &&
+            !(noisy && curved_m <= kTrackingShare * result.residual_rms_m)) {
+            const CrossedStep third = step_on(false);
             if (!factor.solvable || !(third.size_m2 <= second.size_m2)) {
                 return search(lengths_m, &last_pose_, kContentResidual_m);
             }
-            pose = moved(pose, third, d);
-            result.steps = 3;
-            result.residual_rms_m = rms_after(errors, third);
+            take(third);
         }
     }
-    if (!(result.residual_rms_m <= kWarmResidualGate_m)) {
+    if (residual_alarms(result.residual_rms_m)) {
         return search(lengths_m, &last_pose_, kContentResidual_m);
     }
-    foresee({pose.position_m - last.position_m, pose.poles_m - last.poles_m});
+    const CrossedPose change{pose.position_m - last.position_m, pose.poles_m - last.poles_m};
+    foresee(change);
+    prior_.learn(sum_of_squares(result), change);
     result.pose = pose_of(pose);
-    result.conditioning = factor.min_pivot;
-    if (closed_form_ && --ticks_to_rivals_ <= 0) {
+    const bool look = --ticks_to_rivals_ <= 0;
+    if (look) {
+        ticks_to_rivals_ = kRivalPeriod;
+    }
+    if (look || !noisy) { // the strings' own: the prior is no knowledge of the pose
+        conditioning_ = noisy ? factorise(errors, pose, d).min_pivot : factor.min_pivot;
+    }
+    result.conditioning = conditioning_;
+    if (closed_form_ && look && !blend_.active()) {
         look_for_rivals(lengths_m, result);
     }
     if (ambiguous_) {
@@ -204,13 +257,26 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     return accept(result);
 }
 
+// Changes `found` to another answer once that was better for long enough, and starts to blend from one to the other.
 void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
-                                        const KinematicsResult &found) noexcept {
+                                        KinematicsResult &found) noexcept {
     PolishResult known;
     known.pose = found.pose;
     known.residual_rms_m = found.residual_rms_m;
-    ambiguous_ = has_rival({frame_, grip_, lengths_m}, search_tools(), known);
-    ticks_to_rivals_ = kRivalPeriod;
+    const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
+    const RivalResult rival =
+        find_rival({frame_, grip_, lengths_m}, search_tools(), known, usual_m);
+    ambiguous_ = rival.ambiguous;
+    better_looks_ = rival.preferable ? better_looks_ + 1 : 0;
+    if (better_looks_ >= kRivalLooks) {
+        better_looks_ = 0;
+        blend_.start(found.pose, rival.best.pose);
+        found.pose = rival.best.pose;
+        found.residual_rms_m = rival.best.residual_rms_m;
+        found.conditioning = conditioning_ = rival.best.min_pivot;
+        forget_motion();
+        prior_.begin(sum_of_squares(found));
+    }
 }
 
 // The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
@@ -248,13 +314,13 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
         ++steps;
     }
     const double residual_rms_m = length_errors(problem, pose).rms_m();
-    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) ||
-        !(residual_rms_m <= kWarmResidualGate_m)) {
+    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) || residual_alarms(residual_rms_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
     KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
+    prior_.learn(sum_of_squares(result), CrossedPose());
     result.conditioning = last.min_pivot;
     result.steps = steps;
     return accept(result);
@@ -311,10 +377,14 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     }
     ambiguous_ = found.ambiguous;
     ticks_to_rivals_ = kRivalPeriod;
+    better_looks_ = 0;
+    conditioning_ = result.conditioning;
+    blend_.stop(); // found anew: the lengths themselves jumped
     if (ambiguous_) {
         result.status = Status::ambiguous_pose;
     }
     forget_motion();
+    prior_.begin(sum_of_squares(result));
     return accept(result);
 }
 

@@ -10,6 +10,8 @@
 #include "core/base/types.h"
 #include "core/geometry/frame_geometry.h"
 #include "core/geometry/grip_geometry.h"
+#include "core/kinematics/motion_prior.h"
+#include "core/kinematics/pose_blend.h"
 #include "core/kinematics/steps/crossed_step.h"
 
 namespace spidar {
@@ -23,6 +25,8 @@ inline constexpr double kImpossibleResidual_m = 0.020;
 inline constexpr double kNearSingularPivot = 1e-4;
 // Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
 inline constexpr int kRivalPeriod = 8;
+// Looks in a row that must find a better answer before the pose goes there: 56 ms at 1 kHz.
+inline constexpr int kRivalLooks = 7;
 // A warm tick is done when the error it leaves is below this part of what the lengths themselves err by: their residual.
 // Errors add by squares, so that the pose is then worse by 0.2 %.
 inline constexpr double kTrackingShare = 0.05;
@@ -32,8 +36,9 @@ struct KinematicsResult {
     double residual_rms_m =
         0.0; // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
     double conditioning =
-        0.0;       // smallest pivot of the scaled normal equations, 0..1; small = near singular
-    int steps = 0; // Gauss-Newton steps taken
+        0.0; // smallest pivot of the scaled normal equations, 0..1; small = near singular. Lengths with errors:
+        // looked at every kRivalPeriod ticks
+    int steps = 0;              // Gauss-Newton steps taken
     bool cold_start = false;    // the closed form was used
     Status status = Status::ok; // >= 0: pose is new; < 0: pose is the last good one
 };
@@ -43,8 +48,9 @@ public:
     // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
-    // One servo tick: one to three steps; falls back to a search when the residual or the step size
-    // says so; holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
+    // One servo tick: one to three steps. Lengths with errors are weighed against where the motion leads
+    // (motion_prior.h). A search follows when a step is larger than hand and errors explain; another answer that stays better
+    // for kRivalLooks looks is gone to without a jump (pose_blend.h). Holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
     // ambiguous_pose, where there is a closed form: looked for every kRivalPeriod ticks, stands in between.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
@@ -53,12 +59,18 @@ public:
 
     // Warm start from here at the next update().
     void set_last_pose(const GripPose &pose) noexcept;
-    [[nodiscard]] const GripPose &last_pose() const noexcept { return last_pose_; }
+    [[nodiscard]] const GripPose &last_pose() const noexcept {
+        return blend_.active() ? blend_.shown() : last_pose_;
+    }
     // Forget the last pose: the next update() is cold.
     void reset() noexcept {
         warm_ = false;
         ambiguous_ = false;
         ticks_to_rivals_ = 0;
+        better_looks_ = 0;
+        fresh_ = true;
+        blend_.stop();
+        prior_.restart();
         forget_motion();
     }
 
@@ -68,12 +80,14 @@ private:
     KinematicsResult search(const StringArray &lengths_m, const GripPose *remembered,
                             double content_m) noexcept;
     [[nodiscard]] SearchTools search_tools() const noexcept;
-    void look_for_rivals(const StringArray &lengths_m, const KinematicsResult &found) noexcept;
+    void look_for_rivals(const StringArray &lengths_m, KinematicsResult &found) noexcept;
+    [[nodiscard]] bool residual_alarms(double residual_rms_m) const noexcept;
     void foresee(const CrossedPose &change) noexcept;
     void forget_motion() noexcept {
         last_change_ = CrossedPose();
         last_turn_ = CrossedPose();
         foreseeing_ = false;
+        prior_.forget_motion();
     }
     // Changes `result` in place and returns it: the tick makes no copy that it can spare.
     KinematicsResult accept(KinematicsResult &result) noexcept;
@@ -95,8 +109,13 @@ private:
     CrossedPose last_turn_{};   // change of that change
     CrossedPose foreseen_change_{};
     bool foreseeing_ = false;
-    bool ambiguous_ = false;  // at the last look
-    int ticks_to_rivals_ = 0; // warm ticks until the next one
+    MotionPrior prior_;
+    PoseBlend blend_;
+    bool fresh_ = true;         // no tick since the pose was set or found
+    double conditioning_ = 0.0; // by the strings alone, at the last look
+    int better_looks_ = 0;      // in a row, at which another answer was better
+    bool ambiguous_ = false;    // at the last look
+    int ticks_to_rivals_ = 0;   // warm ticks until the next one
 };
 
 } // namespace spidar

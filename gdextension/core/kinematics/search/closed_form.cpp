@@ -264,4 +264,13 @@ RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
     return result;
 }
 
+bool is_upright(const Vec3 &half_extents_m, const GripPose &pose) noexcept {
+    // A pole folds where the slope of its |r|^2 over z vanishes: y1 = b t^2 + t y with t = z1 / (z - c).
+    const Vec3 &p = pose.position_m;
+    const double t1 = pose.r1_m.z / (p.z - half_extents_m.z);
+    const double t2 = pose.r2_m.z / (p.z + half_extents_m.z);
+    return pose.r1_m.y > t1 * (half_extents_m.y * t1 + p.y) &&
+           pose.r2_m.x > t2 * (half_extents_m.x * t2 + p.x);
+}
+
 } // namespace spidar

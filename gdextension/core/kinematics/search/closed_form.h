@@ -68,4 +68,7 @@ struct RootPairPose {
 // Its pose alone, for a pair that is tried whatever its misfit: z without the last refinement.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
+// True when both poles are on the upright side of their folds, where the two roots of the cubic meet.
+[[nodiscard]] bool is_upright(const Vec3 &half_extents_m, const GripPose &pose) noexcept;
+
 } // namespace spidar

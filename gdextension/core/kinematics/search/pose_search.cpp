@@ -22,6 +22,13 @@ constexpr double kBeyondChance = 0.02;
 // Without memory: how much better another root pair must fit than the upright one, which is right in 98 % of all
 // poses. Of 1 to 0.02 the factor with the fewest wrong choices on the 60/45 set, counts and noise of 0.1 mm.
 constexpr double kUprightPrior = 0.3;
+// Strings that err by 5 mm each leave at most this much at the true pose; from here on a pose that fits twice as well is
+// another answer and not chance.
+constexpr double kImprobableResidual_m = 6e-3;
+// Lengths with a residual above this come from a device that is not calibrated: an upright pose that fits within
+// kWithinNoise of what is usual is then likelier than a flipped one that fits better, for 98 % of all poses are upright.
+constexpr double kNoisyResidual_m = 3e-4;
+constexpr double kWithinNoise = 1.6;
 // The closed form gives four root pairs, each a pose to start from. A start this close to the remembered pose ends there.
 constexpr double kSamePose_m = 1e-3;
 // The largest second derivative of the string lengths that was seen, four times the usual one. It is used where a search
@@ -76,6 +83,12 @@ public:
         : problem_(problem), tools_(tools), found_(found) {}
 
     void offer(const GripPose &start) noexcept { judge(polished(start)); }
+    // Each candidate is weighed against `known` as well; the best preferable one is left in `rival`.
+    void look_beside(const PolishResult &known, double noise_m, RivalResult &rival) noexcept {
+        known_ = &known;
+        noise_m_ = noise_m;
+        rival_ = &rival;
+    }
     // The best so far comes from memory, which outweighs how well another fits.
     void trust_memory() noexcept { remembers_ = true; }
     void try_root_pairs() noexcept;
@@ -95,12 +108,16 @@ private:
     PolishResult refined(const CrossedPose &start) noexcept;
     [[nodiscard]] bool replaces_best(double candidate_m) const noexcept;
     void judge(const PolishResult &candidate) noexcept;
+    void weigh(const PolishResult &candidate) const noexcept;
 
     const LengthProblem &problem_;
     const SearchTools &tools_;
     SearchResult &found_;
     bool remembers_ = false;
     bool first_stands_ = true; // the best is the first: upright or remembered
+    const PolishResult *known_ = nullptr;
+    double noise_m_ = 0.0;
+    RivalResult *rival_ = nullptr;
 };
 
 // Gauss-Newton with the fast steps as long as it converges fast: to the end when the lengths are good. Where it does
@@ -201,6 +218,9 @@ void Search::judge(const PolishResult &candidate) noexcept {
         found_.any = true;
         return;
     }
+    if (rival_ != nullptr) {
+        weigh(candidate);
+    }
     const bool another = pole_distance(candidate.pose, found_.best.pose) > kDistinctPose_m;
     if (another && replaces_best(candidate.residual_rms_m)) {
         found_.ambiguous = fits_as_well(found_.best.residual_rms_m, candidate.residual_rms_m);
@@ -208,6 +228,26 @@ void Search::judge(const PolishResult &candidate) noexcept {
         first_stands_ = false;
     } else if (another && fits_as_well(candidate.residual_rms_m, found_.best.residual_rms_m)) {
         found_.ambiguous = true;
+    }
+}
+
+void Search::weigh(const PolishResult &candidate) const noexcept {
+    const Vec3 &half_extents_m = *tools_.closed_form_half_extents_m;
+    const double known_m = known_->residual_rms_m;
+    const double fits_m = candidate.residual_rms_m;
+    if (!(fits_m <= kImprobableResidual_m) || !candidate.converged ||
+        !(std::fabs(candidate.pose.position_m.z) < half_extents_m.z) ||
+        !(pole_distance(candidate.pose, known_->pose) > kSamePose_m)) {
+        return;
+    }
+    const bool clearly =
+        fits_m < (known_m > kImprobableResidual_m ? kClearlyBetter : kBeyondChance) * known_m;
+    const bool by_posture =
+        noise_m_ > kNoisyResidual_m && fits_m < kWithinNoise * std::fmax(noise_m_, known_m) &&
+        is_upright(half_extents_m, candidate.pose) && !is_upright(half_extents_m, known_->pose);
+    if ((clearly || by_posture) && (!rival_->preferable || fits_m < rival_->best.residual_rms_m)) {
+        rival_->preferable = true;
+        rival_->best = candidate;
     }
 }
 
@@ -275,18 +315,22 @@ SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
     return found;
 }
 
-bool has_rival(const LengthProblem &problem, const SearchTools &tools,
-               const PolishResult &known) noexcept {
+RivalResult find_rival(const LengthProblem &problem, const SearchTools &tools,
+                       const PolishResult &known, double noise_m) noexcept {
+    RivalResult rival;
     if (!tools.closed_form_half_extents_m.has_value() || tools.layout == nullptr) {
-        return false;
+        return rival;
     }
     SearchResult found;
     found.best = known;
     found.any = true;
     Search search(problem, tools, found);
     search.trust_memory();
+    search.look_beside(known, noise_m, rival);
     search.try_root_pairs();
-    return found.ambiguous || pole_distance(found.best.pose, known.pose) > kDistinctPose_m;
+    rival.ambiguous =
+        found.ambiguous || pole_distance(found.best.pose, known.pose) > kDistinctPose_m;
+    return rival;
 }
 
 } // namespace spidar

@@ -34,9 +34,18 @@ struct SearchResult {
 [[nodiscard]] SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
                                        const GripPose *remembered, double content_m) noexcept;
 
-// Whether another pose than `known`, which a warm tick found, fits these lengths as well. False where there is no
-// closed form: nothing else is fast enough for a tick.
-[[nodiscard]] bool has_rival(const LengthProblem &problem, const SearchTools &tools,
-                             const PolishResult &known) noexcept;
+// What a look for other poses than the one that a warm tick found says.
+struct RivalResult {
+    bool ambiguous = false; // another pose fits these lengths as well
+    bool preferable =
+        false; // `best` is a better answer: it fits clearly better, or as well as lengths of this noise fit,
+        // and is upright where the known pose is not
+    PolishResult best;
+};
+
+// noise_m: recent level of the residual (root mean square over the strings). Nothing is found where there is no closed
+// form: nothing else is fast enough for a tick.
+[[nodiscard]] RivalResult find_rival(const LengthProblem &problem, const SearchTools &tools,
+                                     const PolishResult &known, double noise_m) noexcept;
 
 } // namespace spidar

@@ -129,10 +129,11 @@ struct Gradients {
     return b < a ? b : a; // a when b is NaN: the pivots themselves decide then
 }
 
-// Eliminates the matrix whose strings sum to `plus` and `minus` at the two ends; `fall` adds to the poles' diagonals.
+// Eliminates the matrix whose strings sum to `plus` and `minus` at the two ends; `fall` adds to the poles' diagonals, and
+// `hold` to those of the position.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
-eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, const CrossedPose &pose,
-          double pole_half_length_m) noexcept {
+eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double hold,
+          const CrossedPose &pose, double pole_half_length_m) noexcept {
     CrossedFactor f;
     LaneMatrix sum;
     LaneMatrix difference;
@@ -158,12 +159,12 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, const Cro
 
     const LaneVec &a = f.carry_u;
     const LaneVec &b = f.carry_v;
-    const double s0 = sum_of(sum[0] - a.x * couple_u.x - b.x * couple_v.x);
+    const double s0 = sum_of(sum[0] - a.x * couple_u.x - b.x * couple_v.x) + hold;
     const double s1 = sum_of(sum[1] - a.x * couple_u.y - b.x * couple_v.y);
     const double s2 = sum_of(sum[2] - a.x * couple_u.z - b.x * couple_v.z);
-    const double s3 = sum_of(sum[3] - a.y * couple_u.y - b.y * couple_v.y);
+    const double s3 = sum_of(sum[3] - a.y * couple_u.y - b.y * couple_v.y) + hold;
     const double s4 = sum_of(sum[4] - a.y * couple_u.z - b.y * couple_v.z);
-    const double s5 = sum_of(sum[5] - a.z * couple_u.z - b.z * couple_v.z);
+    const double s5 = sum_of(sum[5] - a.z * couple_u.z - b.z * couple_v.z) + hold;
     const double minor_yz = s3 * s5 - s4 * s4;
     const double minor_xy = s0 * s3 - s1 * s1;
     const double cofactor_xy = s2 * s4 - s1 * s5;
@@ -240,13 +241,15 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, const Cro
     return errors;
 }
 
-[[nodiscard, gnu::always_inline]] inline CrossedFactor
-factorise(const CrossedErrors &errors, const CrossedPose &pose,
-          double pole_half_length_m) noexcept {
+// prior: weight of a pose that is expected, added to the diagonal (0: the lengths alone). The pivots count it too.
+[[nodiscard, gnu::always_inline]] inline CrossedFactor factorise(const CrossedErrors &errors,
+                                                                 const CrossedPose &pose,
+                                                                 double pole_half_length_m,
+                                                                 double prior = 0.0) noexcept {
     return crossed_detail::eliminate(
         crossed_detail::outer_sum(errors.direction[0], errors.direction[1]),
-        crossed_detail::outer_sum(errors.direction[2], errors.direction[3]), both(0.0), pose,
-        pole_half_length_m);
+        crossed_detail::outer_sum(errors.direction[2], errors.direction[3]), both(prior), prior,
+        pose, pole_half_length_m);
 }
 
 // The same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically where lengths err.
@@ -268,7 +271,7 @@ factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
     // ... and a displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
     const Lanes fall = dot(crossed_detail::gradients(errors).difference, pose.poles_m) *
                        both(1.0 / (pole_half_length_m * pole_half_length_m));
-    return crossed_detail::eliminate(end(0), end(2), fall, pose, pole_half_length_m);
+    return crossed_detail::eliminate(end(0), end(2), fall, 0.0, pose, pole_half_length_m);
 }
 
 // The step that `errors` ask for, by the factorisation made there.
@@ -277,11 +280,16 @@ factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
     return crossed_detail::step_of(factor, crossed_detail::gradients(errors));
 }
 
-// The same by a factorisation made close by; `pose` is where the errors are. Ends at the same pose.
+// The same by a factorisation made close by; `pose` is where the errors are. Ends at the same pose. prior, expected: as
+// in factorise(), and the pose that is expected.
 [[nodiscard, gnu::always_inline]] inline CrossedStep
-solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors,
-             const CrossedPose &pose) noexcept {
+solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors, const CrossedPose &pose,
+             double prior = 0.0, const CrossedPose &expected = CrossedPose()) noexcept {
     crossed_detail::Gradients g = crossed_detail::gradients(errors);
+    if (prior > 0.0) { // the position stands in both lanes
+        g.sum = g.sum + both(0.5 * prior) * (expected.position_m - pose.position_m);
+        g.difference = g.difference + both(prior) * (expected.poles_m - pose.poles_m);
+    }
     // The factor's tangents are not quite those of this pose: what pulls along a pole must not turn it.
     const Lanes along = dot(pose.poles_m, g.difference) / dot(pose.poles_m, pose.poles_m);
     g.difference = g.difference - along * pose.poles_m;
