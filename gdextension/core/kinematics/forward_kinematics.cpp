@@ -239,6 +239,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     const CrossedPose change{pose.position_m - last.position_m, pose.poles_m - last.poles_m};
     foresee(change);
     prior_.learn(sum_of_squares(result), change);
+    still_ = squared(change) <= kStill_m * kStill_m;
     result.pose = pose_of(pose);
     const bool look = --ticks_to_rivals_ <= 0;
     if (look) {
@@ -321,6 +322,7 @@ KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noex
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
     prior_.learn(sum_of_squares(result), CrossedPose());
+    still_ = true; // no prior here: least squares alone
     result.conditioning = last.min_pivot;
     result.steps = steps;
     return accept(result);
@@ -378,6 +380,7 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     ambiguous_ = found.ambiguous;
     ticks_to_rivals_ = kRivalPeriod;
     better_looks_ = 0;
+    still_ = true;
     conditioning_ = result.conditioning;
     blend_.stop(); // found anew: the lengths themselves jumped
     if (ambiguous_) {

@@ -27,6 +27,8 @@ inline constexpr double kNearSingularPivot = 1e-4;
 inline constexpr int kRivalPeriod = 8;
 // Looks in a row that must find a better answer before the pose goes there: 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
+// A movement within a tick of less than this, a hundredth of an encoder count in a second, is none.
+inline constexpr double kStill_m = 2.5e-10;
 // A warm tick is done when the error it leaves is below this part of what the lengths themselves err by: their residual.
 // Errors add by squares, so that the pose is then worse by 0.2 %.
 inline constexpr double kTrackingShare = 0.05;
@@ -37,7 +39,7 @@ struct KinematicsResult {
         0.0; // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
     double conditioning =
         0.0; // smallest pivot of the scaled normal equations, 0..1; small = near singular. Lengths with errors:
-        // looked at every kRivalPeriod ticks
+    // looked at every kRivalPeriod ticks
     int steps = 0;              // Gauss-Newton steps taken
     bool cold_start = false;    // the closed form was used
     Status status = Status::ok; // >= 0: pose is new; < 0: pose is the last good one
@@ -62,6 +64,10 @@ public:
     [[nodiscard]] const GripPose &last_pose() const noexcept {
         return blend_.active() ? blend_.shown() : last_pose_;
     }
+    // The same lengths again give the same pose. With errors the pose comes to it over some ticks.
+    [[nodiscard]] bool settled() const noexcept {
+        return !blend_.active() && better_looks_ == 0 && (prior_.weight() == 0.0 || still_);
+    }
     // Forget the last pose: the next update() is cold.
     void reset() noexcept {
         warm_ = false;
@@ -69,6 +75,7 @@ public:
         ticks_to_rivals_ = 0;
         better_looks_ = 0;
         fresh_ = true;
+        still_ = false;
         blend_.stop();
         prior_.restart();
         forget_motion();
@@ -111,6 +118,7 @@ private:
     bool foreseeing_ = false;
     MotionPrior prior_;
     PoseBlend blend_;
+    bool still_ = false;        // the last tick moved the pose by less than kStill_m
     bool fresh_ = true;         // no tick since the pose was set or found
     double conditioning_ = 0.0; // by the strings alone, at the last look
     int better_looks_ = 0;      // in a row, at which another answer was better

@@ -96,7 +96,7 @@ void GripTracker::come_to_rest(double dt_s) noexcept {
 bool GripTracker::at_rest() const noexcept {
     const Twist &twist = grip_.twist;
     return twist.linear_m_s == Vec3(0.0) && twist.angular_rad_s == Vec3(0.0) &&
-           twist.grasp_rate_rad_s == 0.0;
+           twist.grasp_rate_rad_s == 0.0 && kinematics_.settled();
 }
 
 void GripTracker::carry_on(double time_s) noexcept {
@@ -130,7 +130,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     const bool was_carried = carried_;
     const GripPose pose_before = grip_.pose;
     const GripFrame frame_before = grip_.frame;
-    if (unchanged && solved_ && !stretches) {
+    if (unchanged && solved_ && !stretches && kinematics_.settled()) {
         result.skipped = true;
         grip_.status = solved_status_;
         come_to_rest(made.after_s);

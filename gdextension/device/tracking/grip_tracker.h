@@ -42,7 +42,7 @@ public:
     // In the last cycle, unfiltered; nothing when the pose was found anew.
     [[nodiscard]] const Displacement &moved() const noexcept { return moved_; }
     [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
-    // The twist is exactly zero.
+    // The twist is exactly zero, and the same counts would give the same pose.
     [[nodiscard]] bool at_rest() const noexcept;
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest of P0 and the four pole ends (unit: m/s).

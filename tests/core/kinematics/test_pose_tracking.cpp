@@ -231,3 +231,42 @@ TEST_CASE("kinematics: a wrong branch that fitted is left within 0.2 s of not fi
     CHECK(seen == 25);
     CHECK(clear_cases > 10);
 }
+
+TEST_CASE("kinematics: at the same lengths the pose settles at the least-squares pose, and says "
+          "when") {
+    const FrameGeometry frame = test::paper_frame();
+    const GripGeometry grip;
+    ForwardKinematics kinematics;
+    REQUIRE(kinematics.configure(frame, grip) == Status::ok);
+    test::Random random(3);
+    const auto lengths_at = [&](double t, const StringArray &errors) {
+        StringArray lengths = string_lengths(frame, grip, trajectory_t1(grip, t));
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            lengths[i] += errors[i];
+        }
+        return lengths;
+    };
+    // Exact lengths: at once.
+    (void)kinematics.update(lengths_at(0.0, {}));
+    CHECK(kinematics.settled());
+    (void)kinematics.update(lengths_at(1e-3, {}));
+    CHECK(kinematics.settled());
+    // Errors of 2 mm: over some ticks, since the motion counts too.
+    StringArray errors{};
+    for (double &error : errors) {
+        error = random.between(-2e-3, 2e-3);
+    }
+    for (int tick = 0; tick < 1000; ++tick) {
+        (void)kinematics.update(lengths_at(1e-3 * tick, errors));
+    }
+    CHECK_FALSE(kinematics.settled());
+    const StringArray last = lengths_at(1.0, errors);
+    int ticks = 0;
+    while (!kinematics.settled() && ticks < 2000) {
+        (void)kinematics.update(last);
+        ++ticks;
+    }
+    CHECK(ticks < 1000);
+    const PolishResult best = polish_pose({frame, grip, last}, trajectory_t1(grip, 1.0));
+    CHECK(test::distance(kinematics.last_pose(), best.pose) < 1e-7);
+}
