@@ -165,9 +165,11 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
 
 // No search for a residual that is usual: errors of the strings that stay are no reason to doubt the pose.
 bool ForwardKinematics::residual_alarms(double residual_rms_m) const noexcept {
+    if (residual_rms_m <= kWarmResidualGate_m) {
+        return false;
+    }
     const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
-    return !(residual_rms_m <=
-             (fresh_ ? kWarmResidualGate_m : std::fmax(kWarmResidualGate_m, kUnusual * usual_m)));
+    return fresh_ || !(residual_rms_m <= kUnusual * usual_m);
 }
 
 KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) noexcept {
