@@ -20,6 +20,11 @@ constexpr double kPartOfMargin = 0.75;
 constexpr double kLeastStep = 0.1;
 // A hand covers a quarter of this in a cycle.
 constexpr int kMostPasses = 3;
+// A row that stops the proxy from further off than this, or whose normal turns from cycle to cycle by more than that, is
+// looked at again from where it stopped: of an edge it is only the tangent, which a proxy that slides over a seam must not
+// feel.
+constexpr double kAnticipated_m = 1e-6;
+constexpr double kTurned = 1.0 - 5e-7; // 1e-3 rad
 // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
 constexpr double kRowSoftness = 1e-7;
 // Of what a contact and the deepest one would push alone, the most that it pushes beside others: where no place satisfies
@@ -232,12 +237,20 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
             step[lane] = out[lane] + part * rest[lane];
         }
     }
+    bool anticipated = false;
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
+        const ProxyContact &contact = contacts_[k];
+        if (solved.push[k] > 0.0 && !anticipated) {
+            const ProxyContact *last = nearest_before(contact);
+            anticipated = contact.gap_m > kAnticipated_m ||
+                          (passes_ == 0 && last != nullptr &&
+                           glm::dot(last->normal, contact.normal) < kTurned);
+        }
         contacts_[k].gap_m = dot(rows_[k].row, step) - least[k];
     }
     pose_ = moved(pose_, unscaled(step, stiffness));
-    return cut;
+    return cut || anticipated;
 }
 
 // The pushes that the hand feels: with damping, and with what gives way behind a surface.
@@ -287,8 +300,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
     wrench_ = of_lanes<Wrench>(sum);
 }
 
-// Of the contact of this pair that was nearest in the last cycle.
-Vec3 ToolProxy::carried_stretch(const ProxyContact &contact) const noexcept {
+// The contact of this pair that pushed nearest to it in the last cycle, on a surface turned little; null: none.
+const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact) const noexcept {
     const ProxyContact *nearest = nullptr;
     for (int i = 0; i < before_count_; ++i) {
         const ProxyContact &other = before_[static_cast<std::size_t>(i)];
@@ -301,7 +314,7 @@ Vec3 ToolProxy::carried_stretch(const ProxyContact &contact) const noexcept {
             nearest = &other;
         }
     }
-    return nearest != nullptr ? nearest->stretch_m : Vec3(0.0);
+    return nearest;
 }
 
 // Coulomb friction: at each contact a spring between tool and surface, which slips beyond the cone.
@@ -331,7 +344,9 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
             const double limit_n = other.friction * contact.push_n;
             const Vec3 slid_m =
                 point_velocity(part, tool.jaws, device, step, contact.point_m) - dt_s * surface_m_s;
-            Vec3 stretch_m = along_surface(carried_stretch(contact) + slid_m, contact.normal);
+            const ProxyContact *last = nearest_before(contact);
+            const Vec3 carried_m = last != nullptr ? last->stretch_m : Vec3(0.0);
+            Vec3 stretch_m = along_surface(carried_m + slid_m, contact.normal);
             const double spring_n = stiffness_n_m * glm::length(stretch_m);
             if (spring_n > limit_n) {
                 stretch_m *= limit_n / spring_n;
@@ -380,10 +395,10 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
         return;
     }
     double left_s = dt_s; // of the scene's motion
-    bool cut = true;
-    for (int pass = 0; pass < kMostPasses && cut; ++pass) {
+    bool again = true;
+    for (int pass = 0; pass < kMostPasses && again; ++pass) {
         find_contacts(tool, scene, memory);
-        cut = step_towards(tool, scene, device, left_s);
+        again = step_towards(tool, scene, device, left_s);
         ++passes_;
         for (int s = 0; s < scene.count && left_s > 0.0; ++s) {
             move_on(scene.parts[static_cast<std::size_t>(s)], left_s);

@@ -81,13 +81,13 @@ private:
 
     void find_contacts(const Tool &tool, const ContactScene &scene, ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
-    // True: the device is farther than one step may go.
+    // True: another look from where the proxy is now may bring it nearer to the device.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                       double dt_s) noexcept;
     void push(const Tool &tool, const ContactScene &scene, const Twist &velocity) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
-    [[nodiscard]] Vec3 carried_stretch(const ProxyContact &contact) const noexcept;
+    [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact) const noexcept;
 
     ProxySettings settings_;
     ToolPose pose_;

@@ -326,6 +326,32 @@ TEST_CASE("proxy: a plate that moves into a resting tool pushes it along") {
     }
 }
 
+TEST_CASE("proxy: seams between bodies are not felt: no ripple, and little sideways") {
+    for (const double speed_m_s : {0.1, 0.4}) {
+        for (const bool pad : {false, true}) {
+            Rig rig;
+            const double height_m = pad ? 0.003 : 0.012;
+            rig.add_tool(pad ? make_pad(0.012, 0.003, 0.003) : make_sphere(0.012));
+            const auto tile = box(Vec3(0.02));
+            for (int i = -3; i < 4; ++i) {
+                for (int j = -1; j < 2; ++j) {
+                    rig.add(tile, {Vec3(0.04 * i + 0.013, -0.02, 0.04 * j + 0.007), Mat3(1.0)});
+                }
+            }
+            rig.start_at(at(Vec3(-0.06, height_m + 0.002, -0.01)));
+            rig.move_to(at(Vec3(-0.06, height_m - 0.004, -0.01)), 20);
+            const int ticks = static_cast<int>(0.12 / speed_m_s / kTick_s);
+            for (int i = 0; i < ticks; ++i) {
+                rig.device.position_m += Vec3(1.0, 0.0, 0.3) * (speed_m_s * kTick_s);
+                rig.tick();
+                const Vec3 force_n = rig.proxy.wrench().force_n;
+                CHECK(force_n.y == doctest::Approx(4.0).epsilon(0.01));
+                CHECK(std::hypot(force_n.x, force_n.z) < 0.02 * force_n.y);
+            }
+        }
+    }
+}
+
 TEST_CASE("proxy: a way round in contact without friction gives back what it took") {
     Rig rig;
     rig.add_tool(make_tool(*box(Vec3(0.05, 0.01, 0.02))));
