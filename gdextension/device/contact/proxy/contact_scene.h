@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include <glm/geometric.hpp>
+
 #include "device/contact/shapes/cooked_shape.h"
 #include "device/contact/shapes/placement.h"
 
@@ -21,6 +23,11 @@ struct ScenePart {
     double friction = 0.0; // Coulomb coefficient
     std::int32_t id = 0;   // of this shape of this body; persistent
 };
+
+// Of the part where point_m is.
+[[nodiscard]] inline Vec3 surface_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
+    return part.velocity_m_s + glm::cross(part.angular_rad_s, point_m - part.at.origin_m);
+}
 
 inline constexpr int kMaxSceneParts = 32;
 struct ContactScene {

@@ -33,8 +33,6 @@ constexpr double kMostPush = 1.5;
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
-// A friction spring goes over to a contact whose surface is turned by less than this.
-constexpr double kSameSurface = 0.7;
 
 double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexcept {
     double sum = 0.0;
@@ -63,10 +61,6 @@ Displacement unscaled(const std::array<double, 8> &move, const DofGains &stiffne
     return of_lanes<Displacement>(row);
 }
 
-Vec3 surface_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
-    return part.velocity_m_s + glm::cross(part.angular_rad_s, point_m - part.at.origin_m);
-}
-
 void move_on(ScenePart &part, double dt_s) noexcept {
     part.at.origin_m += dt_s * part.velocity_m_s;
     if (part.angular_rad_s != Vec3(0.0)) {
@@ -82,10 +76,6 @@ bool is_far(const ToolShape &tool, const Placement &tool_at, const ScenePart &pa
         glm::max(part.shape->lower_m() - centre_m, centre_m - part.shape->upper_m()), Vec3(0.0));
     const double reach_m = tool.reach_m() + margin_m;
     return glm::dot(outside_m, outside_m) > reach_m * reach_m;
-}
-
-Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
-    return v - glm::dot(normal, v) * normal;
 }
 
 } // namespace
@@ -296,82 +286,6 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
             sum[dof] +=
                 contacts_[k].push_n * rows[k].row[dof] * std::sqrt(settings_.stiffness[dof]);
         }
-    }
-    wrench_ = of_lanes<Wrench>(sum);
-}
-
-// The contact of this pair that pushed nearest to it in the last cycle, on a surface turned little; null: none.
-const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact) const noexcept {
-    const ProxyContact *nearest = nullptr;
-    for (int i = 0; i < before_count_; ++i) {
-        const ProxyContact &other = before_[static_cast<std::size_t>(i)];
-        if (other.tool_id != contact.tool_id || other.scene_id != contact.scene_id ||
-            !(other.push_n > 0.0) || glm::dot(other.normal, contact.normal) < kSameSurface) {
-            continue;
-        }
-        if (nearest == nullptr || glm::distance(other.point_m, contact.point_m) <
-                                      glm::distance(nearest->point_m, contact.point_m)) {
-            nearest = &other;
-        }
-    }
-    return nearest;
-}
-
-// Coulomb friction: at each contact a spring between tool and surface, which slips beyond the cone.
-void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                    const Twist &velocity, double dt_s) noexcept {
-    const Displacement by = between(device_, device);
-    const Twist step{by.linear_m, by.angular_rad, by.grasp_rad}; // of the device in this cycle
-    DofLanes sum = lanes(wrench_);
-    for (int i = 0; i < count_; ++i) {
-        ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
-        const ScenePart &other = scene.parts[contact.scene_part];
-        if (!(contact.push_n > 0.0)) {
-            continue;
-        }
-        const ToolPart &part = tool.parts[contact.tool_part];
-        const Vec3 surface_m_s = surface_velocity(other, contact.point_m);
-        if (other.friction > 0.0) {
-            double all_n = 0.0; // of this pair
-            for (int j = 0; j < count_; ++j) {
-                const ProxyContact &beside = contacts_[static_cast<std::size_t>(j)];
-                const bool pair = beside.tool_part == contact.tool_part &&
-                                  beside.scene_part == contact.scene_part;
-                all_n += pair ? beside.push_n : 0.0;
-            }
-            const double share = contact.push_n / all_n;
-            const double stiffness_n_m = share * settings_.stiffness[0];
-            const double limit_n = other.friction * contact.push_n;
-            const Vec3 slid_m =
-                point_velocity(part, tool.jaws, device, step, contact.point_m) - dt_s * surface_m_s;
-            const ProxyContact *last = nearest_before(contact);
-            const Vec3 carried_m = last != nullptr ? last->stretch_m : Vec3(0.0);
-            Vec3 stretch_m = along_surface(carried_m + slid_m, contact.normal);
-            const double spring_n = stiffness_n_m * glm::length(stretch_m);
-            if (spring_n > limit_n) {
-                stretch_m *= limit_n / spring_n;
-            }
-            const Vec3 slides_m_s = along_surface(
-                point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,
-                contact.normal);
-            Vec3 rub_n =
-                -stiffness_n_m * stretch_m - (share * settings_.damping_n_s_m) * slides_m_s;
-            const double size_n = glm::length(rub_n);
-            if (size_n > limit_n) {
-                rub_n *= limit_n / size_n;
-            }
-            contact.stretch_m = stretch_m;
-            contact.friction_n = rub_n;
-            const DofLanes acts =
-                lanes(moves_along(part, tool.jaws, pose_, contact.point_m, rub_n));
-            for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-                sum[dof] += acts[dof];
-            }
-        }
-        const Vec3 given_n = -(contact.push_n * contact.normal + contact.friction_n);
-        PartForce &gets = given_[contact.scene_part];
-        gets.force_n += given_n;
-        gets.moment_nm += glm::cross(contact.point_m - other.at.origin_m, given_n);
     }
     wrench_ = of_lanes<Wrench>(sum);
 }
