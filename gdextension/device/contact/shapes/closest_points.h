@@ -40,7 +40,8 @@ struct ClosestPoints {
 struct NearTriangle {
     std::uint32_t index = 0;
     std::array<std::uint16_t, 3> neighbour{}; // over edge i: place in the list; kNoTriangle
-    std::uint8_t sharp_edges = 0;             // bit i: edge i is convex or a border
+    std::uint8_t sharp_edges =
+        0; // bit i: edge i is convex or a border; bit 4 + i: by more than 3 degrees
 };
 
 inline constexpr int kMaxNearTriangles = 1024;

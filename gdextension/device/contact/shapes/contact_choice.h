@@ -27,8 +27,6 @@ public:
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;
-    // There was one more, which was not even looked at.
-    void note_left_out() noexcept { left_out_ = true; }
     // Into the device frame; spacing_m: points nearer to each other than this are one.
     void choose(const Placement &shape_at, double spacing_m, ClosestPoints &out) noexcept;
 

@@ -21,13 +21,19 @@ constexpr double kMinFacing = 0.2; // of a face and the normal (cosine)
 
 CoreFace rim(const CoreView &core, const Vec3 &way, double y) noexcept {
     const double across = std::hypot(way.x, way.z);
-    const double cosine = across > kFlat ? way.x / across : std::numbers::sqrt2 / 2.0;
-    const double sine = across > kFlat ? way.z / across : std::numbers::sqrt2 / 2.0;
+    constexpr double kHalf = 0.5 * std::numbers::sqrt2;
+    const double cosine = across > kFlat ? way.x / across : kHalf;
+    const double sine = across > kFlat ? way.z / across : kHalf;
+    constexpr std::array<std::array<double, 2>, kRimCorners> kTurns{{{1.0, 0.0},
+                                                                     {kHalf, kHalf},
+                                                                     {0.0, 1.0},
+                                                                     {-kHalf, kHalf},
+                                                                     {-1.0, 0.0},
+                                                                     {-kHalf, -kHalf},
+                                                                     {0.0, -1.0},
+                                                                     {kHalf, -kHalf}}};
     CoreFace face;
-    for (int i = 0; i < kRimCorners; ++i) {
-        constexpr double kStep = 2.0 * std::numbers::pi / kRimCorners;
-        const double c = std::cos(i * kStep);
-        const double s = std::sin(i * kStep);
+    for (const auto &[c, s] : kTurns) {
         face.add(
             {core.radius_m * (c * cosine - s * sine), y, core.radius_m * (c * sine + s * cosine)});
     }

@@ -1,9 +1,9 @@
-// A point of a triangle counts when it is the nearest of its mesh in its own surroundings: one on an edge or a corner
-// that a triangle next to it lies nearer than is no contact, so a seam is not felt, whatever the angle there.
+// A point of a mesh counts when it is the nearest to the tool in its own surroundings. Inside a triangle that is the foot
+// of the tool's lowest point over it. On an edge or a corner the normal must lie between those of the triangles there;
+// so a seam is not felt, whatever the angle there.
 #include "device/contact/shapes/mesh_contacts.h"
 
-#include <limits>
-
+#include "device/contact/shapes/edge_distance.h"
 #include "device/contact/shapes/face_contacts.h"
 #include "device/contact/shapes/gjk.h"
 #include "device/contact/shapes/near_triangles.h"
@@ -12,16 +12,20 @@ namespace spidar {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Two triangles meet at one point when their distances differ by no more (m). At a distance of 1 cm that is a normal
-// within 1e-4 rad.
-constexpr double kSamePoint_m = 1e-10;
-// Nearer than this (m), the corner of a tool touches the triangle's plane.
+// Nearer than this (m), the core meets the triangle's plane.
 constexpr double kTouch_m = 1e-8;
-// A flat tool lies on few faces at once; the corners of its contact are looked for on the nearest of them.
+// A foot on the edge of two triangles must be inside one of them: this much outside counts as inside (m).
+constexpr double kEdge_m = 1e-9;
+// A normal may lean out of its edge's or corner's cone by so much (sine): rounding, and below 0.02 degrees.
+constexpr double kLean = 3e-4;
+// A flat tool lies on few faces at once; the corners of its contact are looked for on the first of them.
 constexpr int kMaxWideContacts = 12;
 constexpr int kMaxFan = 32;       // triangles round a corner
 constexpr double kAlong = 0.9986; // normals within 3 degrees
+
+// What the first look at a triangle says of its edges: bit i, the tool's lowest point over the triangle's plane lies
+// beyond edge i. Only where it does for both triangles of an edge can the edge be nearest to the tool.
+constexpr std::uint8_t kUnseen = 8; // seen from behind: the other triangle alone says it
 
 class MeshContacts {
 public:
@@ -29,207 +33,293 @@ public:
                  const Placement &tool_at, double margin_m, const PairMemory &memory,
                  ContactCandidates &found) noexcept
         : source_(source), tool_(tool), core_(view_of(tool.core)), at_(tool_at),
-          limit_m_(margin_m + tool.skin_m), core_reach_m_(reach_of(core_)), memory_(memory),
-          found_(found) {}
+          back_(glm::transpose(tool_at.rotation)), limit_m_(margin_m + tool.skin_m),
+          core_reach_m_(reach_of(core_)), memory_(memory), found_(found) {
+        if (core_.kind == CoreKind::disc || core_.kind == CoreKind::cylinder) {
+            rims_[0] = face_towards(core_, at_, at_.rotation[1]);
+            rims_[1] = face_towards(core_, at_, -at_.rotation[1]);
+            corner_step_ = 2; // four of eight: enough to keep a pad flat
+        }
+    }
 
     void run() noexcept {
         for (int place = 0; place < memory_.count; ++place) {
-            look_at(place);
+            beyond_[static_cast<std::size_t>(place)] = look_at(place);
         }
-        for (int i = 0; i < hit_count_; ++i) {
-            settle(hits_[static_cast<std::size_t>(i)]);
+        for (int place = 0; place < memory_.count; ++place) {
+            look_at_edges(place);
         }
     }
 
 private:
-    struct Hit { // nothing is set at first: there are many, and few are used
-        int place;
-        Vec3 face; // the triangle's normal on the tool's side
-        Vec3 on_core;
-        Vec3 on_triangle;
-        Vec3 normal;
-        double distance_m;
-        TrianglePart part;
-    };
-
     [[nodiscard]] const NearTriangle &near(int place) const noexcept {
         return memory_.triangles[static_cast<std::size_t>(place)];
     }
-    double &distance(int place) noexcept { return distances_[static_cast<std::size_t>(place)]; }
-
-    void look_at(int place) noexcept {
-        distance(place) = kInfinite;
-        const Corners triangle = source_.corners(near(place).index);
-        const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-        double height = glm::dot(at_.origin_m - triangle[0], area);
-        if (height < 0.0 && !source_.two_sided()) {
-            return; // seen from behind
-        }
-        const double size = glm::length(area);
-        const Vec3 face = std::copysign(1.0 / size, height) * area;
-        height = std::abs(height) / size;
-        if (height > limit_m_ + core_reach_m_ || too_far(triangle)) {
-            return;
-        }
-        const Vec3 lowest = support_of(-face);
-        const double lowest_m = glm::dot(lowest - triangle[0], face);
-        if (lowest_m > limit_m_) {
-            return;
-        }
-        const TriangleDistance found = distance_to(triangle, face, near(place).sharp_edges);
-        if (found.overlap) {
-            add_overlap(place, face, lowest, lowest_m);
-            return;
-        }
-        distance(place) = found.distance_m;
-        if (found.distance_m <= limit_m_) {
-            if (hit_count_ == kMaxCandidates) {
-                found_.note_left_out();
-            } else {
-                hits_[static_cast<std::size_t>(hit_count_++)] = {place,         face,
-                                                                 found.on_core, found.on_triangle,
-                                                                 found.normal,  found.distance_m,
-                                                                 found.part};
-            }
-        }
-        if (core_.kind != CoreKind::point) {
-            add_corners(place, triangle, face);
-        }
-    }
-
-    // The ball round a triangle, about the middle of its box.
-    [[nodiscard]] bool too_far(const Corners &triangle) const noexcept {
-        const Vec3 lower = glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
-        const Vec3 upper = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]);
-        const Vec3 apart =
-            glm::max(glm::max(lower - at_.origin_m, at_.origin_m - upper), Vec3(0.0));
-        const double reach = limit_m_ + core_reach_m_;
-        return glm::dot(apart, apart) > reach * reach;
-    }
 
     [[nodiscard]] Vec3 support_of(const Vec3 &way) const noexcept {
-        return at_.origin_m + at_.rotation * support(core_, glm::transpose(at_.rotation) * way);
+        return at_.origin_m + at_.rotation * support(core_, back_ * way);
     }
 
-    [[nodiscard]] TriangleDistance distance_to(const Corners &triangle, const Vec3 &face,
-                                               std::uint8_t sharp_edges) const noexcept {
-        if (core_.kind == CoreKind::point) {
-            return point_to_triangle(at_.origin_m, triangle);
+    std::uint8_t look_at(int place) noexcept {
+        const Corners triangle = source_.corners(near(place).index);
+        const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+        const double height = glm::dot(at_.origin_m - triangle[0], area);
+        if (height < 0.0 && !source_.two_sided()) {
+            return kUnseen;
         }
-        if (core_.kind == CoreKind::disc) {
-            return disc_to_triangle(at_.origin_m, at_.rotation[1], core_.radius_m, triangle, face,
-                                    sharp_edges);
+        const double size = glm::length(area);
+        if (std::abs(height) > (limit_m_ + core_reach_m_) * size) {
+            return 0;
         }
+        const Vec3 face = std::copysign(1.0 / size, height) * area;
+        const Vec3 lowest = core_.kind == CoreKind::point ? at_.origin_m : support_of(-face);
+        const double lowest_m = glm::dot(lowest - triangle[0], face);
+        if (lowest_m > limit_m_) {
+            return 0;
+        }
+        if (lowest_m < kTouch_m && meets(triangle)) {
+            add(place, lowest, lowest - lowest_m * face, face, true);
+            return kUnseen;
+        }
+        // A core that reaches behind the plane may touch any edge.
+        std::uint8_t beyond = lowest_m < kTouch_m ? 7 : 0;
+        bool inside = true;
+        const double slack = kEdge_m * size;
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            const Vec3 along = triangle[(edge + 1) % 3] - triangle[edge];
+            const double in = glm::dot(glm::cross(along, lowest - triangle[edge]), area);
+            const double edge_slack =
+                slack * (std::abs(along.x) + std::abs(along.y) + std::abs(along.z));
+            inside = inside && in >= -edge_slack;
+            beyond = static_cast<std::uint8_t>(beyond | (in <= edge_slack ? 1U << edge : 0U));
+        }
+        if (inside && lowest_m >= kTouch_m) {
+            add(place, lowest, lowest - lowest_m * face, face, false);
+            add_wide(place, triangle, face, triangle_face(triangle));
+        }
+        if (core_.kind != CoreKind::point) {
+            const CoreFace &corners = corners_towards(face);
+            add_corners(place, triangle, face, corners);
+            add_creases(place, triangle, face, corners);
+        }
+        return beyond;
+    }
+
+    // Does the core pass through the triangle?
+    [[nodiscard]] bool meets(const Corners &triangle) const noexcept {
         CoreView other;
         other.kind = CoreKind::points;
         other.points = triangle;
-        Vec3 axis = face;
-        const CoreDistance apart = core_distance(core_, at_, other, limit_m_, axis);
-        TriangleDistance found;
-        found.overlap = apart.overlap;
-        found.distance_m = apart.beyond ? kInfinite : apart.distance_m;
-        found.on_core = apart.on_tool_m;
-        found.on_triangle = apart.on_shape_m;
-        found.normal = apart.normal;
-        if (!apart.beyond && !apart.overlap) {
-            found.part = part_of(found.on_triangle, triangle);
-        }
-        return found;
+        Vec3 axis(0.0);
+        return core_distance(core_, at_, other, kTouch_m, axis).overlap;
     }
 
-    // The core passes through the triangle: out of its plane, on the side of the core's middle.
-    void add_overlap(int place, const Vec3 &face, const Vec3 &lowest, double lowest_m) noexcept {
-        distance(place) = 0.0;
-        add(place, lowest, lowest - lowest_m * face, face, true);
-    }
-
-    // Corners of the tool's face that stand over the inside of the triangle: what keeps a flat tool flat.
-    void add_corners(int place, const Corners &triangle, const Vec3 &face) noexcept {
-        if (glm::dot(face, last_face_) < 1.0 - 1e-12) {
-            corners_ = face_towards(core_, at_, -face);
-            last_face_ = face;
-        }
-        for (int i = 0; i < corners_.count; ++i) {
-            const Vec3 &corner = corners_.corners[static_cast<std::size_t>(i)];
-            const double gap = glm::dot(corner - triangle[0], face);
-            if (gap > kTouch_m && gap <= limit_m_ && over_triangle(corner, triangle)) {
-                add(place, corner, corner - gap * face, face, false);
-            }
-        }
-    }
-
-    void settle(const Hit &hit) noexcept {
-        if (hit.part.kind != TrianglePart::inside && a_neighbour_is_nearer(hit)) {
+    void look_at_edges(int place) noexcept {
+        const std::uint8_t mine = beyond_[static_cast<std::size_t>(place)];
+        if ((mine & kUnseen) != 0) {
             return;
         }
-        add(hit.place, hit.on_core, hit.on_triangle, hit.normal, false);
-        if (core_.kind != CoreKind::point && wide_contacts_ < kMaxWideContacts) {
-            ++wide_contacts_;
-            add_wide(hit);
+        const NearTriangle &triangle = near(place);
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            if ((mine & triangle.sharp_edges & (1U << edge)) == 0) {
+                continue;
+            }
+            const std::uint16_t other = triangle.neighbour[edge];
+            if (other != kNoTriangle && (beyond_[other] & kUnseen) == 0) {
+                const auto &back = near(other).neighbour;
+                const std::size_t its = back[0] == place ? 0 : back[1] == place ? 1 : 2;
+                if (other < place || (beyond_[other] & (1U << its)) == 0) {
+                    continue;
+                }
+            }
+            touch_edge(place, edge);
         }
     }
 
-    // A face on a face or along an edge touches in more than one point.
-    void add_wide(const Hit &hit) noexcept {
-        const Vec3 normal = hit.normal;
-        const Corners triangle = source_.corners(near(hit.place).index);
-        CoreFace part;
-        if (glm::dot(normal, hit.face) > kAlong) {
-            for (const Vec3 &corner : triangle) {
-                part.add(corner);
-            }
-        } else if (hit.part.kind == TrianglePart::edge) {
-            part.add(triangle[hit.part.number]);
-            part.add(triangle[(hit.part.number + 1U) % 3]);
-        } else {
+    void touch_edge(int place, std::size_t edge) noexcept {
+        const std::uint32_t number = near(place).index;
+        const Corners triangle = source_.corners(number);
+        const Vec3 &from = triangle[edge];
+        const Vec3 &to = triangle[(edge + 1) % 3];
+        const EdgeDistance at = edge_distance(core_, at_, from, to, limit_m_);
+        if (at.beyond) {
             return;
         }
-        const FacePairs pairs = overlap_of(face_towards(core_, at_, -normal), part, normal);
-        for (int i = 0; i < pairs.count; ++i) {
-            const FacePair &pair = pairs.pairs[static_cast<std::size_t>(i)];
-            const double gap = glm::dot(pair.on_tool - pair.on_shape, normal);
-            if (gap > kTouch_m && gap <= limit_m_) {
-                add(hit.place, pair.on_tool, pair.on_shape, normal, false);
+        if (at.overlap) {
+            const Vec3 up = normal_of(triangle);
+            const Vec3 face = glm::dot(at_.origin_m - from, up) < 0.0 ? -up : up;
+            const Vec3 lowest = support_of(-face);
+            add(place, lowest, lowest - std::fmin(glm::dot(lowest - from, face), 0.0) * face, face,
+                true);
+            return;
+        }
+        const auto corners = source_.corner_numbers(number);
+        if (at.end != EdgeDistance::kInner) {
+            const std::size_t corner = at.end == EdgeDistance::kFrom ? edge : (edge + 1) % 3;
+            if (!corner_holds(number, corners[corner], corner, triangle[corner], at.normal)) {
+                return;
             }
+        } else if (!side_holds(triangle[(edge + 2) % 3], from, to, at.normal) ||
+                   !other_side_holds(number, edge, from, to, at.normal)) {
+            return;
+        }
+        add(place, at.on_core, at.on_edge, at.normal, false);
+        if (at.end == EdgeDistance::kInner || core_.kind != CoreKind::disc) {
+            CoreFace part;
+            part.add(from);
+            part.add(to);
+            add_wide(place, triangle, at.normal, part);
         }
     }
 
-    [[nodiscard]] bool nearer(std::uint16_t other, double than_m) const noexcept {
-        return other != kNoTriangle && distances_[other] < than_m - kSamePoint_m;
+    // The triangle leads away from the edge, as seen along the normal.
+    [[nodiscard]] static bool side_holds(const Vec3 &third, const Vec3 &from, const Vec3 &to,
+                                         const Vec3 &normal) noexcept {
+        const Vec3 along = to - from;
+        const Vec3 side = third - from;
+        const Vec3 across = side - (glm::dot(side, along) / glm::dot(along, along)) * along;
+        return glm::dot(normal, across) <= kLean * glm::length(across);
     }
 
-    [[nodiscard]] bool a_neighbour_is_nearer(const Hit &hit) const noexcept {
-        const NearTriangle &mine = near(hit.place);
-        const std::size_t number = hit.part.number;
-        if (hit.part.kind == TrianglePart::edge) {
-            return nearer(mine.neighbour[number], hit.distance_m);
+    [[nodiscard]] bool other_side_holds(std::uint32_t triangle, std::size_t edge, const Vec3 &from,
+                                        const Vec3 &to, const Vec3 &normal) const noexcept {
+        const std::uint32_t other = source_.neighbour(triangle, edge);
+        if (other == kNone) {
+            return true;
         }
-        const std::uint32_t corner = source_.corner_numbers(mine.index)[number];
-        // Round the corner by both of its edges: a border stops the one way.
-        return nearer_round(hit, corner, number) || nearer_round(hit, corner, (number + 2) % 3);
+        const auto mine = source_.corner_numbers(triangle);
+        const auto its = source_.corner_numbers(other);
+        const Corners corners = source_.corners(other);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (its[i] != mine[edge] && its[i] != mine[(edge + 1) % 3]) {
+                return side_holds(corners[i], from, to, normal);
+            }
+        }
+        return true;
     }
 
-    [[nodiscard]] bool nearer_round(const Hit &hit, std::uint32_t corner,
-                                    std::size_t over_edge) const noexcept {
-        auto from = static_cast<std::uint16_t>(hit.place);
-        std::uint16_t here = near(hit.place).neighbour[over_edge];
-        for (int step = 0; step < kMaxFan && here != kNoTriangle && here != hit.place; ++step) {
-            if (nearer(here, hit.distance_m)) {
-                return true;
-            }
-            const NearTriangle &triangle = near(here);
-            const auto numbers = source_.corner_numbers(triangle.index);
-            std::uint16_t next = kNoTriangle;
+    // Every edge leads away from the corner, as seen along the normal. Both ways round: a border stops the one.
+    [[nodiscard]] bool corner_holds(std::uint32_t triangle, std::uint32_t corner, std::size_t place,
+                                    const Vec3 &at, const Vec3 &normal) const noexcept {
+        return fan_holds(triangle, corner, place, at, normal) &&
+               fan_holds(triangle, corner, (place + 2) % 3, at, normal);
+    }
+
+    [[nodiscard]] bool fan_holds(std::uint32_t first, std::uint32_t corner, std::size_t over_edge,
+                                 const Vec3 &at, const Vec3 &normal) const noexcept {
+        std::uint32_t from = first;
+        std::uint32_t here = source_.neighbour(first, over_edge);
+        bool holds = leads_away(first, corner, at, normal);
+        for (int step = 0; step < kMaxFan && holds && here != kNone && here != first; ++step) {
+            holds = leads_away(here, corner, at, normal);
+            const auto numbers = source_.corner_numbers(here);
+            std::uint32_t next = kNone;
             for (std::size_t edge = 0; edge < 3; ++edge) {
                 const bool at_corner = numbers[edge] == corner || numbers[(edge + 1) % 3] == corner;
-                if (at_corner && triangle.neighbour[edge] != from) {
-                    next = triangle.neighbour[edge];
+                const std::uint32_t over = at_corner ? source_.neighbour(here, edge) : kNone;
+                if (over != kNone && over != from) {
+                    next = over;
                 }
             }
             from = here;
             here = next;
         }
-        return false;
+        return holds;
+    }
+
+    [[nodiscard]] bool leads_away(std::uint32_t triangle, std::uint32_t corner, const Vec3 &at,
+                                  const Vec3 &normal) const noexcept {
+        const auto numbers = source_.corner_numbers(triangle);
+        const Corners corners = source_.corners(triangle);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 edge = corners[i] - at;
+            if (numbers[i] != corner && glm::dot(edge, normal) > kLean * glm::length(edge)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    // Corners of the tool's face that stand over the inside of the triangle: what keeps a flat tool flat.
+    void add_corners(int place, const Corners &triangle, const Vec3 &face,
+                     const CoreFace &corners) noexcept {
+        const Vec3 lower =
+            glm::min(glm::min(triangle[0], triangle[1]), triangle[2]) - Vec3(kEdge_m);
+        const Vec3 upper =
+            glm::max(glm::max(triangle[0], triangle[1]), triangle[2]) + Vec3(kEdge_m);
+        for (int i = 0; i < corners.count; i += corner_step_) {
+            const Vec3 &corner = corners.corners[static_cast<std::size_t>(i)];
+            const double gap = glm::dot(corner - triangle[0], face);
+            if (gap < kTouch_m || gap > limit_m_) {
+                continue;
+            }
+            const Vec3 foot = corner - gap * face;
+            const bool in_box = foot.x >= lower.x && foot.x <= upper.x && foot.y >= lower.y &&
+                                foot.y <= upper.y && foot.z >= lower.z && foot.z <= upper.z;
+            if (in_box && over_triangle(corner, triangle)) {
+                add(place, corner, foot, face, false);
+            }
+        }
+    }
+
+    // Edges of a face of the mesh, where they cross the tool's face: what keeps a large tool flat on a small block.
+    void add_creases(int place, const Corners &triangle, const Vec3 &face,
+                     const CoreFace &corners) noexcept {
+        const std::uint8_t creases = near(place).sharp_edges >> 4U;
+        if (creases == 0 || corners.count < 3) {
+            return;
+        }
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            if ((creases & (1U << edge)) != 0) {
+                CoreFace part;
+                part.add(triangle[edge]);
+                part.add(triangle[(edge + 1) % 3]);
+                add_pairs(place, overlap_of(corners, part, face), face);
+            }
+        }
+    }
+
+    [[nodiscard]] const CoreFace &corners_towards(const Vec3 &face) noexcept {
+        if (core_.kind == CoreKind::disc || core_.kind == CoreKind::cylinder) {
+            return rims_[glm::dot(at_.rotation[1], face) > 0.0 ? 1 : 0];
+        }
+        if (glm::dot(face, last_face_) < 1.0 - 1e-12) {
+            corners_ = face_towards(core_, at_, -face);
+            last_face_ = face;
+        }
+        return corners_;
+    }
+
+    [[nodiscard]] static CoreFace triangle_face(const Corners &triangle) noexcept {
+        CoreFace face;
+        for (const Vec3 &corner : triangle) {
+            face.add(corner);
+        }
+        return face;
+    }
+
+    // A face on a face or along an edge touches in more than one point.
+    void add_wide(int place, const Corners &triangle, const Vec3 &normal,
+                  const CoreFace &part) noexcept {
+        if (core_.kind == CoreKind::point || wide_contacts_ == kMaxWideContacts) {
+            return;
+        }
+        ++wide_contacts_;
+        const bool flat = std::abs(glm::dot(normal, normal_of(triangle))) > kAlong;
+        add_pairs(place,
+                  overlap_of(face_towards(core_, at_, -normal),
+                             flat ? triangle_face(triangle) : part, normal),
+                  normal);
+    }
+
+    void add_pairs(int place, const FacePairs &pairs, const Vec3 &normal) noexcept {
+        for (int i = 0; i < pairs.count; ++i) {
+            const FacePair &pair = pairs.pairs[static_cast<std::size_t>(i)];
+            const double gap = glm::dot(pair.on_tool - pair.on_shape, normal);
+            if (gap > kTouch_m && gap <= limit_m_) {
+                add(place, pair.on_tool, pair.on_shape, normal, false);
+            }
+        }
     }
 
     void add(int place, const Vec3 &on_core, const Vec3 &on_triangle, const Vec3 &normal,
@@ -241,14 +331,15 @@ private:
     const ToolShape::Data &tool_;
     const CoreView core_;
     const Placement &at_;
+    const Mat3 back_;
     const double limit_m_;
     const double core_reach_m_;
     const PairMemory &memory_;
     ContactCandidates &found_;
-    std::array<double, kMaxNearTriangles> distances_;
-    std::array<Hit, kMaxCandidates> hits_;
-    int hit_count_ = 0;
+    std::array<std::uint8_t, kMaxNearTriangles> beyond_;
     int wide_contacts_ = 0;
+    int corner_step_ = 1;
+    std::array<CoreFace, 2> rims_; // towards the axis of a round core, and against it
     CoreFace corners_;
     Vec3 last_face_{0.0};
 };

@@ -13,6 +13,7 @@ constexpr double kSlack_m = 4e-3;
 constexpr double kLeastSlack_m = 1e-3;
 // Faces that turn towards each other by less (sine) are one flat face: the edge between them is no edge.
 constexpr double kFlatEdge = 1e-6;
+constexpr double kOneFace = 0.9986; // normals within 3 degrees (cosine)
 
 // No point of the tool moves farther than this from the one placement to the other.
 double moved_at_most(const Placement &from, const Placement &to, double reach_m) noexcept {
@@ -25,10 +26,15 @@ double moved_at_most(const Placement &from, const Placement &to, double reach_m)
     return glm::length(to.origin_m - from.origin_m) + reach_m * std::sqrt(0.5 * turn2);
 }
 
-bool sharp(const TriangleSource &source, const Corners &triangle, std::uint32_t neighbour,
-           std::uint32_t first_shared, std::uint32_t second_shared) noexcept {
+constexpr std::uint8_t kSharp = 1;
+constexpr std::uint8_t kCrease = 16;
+
+// The bits of NearTriangle::sharp_edges, for edge 0.
+std::uint8_t sharpness(const TriangleSource &source, const Corners &triangle,
+                       std::uint32_t neighbour, std::uint32_t first_shared,
+                       std::uint32_t second_shared) noexcept {
     if (neighbour == kNone) {
-        return true;
+        return kSharp | kCrease;
     }
     const auto numbers = source.corner_numbers(neighbour);
     const Corners other = source.corners(neighbour);
@@ -41,9 +47,12 @@ bool sharp(const TriangleSource &source, const Corners &triangle, std::uint32_t 
         const Vec3 from = other[i] - triangle[0];
         const double rise = glm::dot(from, normal);
         const double limit = kFlatEdge * glm::length(from);
-        return rise < -limit || (source.two_sided() && rise > limit);
+        if (rise < -limit || (source.two_sided() && rise > limit)) {
+            return glm::dot(normal, normal_of(other)) < kOneFace ? kSharp | kCrease : kSharp;
+        }
+        return 0;
     }
-    return true; // both have the same corners
+    return kSharp | kCrease; // both have the same corners
 }
 
 struct NearerLast {
@@ -138,9 +147,10 @@ void link(const TriangleSource &source, PairMemory &memory) noexcept {
         near->sharp_edges = 0;
         for (std::size_t edge = 0; edge < 3; ++edge) {
             const std::uint32_t neighbour = source.neighbour(near->index, edge);
-            if (sharp(source, triangle, neighbour, numbers[edge], numbers[(edge + 1) % 3])) {
-                near->sharp_edges = static_cast<std::uint8_t>(near->sharp_edges | (1U << edge));
-            }
+            near->sharp_edges = static_cast<std::uint8_t>(
+                near->sharp_edges |
+                sharpness(source, triangle, neighbour, numbers[edge], numbers[(edge + 1) % 3])
+                    << edge);
             NearTriangle wanted;
             wanted.index = neighbour;
             const auto found = std::lower_bound(memory.triangles.begin(), end, wanted, by_index);

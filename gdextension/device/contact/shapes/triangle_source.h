@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "device/contact/shapes/shape_data.h"
-#include "device/contact/shapes/triangle_distance.h"
 
 namespace spidar {
+
+using Corners = std::array<Vec3, 3>; // counter-clockwise seen from the front
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -54,10 +55,10 @@ public:
         const int row = cell / columns;
         if (triangle % 2 == 0) {
             return edge == 0   ? grid_triangle(column - 1, row, 1)
-                   : edge == 1 ? triangle + 1
+                   : edge == 1 ? grid_triangle(column, row, 1)
                                : grid_triangle(column, row - 1, 1);
         }
-        return edge == 0   ? triangle - 1
+        return edge == 0   ? grid_triangle(column, row, 0)
                : edge == 1 ? grid_triangle(column, row + 1, 0)
                            : grid_triangle(column + 1, row, 0);
     }
@@ -129,6 +130,21 @@ private:
 // Unit, to the front.
 [[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
     return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+}
+
+// Does the foot of a point on the triangle's plane lie inside? A foot on an edge does, within rounding.
+[[nodiscard]] inline bool over_triangle(const Vec3 &point, const Corners &triangle) noexcept {
+    constexpr double kEdge_m = 1e-9; // this much outside counts as inside
+    const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    const double slack = kEdge_m * glm::length(area);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 edge = triangle[(i + 1) % 3] - triangle[i];
+        const double length = std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z); // at least
+        if (glm::dot(glm::cross(edge, point - triangle[i]), area) < -slack * length) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace spidar

@@ -136,8 +136,8 @@ inline double smallest_gap(const ClosestPoints &found) {
     return gap;
 }
 
-// Of the tool's outer surface to the nearest triangle of all, each looked at by itself; infinite when none is seen from
-// its front.
+// Of the tool's outer surface to the nearest triangle of all, each looked at by itself; NaN when that one is seen from
+// behind and has one side.
 inline double brute_gap(const ToolShape &tool, const Placement &tool_at, const CookedShape &mesh,
                         const Placement &mesh_at) {
     const TriangleSource source(mesh.data());
@@ -145,20 +145,25 @@ inline double brute_gap(const ToolShape &tool, const Placement &tool_at, const C
     const Placement at{back * (tool_at.origin_m - mesh_at.origin_m), back * tool_at.rotation};
     const CoreView core = view_of(tool.data().core);
     double least = std::numeric_limits<double>::infinity();
+    bool from_behind = false;
     source.visit_box(Vec3(-1e9), Vec3(1e9), [&](std::uint32_t triangle) {
         const Corners corners = source.corners(triangle);
-        if (!source.two_sided() && glm::dot(at.origin_m - corners[0], normal_of(corners)) < 0.0) {
-            return;
-        }
+        const bool behind =
+            !source.two_sided() && glm::dot(at.origin_m - corners[0], normal_of(corners)) < 0.0;
         CoreView other;
         other.kind = CoreKind::points;
         other.points = corners;
         Vec3 axis(0.0);
         const CoreDistance found =
             core_distance(core, at, other, std::numeric_limits<double>::infinity(), axis);
-        least = std::min(least, (found.overlap ? 0.0 : found.distance_m) - tool.skin_m());
+        const double gap = (found.overlap ? 0.0 : found.distance_m) - tool.skin_m();
+        // Of two that share the nearest point, the one seen from its front counts.
+        if (gap < least - 1e-10 || (from_behind && !behind && gap < least + 1e-10)) {
+            least = gap;
+            from_behind = behind;
+        }
     });
-    return least;
+    return from_behind ? std::numeric_limits<double>::quiet_NaN() : least;
 }
 
 // Every listed point tells the truth about itself: normal of length 1 from shape to tool, and gap along it.

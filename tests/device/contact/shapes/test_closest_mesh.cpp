@@ -54,6 +54,9 @@ TEST_CASE("mesh contacts: as every triangle by itself, for every tool, on meshes
                 const ClosestPoints found = ask(*tool, tool_at, *shape, shape_at, kMargin);
                 check_points(found, kMargin);
                 const double exact = brute_gap(*tool, tool_at, *shape, shape_at);
+                if (std::isnan(exact)) {
+                    continue; // under the surface: what it would meet there is no contact of its front
+                }
                 if (exact > kMargin) {
                     CHECK(found.count == 0);
                 } else if (exact > -tool->skin_m() + 1e-7) {
