@@ -40,15 +40,17 @@ struct ClosestPoints {
 struct NearTriangle {
     std::uint32_t index = 0;
     std::array<std::uint16_t, 3> neighbour{}; // over edge i: place in the list; kNoTriangle
-    std::uint8_t sharp_edges =
-        0; // bit i: edge i is convex or a border; bit 4 + i: by more than 3 degrees
+    std::array<float, 3> middle_m{};          // of a ball that holds the triangle
+    float radius_m = 0.0F;
+    // Bit i: edge i is convex or a border; bit 4 + i: by more than 3 degrees.
+    std::uint8_t sharp_edges = 0;
 };
 
 inline constexpr int kMaxNearTriangles = 1024;
 inline constexpr std::uint16_t kNoTriangle = 0xffff;
 
 // What one tool remembers of one shape between cycles. It only saves time: forgetting it changes an answer by less than
-// the errors above. One for each pair of tool and shape.
+// the errors above. One for each pair of tool and shape: forget() comes before it serves another.
 struct PairMemory {
     Vec3 axis{0.0}; // of the last answer, shape's frame: where to begin
     // Meshes: the triangles that can come within the margin while the tool has moved less than slack_m.

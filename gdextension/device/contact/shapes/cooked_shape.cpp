@@ -9,6 +9,7 @@
 #include "device/contact/shapes/hull_builder.h"
 #include "device/contact/shapes/mesh_cooker.h"
 #include "device/contact/shapes/shape_data.h"
+#include "device/contact/shapes/triangle_source.h"
 
 namespace spidar {
 
@@ -136,6 +137,7 @@ Refusal cook_mesh(CookedShape::Data &data, int &dropped) {
         return wrong("Every triangle of the mesh is without area.");
     }
     data.neighbours = find_neighbours(shape.indices);
+    data.sharp_edges = find_sharp_edges(TriangleSource(data));
     data.tree = build_tree(shape.points_m, shape.indices);
     bound_points(data);
     return {};
@@ -244,7 +246,7 @@ std::size_t CookedShape::bytes() const noexcept {
     return sizeof(Data) + bytes_of(shape.points_m) + bytes_of(shape.indices) +
            bytes_of(shape.heights_m) + bytes_of(data_->core.points) + bytes_of(data_->core.faces) +
            bytes_of(data_->core.face_points) + bytes_of(data_->neighbours) +
-           bytes_of(data_->tree.nodes) + bytes_of(data_->tree.order);
+           bytes_of(data_->sharp_edges) + bytes_of(data_->tree.nodes) + bytes_of(data_->tree.order);
 }
 
 CookResult cook(ShapeDescription description) {

@@ -61,6 +61,12 @@ private:
     }
 
     std::uint8_t look_at(int place) noexcept {
+        const NearTriangle &known = near(place);
+        const Vec3 middle(known.middle_m[0], known.middle_m[1], known.middle_m[2]);
+        const double away = distance_to_core(core_, back_ * (middle - at_.origin_m));
+        if (away > limit_m_ + static_cast<double>(known.radius_m)) {
+            return 0;
+        }
         const Corners triangle = source_.corners(near(place).index);
         const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
         const double height = glm::dot(at_.origin_m - triangle[0], area);
@@ -110,7 +116,7 @@ private:
         CoreView other;
         other.kind = CoreKind::points;
         other.points = triangle;
-        Vec3 axis(0.0);
+        Vec3 axis = at_.origin_m - (triangle[0] + triangle[1] + triangle[2]) / 3.0;
         return core_distance(core_, at_, other, kTouch_m, axis).overlap;
     }
 

@@ -89,4 +89,13 @@ std::vector<std::array<std::uint32_t, 3>> find_neighbours(std::span<const std::u
     return found;
 }
 
+std::vector<std::uint8_t> find_sharp_edges(const TriangleSource &mesh) {
+    std::vector<std::uint8_t> found;
+    found.reserve(mesh.mesh_triangles());
+    for (std::size_t i = 0; i < mesh.mesh_triangles(); ++i) {
+        found.push_back(mesh.measure_edges(static_cast<std::uint32_t>(i)));
+    }
+    return found;
+}
+
 } // namespace spidar

@@ -11,9 +11,9 @@ namespace {
 constexpr double kSlack_m = 4e-3;
 // A tool on a mesh too fine for the list gathers anew after this (m), for the list can never be complete.
 constexpr double kLeastSlack_m = 1e-3;
-// Faces that turn towards each other by less (sine) are one flat face: the edge between them is no edge.
-constexpr double kFlatEdge = 1e-6;
-constexpr double kOneFace = 0.9986; // normals within 3 degrees (cosine)
+
+// Rounding of the ball round a triangle to float32, as a part of its size and place.
+constexpr double kFloat = 2e-7;
 
 // No point of the tool moves farther than this from the one placement to the other.
 double moved_at_most(const Placement &from, const Placement &to, double reach_m) noexcept {
@@ -24,35 +24,6 @@ double moved_at_most(const Placement &from, const Placement &to, double reach_m)
     }
     // The Frobenius norm of the change is sqrt(8) sin(angle / 2).
     return glm::length(to.origin_m - from.origin_m) + reach_m * std::sqrt(0.5 * turn2);
-}
-
-constexpr std::uint8_t kSharp = 1;
-constexpr std::uint8_t kCrease = 16;
-
-// The bits of NearTriangle::sharp_edges, for edge 0.
-std::uint8_t sharpness(const TriangleSource &source, const Corners &triangle,
-                       std::uint32_t neighbour, std::uint32_t first_shared,
-                       std::uint32_t second_shared) noexcept {
-    if (neighbour == kNone) {
-        return kSharp | kCrease;
-    }
-    const auto numbers = source.corner_numbers(neighbour);
-    const Corners other = source.corners(neighbour);
-    const Vec3 normal = normal_of(triangle);
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (numbers[i] == first_shared || numbers[i] == second_shared) {
-            continue;
-        }
-        // The far corner, below the plane of this triangle: the edge stands out.
-        const Vec3 from = other[i] - triangle[0];
-        const double rise = glm::dot(from, normal);
-        const double limit = kFlatEdge * glm::length(from);
-        if (rise < -limit || (source.two_sided() && rise > limit)) {
-            return glm::dot(normal, normal_of(other)) < kOneFace ? kSharp | kCrease : kSharp;
-        }
-        return 0;
-    }
-    return kSharp | kCrease; // both have the same corners
 }
 
 struct NearerLast {
@@ -83,22 +54,28 @@ public:
     [[nodiscard]] double complete_to_m() const noexcept { return reach_m_; }
 
 private:
-    // At most the distance: between the boxes of both, and from the core to the ball round the triangle.
-    [[nodiscard]] double bound(const Corners &triangle) const noexcept {
+    void add(std::uint32_t number) noexcept {
+        const Corners triangle = source_.corners(number);
         const Vec3 lower = glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
         const Vec3 upper = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]);
         const Vec3 apart = glm::max(glm::max(lower - upper_m_, lower_m_ - upper), Vec3(0.0));
+        NearTriangle near;
+        near.index = number;
         const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
         double radius2 = 0.0;
         for (const Vec3 &corner : triangle) {
             radius2 = std::max(radius2, glm::dot(corner - middle, corner - middle));
         }
+        const double radius = std::sqrt(radius2);
+        near.middle_m = {static_cast<float>(middle.x), static_cast<float>(middle.y),
+                         static_cast<float>(middle.z)};
+        near.radius_m = static_cast<float>(radius + kFloat * (radius + glm::length(middle)));
+        // At most the distance: between the boxes of both, and from the core to the ball round the triangle.
         const Vec3 inside = back_ * (middle - origin_m_);
-        return std::max(glm::length(apart), distance_to_core(core_, inside) - std::sqrt(radius2));
+        insert(near, std::max(glm::length(apart), distance_to_core(core_, inside) - radius));
     }
 
-    void add(std::uint32_t triangle) noexcept {
-        const double distance = bound(source_.corners(triangle));
+    void insert(const NearTriangle &near, double distance) noexcept {
         if (distance >= reach_m_) {
             return;
         }
@@ -108,14 +85,14 @@ private:
             const std::size_t farthest = heap_.back();
             reach_m_ = std::max(distances_[farthest], distance);
             if (distance < distances_[farthest]) {
-                memory_.triangles[farthest].index = triangle;
+                memory_.triangles[farthest] = near;
                 distances_[farthest] = distance;
             }
             std::push_heap(heap_.begin(), heap_.end(), NearerLast{distances_});
             return;
         }
         const auto place = static_cast<std::size_t>(memory_.count++);
-        memory_.triangles[place].index = triangle;
+        memory_.triangles[place] = near;
         distances_[place] = distance;
         heap_[place] = static_cast<std::uint16_t>(place);
         if (memory_.count == kMaxNearTriangles) {
@@ -135,29 +112,48 @@ private:
     std::array<std::uint16_t, kMaxNearTriangles> heap_;
 };
 
+// Places of the list by the numbers of their triangles: a table at most half full.
+class Places {
+public:
+    explicit Places(const PairMemory &memory) noexcept : memory_(memory) {
+        table_.fill(kNoTriangle);
+        for (int place = 0; place < memory.count; ++place) {
+            std::size_t slot = slot_of(memory.triangles[static_cast<std::size_t>(place)].index);
+            while (table_[slot] != kNoTriangle) {
+                slot = (slot + 1) % kSlots;
+            }
+            table_[slot] = static_cast<std::uint16_t>(place);
+        }
+    }
+
+    [[nodiscard]] std::uint16_t of(std::uint32_t triangle) const noexcept {
+        std::size_t slot = slot_of(triangle);
+        while (table_[slot] != kNoTriangle && memory_.triangles[table_[slot]].index != triangle) {
+            slot = (slot + 1) % kSlots;
+        }
+        return table_[slot];
+    }
+
+private:
+    static constexpr std::size_t kSlots = 2 * kMaxNearTriangles;
+
+    static std::size_t slot_of(std::uint32_t triangle) noexcept {
+        return (triangle * 0x9e3779b1U) >> 21U; // Knuth's multiplication; the upper 11 bits
+    }
+    static_assert(kSlots == 1U << 11U);
+
+    const PairMemory &memory_;
+    std::array<std::uint16_t, kSlots> table_;
+};
+
 void link(const TriangleSource &source, PairMemory &memory) noexcept {
-    const auto end = memory.triangles.begin() + memory.count;
-    const auto by_index = [](const NearTriangle &a, const NearTriangle &b) {
-        return a.index < b.index;
-    };
-    std::sort(memory.triangles.begin(), end, by_index);
-    for (auto near = memory.triangles.begin(); near != end; ++near) {
-        const Corners triangle = source.corners(near->index);
-        const auto numbers = source.corner_numbers(near->index);
-        near->sharp_edges = 0;
+    const Places places(memory);
+    for (int place = 0; place < memory.count; ++place) {
+        NearTriangle &near = memory.triangles[static_cast<std::size_t>(place)];
+        near.sharp_edges = source.sharp_edges(near.index);
         for (std::size_t edge = 0; edge < 3; ++edge) {
-            const std::uint32_t neighbour = source.neighbour(near->index, edge);
-            near->sharp_edges = static_cast<std::uint8_t>(
-                near->sharp_edges |
-                sharpness(source, triangle, neighbour, numbers[edge], numbers[(edge + 1) % 3])
-                    << edge);
-            NearTriangle wanted;
-            wanted.index = neighbour;
-            const auto found = std::lower_bound(memory.triangles.begin(), end, wanted, by_index);
-            near->neighbour[edge] =
-                found != end && found->index == neighbour
-                    ? static_cast<std::uint16_t>(found - memory.triangles.begin())
-                    : kNoTriangle;
+            const std::uint32_t neighbour = source.neighbour(near.index, edge);
+            near.neighbour[edge] = neighbour == kNone ? kNoTriangle : places.of(neighbour);
         }
     }
 }

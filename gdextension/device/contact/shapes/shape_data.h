@@ -15,6 +15,7 @@ struct CookedShape::Data {
     ConvexCore core; // of a convex kind
     double skin_m = 0.0;
     TriangleTree tree;                                    // of a mesh
+    std::vector<std::uint8_t> sharp_edges;                // of a mesh: NearTriangle::sharp_edges
     std::vector<std::array<std::uint32_t, 3>> neighbours; // of a mesh: over each edge, or kNone
 };
 

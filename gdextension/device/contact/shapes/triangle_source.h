@@ -14,6 +14,11 @@ using Corners = std::array<Vec3, 3>; // counter-clockwise seen from the front
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+// Unit, to the front.
+[[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
+    return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+}
+
 // A cell of a height map has two triangles, 2 * cell and 2 * cell + 1, cut from (column + 1, row) to (column, row + 1)
 // as the engine's own physics cuts it. A cell is named by its lower corner, in rows of all columns.
 class TriangleSource {
@@ -63,6 +68,27 @@ public:
                            : grid_triangle(column + 1, row, 0);
     }
 
+    // Which edges stand out: NearTriangle::sharp_edges. Of a mesh it is known.
+    [[nodiscard]] std::uint8_t sharp_edges(std::uint32_t triangle) const noexcept {
+        return grid_ ? measure_edges(triangle) : data_.sharp_edges[triangle];
+    }
+
+    [[nodiscard]] std::uint8_t measure_edges(std::uint32_t triangle) const noexcept {
+        unsigned bits = 0;
+        const Corners mine = corners(triangle);
+        const auto numbers = corner_numbers(triangle);
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            bits |=
+                sharpness(mine, neighbour(triangle, edge), numbers[edge], numbers[(edge + 1) % 3])
+                << edge;
+        }
+        return static_cast<std::uint8_t>(bits);
+    }
+
+    [[nodiscard]] std::size_t mesh_triangles() const noexcept {
+        return data_.description.indices.size() / 3;
+    }
+
     // Calls visit(triangle) for all triangles that may meet the box, and for some others.
     template <class Visit>
     void visit_box(const Vec3 &lower_m, const Vec3 &upper_m, Visit &&visit) const {
@@ -91,6 +117,38 @@ public:
     }
 
 private:
+    static constexpr unsigned kSharp = 1;
+    static constexpr unsigned kCrease = 16; // sharp by more than 3 degrees
+
+    // The bits of one edge, moved to edge 0.
+    [[nodiscard]] unsigned sharpness(const Corners &triangle, std::uint32_t neighbour,
+                                     std::uint32_t first_shared,
+                                     std::uint32_t second_shared) const noexcept {
+        // Faces that turn from each other by less (sine) are one flat face: the edge between them is no edge.
+        constexpr double kFlatEdge = 1e-6;
+        constexpr double kOneFace = 0.9986; // cosine of 3 degrees
+        if (neighbour == kNone) {
+            return kSharp | kCrease;
+        }
+        const auto numbers = corner_numbers(neighbour);
+        const Corners other = corners(neighbour);
+        const Vec3 normal = normal_of(triangle);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (numbers[i] == first_shared || numbers[i] == second_shared) {
+                continue;
+            }
+            // The far corner lies below the plane of this triangle: the edge stands out.
+            const Vec3 from = other[i] - triangle[0];
+            const double rise = glm::dot(from, normal);
+            const double limit = kFlatEdge * glm::length(from);
+            if (rise < -limit || (two_sided() && rise > limit)) {
+                return glm::dot(normal, normal_of(other)) < kOneFace ? kSharp | kCrease : kSharp;
+            }
+            return 0;
+        }
+        return kSharp | kCrease; // both have the same corners
+    }
+
     [[nodiscard]] Vec3 corner(std::uint32_t number) const noexcept {
         const ShapeDescription &shape = data_.description;
         if (!grid_) {
@@ -126,11 +184,6 @@ private:
     const CookedShape::Data &data_;
     bool grid_;
 };
-
-// Unit, to the front.
-[[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
-    return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-}
 
 // Does the foot of a point on the triangle's plane lie inside? A foot on an edge does, within rounding.
 [[nodiscard]] inline bool over_triangle(const Vec3 &point, const Corners &triangle) noexcept {
