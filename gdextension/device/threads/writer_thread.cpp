@@ -22,7 +22,6 @@ Status WriterThread::start() noexcept {
     result_.store(0);
     writing_since_ns_.store(0);
     last_post_ns_.store(monotonic_ns());
-    off_is_wanted_ = true;
     forget_posts();
     try {
         thread_ = std::thread([this] { run(); });

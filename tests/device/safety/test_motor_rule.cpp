@@ -188,6 +188,30 @@ TEST_CASE("motor rule: a real device arms by arm() alone, whatever let it go") {
     }
 }
 
+TEST_CASE("motor rule: an arm() that still waits is forgotten with every reason to let go") {
+    for (const Row &row : kRows) {
+        if (row.reason == StopReason::forces_off || row.reason == StopReason::game_silent) {
+            continue; // these stand, so that nothing arms meanwhile, and nothing is taken back by them
+        }
+        CAPTURE(row.name);
+        DeviceStateMachine machine = machine_in(DeviceState::connected);
+        DeviceStateMachine::Inputs inputs = all_well();
+        inputs.may_arm_itself = false;
+        inputs.tracking = false; // no pose yet: arm() waits for one
+        inputs.arm = true;
+        run(machine, inputs, 1);
+        inputs.arm = false;
+        (void)machine.stop(row.reason, Status::unstable);
+        machine.clear(true);
+        inputs.forces_enabled = false;
+        run(machine, inputs, 1);
+        inputs.forces_enabled = true;
+        inputs.tracking = true;
+        run(machine, inputs, 80);
+        CHECK(machine.state() == DeviceState::connected);
+    }
+}
+
 TEST_CASE("motor rule: what stands ends every state that pulls, and keeps it from beginning") {
     struct Standing {
         const char *name;
