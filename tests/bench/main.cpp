@@ -1,4 +1,4 @@
-// spidar_bench fk|recording|tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
+// spidar_bench contacts|fk|recording|tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstdlib>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/bench_contacts.h"
 #include "bench/bench_fk.h"
 #include "bench/bench_recording.h"
 #include "bench/bench_report.h"
@@ -22,6 +23,7 @@ struct Problem {
 };
 
 constexpr Problem kProblems[] = {
+    {"contacts", spidar::bench::bench_contacts},
     {"fk", spidar::bench::bench_fk},
     {"recording", spidar::bench::bench_recording},
     {"step", spidar::bench::bench_step},

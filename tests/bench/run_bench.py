@@ -43,23 +43,27 @@ def main():
     parser.add_argument("out")
     parser.add_argument("--runs", type=int, default=1)
     parser.add_argument("--rows", type=int, default=0, help="problems of a set at most; 0: all")
+    parser.add_argument("--problem", choices=bench_rows.APART, help="this one alone, without bars")
     options = parser.parse_args()
     if options.runs < 1 or options.rows < 0:
         parser.error(f"--runs is {options.runs}, --rows {options.rows}: give 1 or more, 0 or more")
     os.makedirs(options.out, exist_ok=True)
+    problems = (options.problem,) if options.problem else bench_rows.PROBLEMS
     runs = [{} for _ in range(options.runs)]
     machines, code = [], 0
     for number, run in enumerate(runs):
-        for problem in bench_rows.PROBLEMS:
+        for problem in problems:
             print(f"bench: {problem}, run {number + 1} of {options.runs}", flush=True)
             failed, machine, run[problem] = run_once(problem, options.rows, quiet=number > 0)
             machines.append(machine)
             if failed:
                 print(f"bench: {problem}: a row of ours failed, see above", file=sys.stderr)
                 code = 1
-    for problem in bench_rows.PROBLEMS:
+    for problem in problems:
         path = os.path.join(options.out, problem)
         bench_rows.write_rows(bench_rows.combine([run[problem] for run in runs]), path + ".json", path + ".csv")
+    if options.problem:
+        return code
     bars = bars_as_markdown(bench_rows.judge(runs))
     with open(os.path.join(options.out, "bars.md"), "w", encoding="utf-8") as file:
         file.write(bars)

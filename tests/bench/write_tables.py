@@ -90,13 +90,28 @@ def step(results):
     return table(["", "median (us)", "p99.9 (us)", "median / DAQP's warm solve"], lines)
 
 
+def contacts(results):
+    rows = results["contacts"]
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    lines = []
+    for of_set in dict.fromkeys(row["set"] for row in rows):
+        cells = [of_set]
+        for method in methods:
+            gap, normal = (find(rows, method, of_set, mode) for mode in ("gap (m)", "normal (rad)"))
+            cells.append("-" if gap is None else f"{gap['median_ns']:.0f}; {gap['worst_error']:.0e} m, "
+                         f"{normal['worst_error']:.0e} rad" + (f"; {gap['failures']} wrong" if gap["failures"] else ""))
+        lines.append(cells)
+    return table(["pair", *methods], lines)
+
+
 def fill(page, folder):
     """The page with its tables made anew from a folder of results."""
     results = {problem: bench_rows.read_rows(os.path.join(folder, problem + ".json"))
-               for problem in bench_rows.PROBLEMS}
+               for problem in bench_rows.PROBLEMS + bench_rows.APART}
     with open(os.path.join(folder, "bars.md"), encoding="utf-8") as file:
         bars = file.read()
-    tables = {"bars": bars, "tension": tension(results), "fk": fk(results), "step": step(results)}
+    tables = {"bars": bars, "tension": tension(results), "fk": fk(results), "step": step(results),
+              "contacts": contacts(results)}
     return MARK.sub(lambda found: found[1] + tables[found[2]] + found[4], page)
 
 

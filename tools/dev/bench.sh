@@ -2,8 +2,27 @@
 
 bench_limit_s=300
 
+# bench contacts [publish] [--runs N] [--rows N]: closest points of shapes, beside those peers that are installed
+bench_contacts() {
+    local publish=""
+    [[ ${1:-} != publish ]] || { publish=yes && shift; }
+    need "${build_needs[@]}"
+    find_jolt
+    scons -Q -j"$jobs" bench
+    python3 tests/bench/peers/fetch_peers.py --contacts
+    python3 tests/bench/run_bench.py build/bench --problem contacts "$@"
+    if [[ -n $publish ]]; then
+        cp build/bench/contacts.{json,csv} tests/bench/results/
+        python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md
+    fi
+}
+
 bench() { # bench [publish] [--runs N] [--rows N]: figures and pictures into build/bench
     local publish=""
+    if [[ ${1:-} == contacts ]]; then
+        bench_contacts "${@:2}"
+        return
+    fi
     [[ ${1:-} != publish ]] || { publish=yes && shift; }
     need "${build_needs[@]}"
     need pip3:python3-pip

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""The peers of the tension bench, from PyPI into build/peers/: nothing of them is committed.
+"""fetch_peers.py [--contacts]: peers of the benches.
+
+With --contacts those of the contact bench: FCL and Bullet where Debian's packages libfcl-dev and libbullet-dev are
+installed, and Jolt's own GJK. Otherwise the peers of the tension bench, from PyPI into build/peers/: nothing of them is committed.
 
 DAQP 0.11.0 (MIT) must be there: figures are ratios to it. quadprog (GPL), eiquadprog (LGPL, needs Eigen) and
 qpOASES (LGPL, its packaged library) come where they can be had; the bench says which are missing. Each is built with its
@@ -111,9 +114,25 @@ PEERS = (
 )
 
 
+def contacts(name, flags):
+    """An adapter of the contact bench; flags: the folder of its headers, then libraries."""
+    folder, *libraries = flags
+    if not os.path.isdir(folder):
+        raise Missing(f"{folder} is missing (Debian: libfcl-dev, libbullet-dev; Jolt comes with ./dev build)")
+    adapter = os.path.join(HERE, name.removesuffix("_contacts") + ".cc")
+    compile_library(name, cxx_compiler(), ["-O2", "-isystem", EIGEN, "-isystem", folder, adapter, *libraries])
+
+
+CONTACT_PEERS = (
+    ("fcl_contacts", "fcl.cc", contacts, ["/usr/include/fcl", "-lfcl", "-lccd"]),
+    ("bullet_contacts", "bullet.cc", contacts, ["/usr/include/bullet", "-lBulletCollision", "-lLinearMath"]),
+    ("jolt_contacts", "jolt.cc", contacts, [os.path.join(ROOT, "build", "jolt")]),
+)
+
+
 def main():
     os.makedirs(FOLDER, exist_ok=True)
-    for name, adapter, make, flags in PEERS:
+    for name, adapter, make, flags in CONTACT_PEERS if "--contacts" in sys.argv[1:] else PEERS:
         library = os.path.join(FOLDER, f"lib{name}.so")
         if os.path.isfile(library) and os.path.getmtime(library) > os.path.getmtime(os.path.join(HERE, adapter)):
             continue

@@ -1,5 +1,5 @@
-// Distance of two convex cores by Gilbert, Johnson and Keerthi (1988), in double precision. Jolt's own runs in float32,
-// whose normals are off by up to a degree where cores come within a millimetre: docs/why/contact_shapes.md.
+// Distance of two convex cores by Gilbert, Johnson and Keerthi (1988), in double precision. In float32, as in Jolt,
+// a core 1 mm from a floor of 40 m counts as touching it: docs/accuracy_and_speed.md.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
