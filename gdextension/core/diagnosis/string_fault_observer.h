@@ -12,6 +12,9 @@
 // not fit.
 #pragma once
 
+#include <algorithm>
+
+#include "core/base/sound_state.h"
 #include "core/base/types.h"
 #include "core/calibration/string_calibration.h"
 #include "core/kinematics/forward_kinematics.h"
@@ -46,6 +49,12 @@ struct FaultEvidence {
     double parity_rms_m = 0.0; // of the lengths as they are
 };
 
+// core/base/sound_state.h
+[[nodiscard]] constexpr bool is_sound(const FaultEvidence &evidence) noexcept {
+    return is_one_of(evidence.fault, StringFault::reversed) && is_string_or_none(evidence.string) &&
+           is_string_or_none(evidence.other);
+}
+
 class StringFaultObserver {
 public:
     // invalid_geometry, invalid_calibration, invalid_settings: the old configuration stands.
@@ -58,6 +67,18 @@ public:
     // for these. Lengths that are not finite are skipped.
     const FaultEvidence &update(const CountArray &counts, const StringArray &lengths_m,
                                 const KinematicsResult &solved) noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(configured_, suspicious_, has_last_) && spidar::is_sound(grip_) &&
+               kinematics_.is_sound() && next_string_ < kStringCount && next_wiring_ < kWiring &&
+               is_tally(ticks_to_decision_) && spidar::is_sound(evidence_) &&
+               std::all_of(suspects_.begin(), suspects_.end(),
+                           [](const auto &one) {
+                               return is_sound(one.slipped.pose) && is_sound(one.slack.pose);
+                           }) &&
+               std::all_of(wirings_.begin(), wirings_.end(),
+                           [](const auto &one) { return is_sound(one.pose); });
+    }
 
 private:
     static constexpr std::size_t kPairs = 28;
@@ -79,6 +100,9 @@ private:
         bool known = false;
         int turns_to_wait = 0;
     };
+    [[nodiscard]] static bool is_sound(const Pose &pose) noexcept {
+        return are_flags(pose.known) && is_tally(pose.turns_to_wait);
+    }
     struct Filter { // length error of one string (unit: m)
         Pose pose;
         double error_m = 0.0;

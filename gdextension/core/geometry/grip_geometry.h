@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/sound_state.h"
 #include "core/base/types.h"
 #include "core/geometry/frame_geometry.h"
 
@@ -38,6 +39,15 @@ struct GripGeometry {
     // rigid: where string i is tied, from P0, in the grip's frame (x along r2, y along r1; unit: m).
     StringVectors joints_m{};
 };
+
+// core/base/sound_state.h
+[[nodiscard]] constexpr bool is_sound(const GripGeometry &grip) noexcept {
+    bool sound = is_one_of(grip.kind, GripKind::rigid);
+    for (const Attachment &attachment : grip.attachments) {
+        sound = sound && (attachment.pole == 0 || attachment.pole == 1);
+    }
+    return sound;
+}
 
 [[nodiscard]] GripGeometry make_rigid_grip(const StringVectors &joints_m) noexcept;
 

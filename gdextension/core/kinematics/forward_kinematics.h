@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/geometry/frame_geometry.h"
@@ -79,6 +80,11 @@ public:
         blend_.stop();
         prior_.restart();
         forget_motion();
+    }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(crossed_, is_box_, closed_form_, warm_, foreseeing_, ambiguous_) &&
+               is_tally(ticks_to_rivals_) && spidar::is_sound(grip_) && spidar::is_sound(layout_);
     }
 
 private:

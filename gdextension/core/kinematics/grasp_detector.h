@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/sound_state.h"
+
 namespace spidar {
 
 inline constexpr double kDegree_rad = 0.017453292519943295;
@@ -27,6 +29,11 @@ public:
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
     // No change of phase is waiting for its dwell.
     [[nodiscard]] bool at_rest() const noexcept { return candidate_ == phase_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return is_one_of(phase_, GraspPhase::over_closed) &&
+               is_one_of(candidate_, GraspPhase::over_closed);
+    }
 
 private:
     GraspSettings settings_{};

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/simd_level.h"
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/geometry/wrench_matrix.h"
@@ -73,6 +74,12 @@ public:
     void forget_settled() noexcept { settled_ = false; }
     // Forget the last tick: the next update() starts cold and has no change term.
     void reset() noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(last_result_.skipped, warm_, has_last_, settled_) &&
+               supports(settings_.simd) && spidar::is_sound(last_active_) &&
+               spidar::is_sound(fast_.active);
+    }
 
 private:
     void prepare() noexcept;

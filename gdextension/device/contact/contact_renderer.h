@@ -3,8 +3,10 @@
 // with the same plane feel the same; at edges and in wedges the pushes are those of the nearest allowed pose.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
+#include "core/base/sound_state.h"
 #include "device/contact/contact_surface.h"
 #include "device/contact/god_object.h"
 #include "device/contract/game_clock.h"
@@ -41,6 +43,14 @@ public:
     // Same order as the command's contacts.
     int report(std::array<ContactReport, kMaxContacts> &reports) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return count_ == 0; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return count_ <= tracks_.size() && are_flags(caps_.from_latency) && clock_.is_sound() &&
+               std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {
+                   return one.surface.is_sound() && are_flags(one.touching, one.anchored) &&
+                          spidar::is_sound(one.plane.target);
+               });
+    }
 
 private:
     struct Track {

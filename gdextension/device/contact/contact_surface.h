@@ -3,6 +3,7 @@
 // updates showed them.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/game_clock.h"
 #include "device/contract/haptic_command.h"
 
@@ -28,6 +29,10 @@ public:
                const Vec3 &pivot_m) noexcept;
     // The surface at the clock's present.
     [[nodiscard]] ContactSurface now(const GameClock &clock) const noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(fading_in_) && spidar::is_sound(plane_.target);
+    }
 
 private:
     ContactPlane plane_; // as last given

@@ -2,9 +2,12 @@
 // do about it. Events are rare; a fixed, wait-free queue carries them from the servo thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+
+#include "core/base/sound_state.h"
 
 namespace spidar {
 
@@ -88,6 +91,15 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return silent_; }
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return {events_.data(), count_};
+    }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(silent_) && count_ <= events_.size() &&
+               std::all_of(memory_.begin(), memory_.end(),
+                           [](const auto &one) { return are_flags(one.told); }) &&
+               std::all_of(events_.begin(), events_.end(), [](const auto &one) {
+                   return static_cast<int>(one.kind) < kDeviceEventKinds;
+               });
     }
 
 private:

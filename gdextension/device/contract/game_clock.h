@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/base/sound_state.h"
+
 namespace spidar {
 
 // What moves is carried on by its velocity no longer than this; for games with longer frames, two and a half of them
@@ -33,6 +35,8 @@ public:
         return carried_s() - std::min(late_s_, most_s());
     }
     [[nodiscard]] bool carries() const noexcept { return late_s_ + age_s_ <= most_s(); }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(received_); }
 
 private:
     static constexpr double kFrames = 2.5;

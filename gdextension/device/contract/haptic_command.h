@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 
@@ -26,6 +27,11 @@ enum class ContactTarget : std::uint8_t {
     grasp_stop = 5,  // 1-D: acts on grasp_angle
     turn_stop = 6,   // 1-D: acts on the grip's turn about one axis
 };
+
+// core/base/sound_state.h
+[[nodiscard]] constexpr bool is_sound(ContactTarget target) noexcept {
+    return is_one_of(target, ContactTarget::turn_stop);
+}
 
 // Bit k of a DOF mask: x, y, z, turns about x, y, z, grasp; axes of the device.
 inline constexpr std::uint8_t kAllDof = 0x7F;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/kinematics/grasp_detector.h"
@@ -73,5 +74,19 @@ struct ServoSnapshot {
     ServoCounters counters;
     std::uint8_t buttons = 0;
 };
+
+// core/base/sound_state.h
+[[nodiscard]] inline bool is_sound(const ServoSnapshot &snapshot) noexcept {
+    bool sound = is_one_of(snapshot.state, DeviceState::calibrated) &&
+                 is_one_of(snapshot.grasp, GraspPhase::over_closed) &&
+                 is_string_or_none(snapshot.fault_string) &&
+                 are_flags(snapshot.zero_known, snapshot.grip.frame.rotation_held) &&
+                 snapshot.contact_count >= 0 && snapshot.contact_count <= kMaxContacts &&
+                 is_sound(snapshot.clamp);
+    for (const ContactReport &contact : snapshot.contacts) {
+        sound = sound && are_flags(contact.touching);
+    }
+    return sound;
+}
 
 } // namespace spidar

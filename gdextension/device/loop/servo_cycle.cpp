@@ -15,6 +15,7 @@ Status ServoCycle::configure(const ServoSettings &settings) noexcept {
     source_->restart(given_.command);
     step_.acknowledge(given_.command);
     given_.input = CycleInput();
+    tick_ = 0;
     host_events_ = EventLog();
     thermal_time_s_ = settings.safety.thermal_time_s;
     return configured;
@@ -42,6 +43,7 @@ bool ServoCycle::keep_heat() noexcept {
 
 void ServoCycle::recall() noexcept {
     if (source_->recall(step_)) {
+        tick_ = step_.snapshot().counters.ticks;
         snapshots_.write(step_.snapshot());
     }
 }
@@ -73,7 +75,9 @@ bool ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
         }
     }
     host_events_.begin_cycle(snapshot.time_s);
-    snapshots_.write(snapshot);
+    const ServoSnapshot &shown = source_->shown(snapshot);
+    tick_ = shown.counters.ticks;
+    snapshots_.write(shown);
     source_->finish(snapshot, drive, input.dt_s);
     recordings_.end_cycle();
     return true;

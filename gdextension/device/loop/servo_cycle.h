@@ -33,8 +33,8 @@ public:
     [[nodiscard]] CycleSource &source() noexcept { return *source_; }
     [[nodiscard]] Recordings &recordings() noexcept { return recordings_; }
     [[nodiscard]] const Recordings &recordings() const noexcept { return recordings_; }
-    // The newest cycle. From the loop's thread.
-    [[nodiscard]] std::uint64_t tick() const noexcept { return step_.snapshot().counters.ticks; }
+    // The cycle that was shown last. From the loop's thread.
+    [[nodiscard]] std::uint64_t tick() const noexcept { return tick_; }
     // Of the host, beside the step's. From the loop's thread.
     [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
     // From the controlling thread; false: nothing new.
@@ -52,6 +52,7 @@ private:
     std::unique_ptr<CycleSource> source_;
     ServoStep step_;
     double thermal_time_s_ = 0.0;
+    std::uint64_t tick_ = 0;
     CycleGiven given_;
     Recordings recordings_;
     EventLog host_events_;

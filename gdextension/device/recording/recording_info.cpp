@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kTitle = "spidar_g recording";
 constexpr std::string_view kSettings = "settings.";
-constexpr std::uint64_t kMostWords = 100'000;
+constexpr std::uint64_t kMostWords = 2'000; // five times what a command has: each cycle copies them
 constexpr std::uint64_t kMostStateBytes = 1'000'000;
 
 std::string now_utc() {
@@ -164,9 +164,9 @@ std::string read_text(std::string_view text, RecordingInfo &info) {
         const std::string_view value = entry.substr(equals + 1);
         if (name == "format") {
             std::uint32_t format = 0;
-            if (!value_of(value, format) || format != kRecordingFormat) {
+            if (!value_of(value, format) || format == 0 || format > kRecordingFormat) {
                 return "The recording has format " + std::string(value) +
-                       "; this version of spidar_g reads format " +
+                       "; this version of spidar_g reads formats 1 to " +
                        std::to_string(kRecordingFormat) + ". Use the version that made it.";
             }
             known_format = true;
@@ -185,21 +185,20 @@ std::string why_no_replay(const RecordingInfo &info) {
         return "The recording was made by another build of spidar_g (version " + info.version +
                ", build " + hex(info.build) + "; this is " + build_version() + ", build " +
                hex(build_identity()) +
-               "): its cycles can be read, but not replayed to the bit. Replay it with the build "
-               "that made it.";
+               "): it plays as poses, not to the bit. Replay it with the build that made it.";
     }
     if (info.command_schema != schema_of(HapticCommand{}) ||
         info.command_words != count_fields(HapticCommand{}) ||
         info.state_bytes != sizeof(ServoStep)) {
-        return "The recording holds another form of commands or memory than this build has. "
-               "Replay it with the build that made it.";
+        return "The recording holds another form of commands or memory than this build has: it "
+               "plays as poses, not to the bit. Replay it with the build that made it.";
     }
     const SimdLevel level = info.settings.tension.simd;
     if (!supports(level)) {
         return "The recording was made at vector level " + std::to_string(static_cast<int>(level)) +
                " (" + describe(level) +
-               "), which this processor or this version of spidar_g lacks: its cycles can be read, "
-               "but not replayed to the bit. Replay it where that level is supported.";
+               "), which this processor or this version of spidar_g lacks: it plays as poses, not "
+               "to the bit. Replay it where that level is supported.";
     }
     return {};
 }

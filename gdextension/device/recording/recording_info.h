@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-// Of the file's chunks and of the cycles in them. A file of another format is refused.
-inline constexpr std::uint32_t kRecordingFormat = 1;
+// Of the file's chunks and of the cycles in them. A file of a later format is refused.
+inline constexpr std::uint32_t kRecordingFormat = 2;
 
 struct RecordingInfo {
     std::string version;     // of spidar_g

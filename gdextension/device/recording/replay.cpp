@@ -2,7 +2,10 @@
 
 #include <cstring>
 #include <new>
+#include <sstream>
 
+#include "core/base/simd_level.h"
+#include "core/base/sound_state.h"
 #include "device/recording/codec/command_fields.h"
 #include "device/step/servo_step.h"
 
@@ -13,7 +16,28 @@ std::string Replay::load(const std::string &path) {
     if (problem.empty()) {
         problem = reads_.open(path);
     }
-    return problem.empty() ? why_no_replay(reader_.info()) : problem;
+    return problem.empty() ? prepare() : problem;
+}
+
+std::string Replay::load(const std::string &bytes, const std::string &name) {
+    std::string problem = reader_.open(std::make_unique<std::istringstream>(bytes), name);
+    if (problem.empty()) {
+        problem = reads_.open(std::make_unique<std::istringstream>(bytes), name);
+    }
+    return problem.empty() ? prepare() : problem;
+}
+
+std::string Replay::prepare() {
+    why_poses_only_ = why_no_replay(reader_.info());
+    settings_ = reader_.info().settings;
+    if (!supports(settings_.tension.simd)) {
+        settings_.tension.simd = best_simd_level();
+    }
+    const std::string problem = validate(settings_);
+    return problem.empty() ? problem
+                           : "The recording holds settings that this version of spidar_g cannot "
+                             "use: " +
+                                 problem;
 }
 
 bool Replay::next_read(GameRead &read) noexcept {
@@ -22,10 +46,6 @@ bool Replay::next_read(GameRead &read) noexcept {
     } catch (const std::bad_alloc &) { // no memory for the next chunk: as good as the end
         return false;
     }
-}
-
-Status Replay::open() noexcept {
-    return supports(reader_.info().settings.tension.simd) ? Status::ok : Status::open_failed;
 }
 
 bool Replay::fetch() noexcept {
@@ -40,29 +60,40 @@ bool Replay::fetch() noexcept {
     return fetched_;
 }
 
-bool Replay::restore(ServoStep &step) const noexcept {
+bool Replay::restore(ServoStep &step) noexcept {
     const std::span<const std::uint8_t> memory = reader_.memory();
-    if (memory.size() != sizeof step) {
-        return false;
+    bool sound = memory.size() == sizeof step;
+    if (sound) {
+        ServoStep found; // of this build (why_no_replay), trivially copyable (recorder.cpp)
+        std::memcpy(static_cast<void *>(&found), memory.data(), sizeof found);
+        sound = found.is_sound();
+        if (sound) {
+            step = found;
+        }
     }
-    // Of this build (why_no_replay), trivially copyable (recorder.cpp), and whole by its checksum.
-    std::memcpy(static_cast<void *>(&step), memory.data(), sizeof step);
-    return true;
+    unsound_.store(!sound, std::memory_order_relaxed);
+    return sound;
 }
 
 bool Replay::recall(ServoStep &step) noexcept {
-    return fetch() && cycle_.segment_start && restore(step);
+    return why_poses_only_.empty() && fetch() && cycle_.segment_start && restore(step);
 }
 
 bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {
-    const bool more = fetch() && (!cycle_.segment_start || restore(step));
+    const bool exact = why_poses_only_.empty();
+    // The first cycle of an exact replay has a memory before it, or there is nothing to go on from.
+    const bool starts = cycles_.load(std::memory_order_relaxed) == 0;
+    bool more = fetch();
+    if (more && exact && (starts || cycle_.segment_start)) {
+        more = cycle_.segment_start && restore(step);
+    }
     lost_.store(reader_.lost(), std::memory_order_relaxed);
     if (!more) {
         finished_.store(true, std::memory_order_release);
         return false;
     }
     fetched_ = false;
-    if (cycle_.command_is_new) {
+    if (exact && cycle_.command_is_new) {
         load_words(cycle_.command_words, given.command);
         contacts_sequence_ = given.command.contacts_sequence;
     }
@@ -71,16 +102,40 @@ bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noe
     return true;
 }
 
+const ServoSnapshot &Replay::shown(const ServoSnapshot &snapshot) noexcept {
+    if (why_poses_only_.empty()) {
+        return snapshot;
+    }
+    constexpr double kNewton = 1e-3; // from mN
+    shown_ = snapshot;
+    shown_.counters.ticks = cycle_.tick;
+    shown_.state =
+        is_one_of(cycle_.state, DeviceState::calibrated) ? cycle_.state : DeviceState::connected;
+    shown_.grasp =
+        is_one_of(cycle_.grasp, GraspPhase::over_closed) ? cycle_.grasp : GraspPhase::open;
+    shown_.fault = cycle_.fault;
+    shown_.fault_string =
+        is_string_or_none(cycle_.fault_string) ? cycle_.fault_string : std::int8_t{-1};
+    shown_.tension_status = cycle_.tension_status;
+    for (std::size_t i = 0; i < shown_.tensions_n.size(); ++i) {
+        shown_.tensions_n[i] = kNewton * cycle_.tensions_mn[i];
+    }
+    return shown_;
+}
+
 Status Replay::write(const DriveCommand & /*drive*/) noexcept {
     return cycle_.input.write_status;
 }
 
 void Replay::finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                     double /*dt_s*/) noexcept {
-    CycleOutput output;
-    fill_output(snapshot, drive, output);
     cycles_.fetch_add(1, std::memory_order_relaxed);
     time_s_.store(snapshot.time_s, std::memory_order_relaxed);
+    if (!why_poses_only_.empty()) {
+        return;
+    }
+    CycleOutput output;
+    fill_output(snapshot, drive, output);
     if (digest_of(output) != cycle_.digest) {
         if (differing_.fetch_add(1, std::memory_order_relaxed) == 0) {
             first_differing_.store(cycle_.tick, std::memory_order_relaxed);
@@ -100,7 +155,13 @@ ReplayReport Replay::report() const noexcept {
 }
 
 std::string Replay::damage() const {
-    return finished_.load(std::memory_order_acquire) ? reader_.damage() : std::string();
+    if (!finished_.load(std::memory_order_acquire)) {
+        return {};
+    }
+    return unsound_.load(std::memory_order_relaxed)
+               ? "The recording holds a memory that no servo step can have had: it was damaged or "
+                 "forged, and is not replayed from there on."
+               : reader_.damage();
 }
 
 } // namespace spidar

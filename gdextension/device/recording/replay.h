@@ -1,5 +1,8 @@
 // A recording that is played again: gives a servo loop what the recorded one was given, and compares what comes out with
 // what came out then, bit for bit. No motor is behind it, and no game's command comes between.
+// A recording of another build plays as poses: the kinematics of this build find them from the recorded counts, and the
+// snapshot holds the recorded state, grasp, fault and tensions. Wrenches and contacts are zero then, and nothing is compared.
+// Any file may be played, one that was made to do harm too.
 #pragma once
 
 #include <atomic>
@@ -24,14 +27,18 @@ struct ReplayReport {
 
 class Replay final : public CycleSource {
 public:
-    // Empty: ready for ServoLoop. Else one sentence: no file, damaged, of another build.
+    // Empty: ready for ServoLoop. Else one sentence: no file, damaged, settings that this build cannot use.
     [[nodiscard]] std::string load(const std::string &path);
+    // The same for a file's bytes from anywhere; `name` stands in messages.
+    [[nodiscard]] std::string load(const std::string &bytes, const std::string &name);
+    // Once loaded. Empty: plays to the bit. Else it plays as poses, and this is the reason.
+    [[nodiscard]] const std::string &why_poses_only() const noexcept { return why_poses_only_; }
 
     // Those of the recorded device: what to start the loop with.
-    [[nodiscard]] const ServoSettings &settings() const noexcept { return reader_.info().settings; }
+    [[nodiscard]] const ServoSettings &settings() const noexcept { return settings_; }
     [[nodiscard]] const RecordingInfo &info() const noexcept { return reader_.info(); }
 
-    Status open() noexcept override;
+    Status open() noexcept override { return Status::ok; }
     void close() noexcept override {}
     [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
     // The memory before the first cycle.
@@ -39,6 +46,8 @@ public:
     // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
+    // The recorded state, where it plays as poses.
+    const ServoSnapshot &shown(const ServoSnapshot &snapshot) noexcept override;
     // Compares.
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;
@@ -58,13 +67,19 @@ public:
     [[nodiscard]] std::string damage() const;
 
 private:
+    // Of a file that is open: how it plays.
+    [[nodiscard]] std::string prepare();
     // The next cycle; false: none is left.
     bool fetch() noexcept;
-    // Of the segment that cycle_ starts. False: there is no memory of a step.
-    bool restore(ServoStep &step) const noexcept;
+    // Of the segment that cycle_ starts. False: there is no memory that a step can use.
+    bool restore(ServoStep &step) noexcept;
 
     RecordingReader reader_;
     RecordingReader reads_;
+    std::string why_poses_only_;
+    ServoSettings settings_;
+    ServoSnapshot shown_;              // where it plays as poses
+    std::atomic<bool> unsound_{false}; // a memory was refused
     RecordedCycle cycle_;
     bool fetched_ = false; // cycle_ is still to be replayed
     std::uint64_t contacts_sequence_ = 0;

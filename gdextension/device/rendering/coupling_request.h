@@ -1,6 +1,7 @@
 // The coupling at servo rate: a spring and damper in seven DOF to a proxy that moves on between the game's updates.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/game_clock.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/motion.h"
@@ -22,6 +23,10 @@ public:
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return !live_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(live_, caps_.from_latency) && clock_.is_sound();
+    }
 
 private:
     struct Proxy {

@@ -1,6 +1,9 @@
 // Effects at servo rate: viscous field, constant force, spring to a point, vibration, detents, on any DOF.
 #pragma once
 
+#include <algorithm>
+
+#include "core/base/sound_state.h"
 #include "device/contract/dof_lanes.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/motion.h"
@@ -22,6 +25,14 @@ public:
     Wrench render(const GripMotion &motion) noexcept;
     // Every effect is over, and what was taken out has faded.
     [[nodiscard]] bool at_rest() const noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return count_ <= tracks_.size() && are_flags(caps_.from_latency) &&
+               std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {
+                   return are_flags(one.ended) &&
+                          static_cast<int>(one.effect.kind) < kEffectKindCount;
+               });
+    }
 
 private:
     struct Track {

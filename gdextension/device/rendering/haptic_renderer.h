@@ -2,6 +2,7 @@
 // itself add up; each ages and fades on its own.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contact/contact_renderer.h"
 #include "device/contract/rest.h"
 #include "device/contract/servo_snapshot.h"
@@ -50,6 +51,13 @@ public:
         return parts_.wrench.rests_through(dt_s);
     }
     void advance_at_rest(double dt_s) noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return parts_.motion.is_sound() && parts_.contacts.is_sound() &&
+               parts_.coupling.is_sound() && parts_.wrench.is_sound() &&
+               parts_.effects.is_sound() && parts_.controller.is_sound() &&
+               parts_.observer.is_sound() && spidar::is_sound(last_clamp_);
+    }
 
 private:
     void note(const GainClamp &clamp, ServoCounters &counters) noexcept;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/base/one_pole.h"
+#include "core/base/sound_state.h"
 #include "device/contract/motion.h"
 #include "device/settings/render_settings.h"
 
@@ -24,6 +25,8 @@ public:
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
     // The grip stood still long enough: further updates without motion change nothing.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:
     // One lane a DOF, padded to whole vectors.

@@ -2,6 +2,7 @@
 // what a wrench or coupling held between two frames of the game gives too much (Hannaford and Ryu 2002).
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/dof_lanes.h"
 #include "device/contract/haptic_command.h"
 
@@ -18,6 +19,8 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
     // Net work done on the hand in each DOF since the last reset(); positive is energy given to the hand (unit: J).
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:
     DofLanes held_{};
@@ -43,6 +46,8 @@ public:
                    double dt_s) noexcept;
     // Nothing changes any more while nothing is asked, wherever the grip moves.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:
     DofGains most_{};

@@ -2,6 +2,7 @@
 // faded. And the limits that every sum of requests is brought within.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/settings/gain_clamp.h"
 #include "device/settings/servo_settings.h"
 
@@ -26,6 +27,8 @@ public:
     [[nodiscard]] bool rests_through(double dt_s) const noexcept {
         return !live_ || age_s_ + dt_s <= duration_s_;
     }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(live_); }
 
 private:
     SafetySettings safety_{};

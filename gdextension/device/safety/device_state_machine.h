@@ -4,6 +4,7 @@
 // motor_rule.h alone.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "device/contract/device_state.h"
 #include "device/safety/motor_rule.h"
@@ -75,6 +76,13 @@ public:
     // TAUT, zero taken: the motion of the grip is being checked.
     [[nodiscard]] bool checking_zero() const noexcept {
         return state_ == DeviceState::taut && zero_taken_;
+    }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return is_one_of(state_, DeviceState::calibrated) && is_one_of(rearm_, Rearm::by_arm) &&
+               is_string_or_none(fault_string_) &&
+               are_flags(lost_, zero_known_, zero_taken_, ramps_wrench_, forces_were_enabled_,
+                         may_arm_itself_, opens_stopped_);
     }
 
 private:

@@ -2,6 +2,7 @@
 // part has a file of its own.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/device_event.h"
 #include "device/contract/rest.h"
 #include "device/safety/monitors/bounce_monitor.h"
@@ -66,6 +67,12 @@ public:
     [[nodiscard]] const StringMonitor &strings() const noexcept { return parts_.strings; }
     [[nodiscard]] const ThermalBudget &heat() const noexcept { return parts_.heat; }
     void set_heat(const StringArray &heat) noexcept { parts_.heat.set_heat(heat); }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(fading_, named_told_) && workspace_.is_sound() &&
+               parts_.speed.is_sound() && parts_.shake.is_sound() && parts_.bounce.is_sound() &&
+               parts_.strings.is_sound() && parts_.hand.is_sound();
+    }
 
 private:
     Verdict watch_strings(const Sample &sample, EventLog &events, double dt_s) noexcept;

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/sound_state.h"
 #include "core/geometry/grip_geometry.h"
 
 namespace spidar {
@@ -47,6 +48,8 @@ public:
                                                               : Verdict::pending;
     }
     [[nodiscard]] double worst_m() const noexcept { return worst_m_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(running_, started_); }
 
 private:
     bool running_ = false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/sound_state.h"
 #include "device/settings/render_settings.h"
 
 namespace spidar {
@@ -74,5 +75,11 @@ struct DofCap {
 // One sentence: what was asked, what is given, why, and the remedy. Empty when nothing was clamped. Allocates.
 [[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
                                    double rate_hz);
+
+// core/base/sound_state.h
+[[nodiscard]] inline bool is_sound(const GainClamp &clamp) noexcept {
+    return are_flags(clamp.from_latency) && is_one_of(clamp.gain, GainClamp::Gain::wrench) &&
+           is_one_of(clamp.request, GainClamp::Request::wrench);
+}
 
 } // namespace spidar

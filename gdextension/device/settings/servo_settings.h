@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/base/sound_state.h"
 #include "core/calibration/length_corrections.h"
 #include "core/calibration/motor_calibration.h"
 #include "core/calibration/string_calibration.h"
@@ -58,6 +59,12 @@ struct ServoSettings {
 };
 
 // Empty when usable; else one sentence naming the field, the value, the unit and the remedy. Checks every part.
+// core/base/sound_state.h
+[[nodiscard]] inline bool is_sound(const ServoSettings &settings) noexcept {
+    return are_flags(settings.render.caps_from_latency) && is_sound(settings.grip) &&
+           is_tally(settings.safety.max_bad_samples);
+}
+
 [[nodiscard]] std::string validate(const ServoSettings &settings);
 
 } // namespace spidar

@@ -33,10 +33,12 @@ public:
     // Each cycle lasts one period exactly, however long it took.
     [[nodiscard]] virtual bool simulated() const noexcept = 0;
 
-    // In each cycle, these three in this order. next() brings `given` up to date; input.dt_s holds the time that the loop
+    // In each cycle, in this order. next() brings `given` up to date; input.dt_s holds the time that the loop
     // measured. It may set `step` to another state. False: there is no cycle left.
     virtual bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept = 0;
     virtual Status write(const DriveCommand &drive) noexcept = 0;
+    // What a game sees of the cycle, between write() and finish(): the step's own snapshot, unless the source knows more.
+    virtual const ServoSnapshot &shown(const ServoSnapshot &snapshot) noexcept { return snapshot; }
     virtual void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                         double dt_s) noexcept = 0;
 

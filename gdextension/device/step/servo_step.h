@@ -2,6 +2,7 @@
 // (state, reading, command, time step). Same input, same bits: threaded, stepped, tests and replay all call it.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/device_event.h"
 #include "device/contract/haptic_command.h"
 #include "device/contract/rest.h"
@@ -70,6 +71,18 @@ public:
     };
     [[nodiscard]] Awake awake_parts() const noexcept {
         return {awake_mask(parts_), parts_.renderer.awake_parts(), parts_.monitor.awake_parts()};
+    }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return spidar::is_sound(settings_) && parts_.events.is_sound() && parts_.drive.is_sound() &&
+               parts_.machine.is_sound() && parts_.tracker.is_sound() && parts_.link.is_sound() &&
+               parts_.guard.is_sound() && parts_.grasp.is_sound() && parts_.zero_check.is_sound() &&
+               parts_.monitor.is_sound() && parts_.renderer.is_sound() &&
+               are_flags(forces_enabled_, simulated_, device_zeroed_, limiting_, tracking_, fresh_,
+                         moved_, rendering_, resting_, last_drive_.motors_on,
+                         last_drive_.clear_faults) &&
+               is_tally(unsolved_in_row_) && is_one_of(told_state_, DeviceState::calibrated) &&
+               spidar::is_sound(snapshot_);
     }
 
 private:

@@ -1,6 +1,7 @@
 // The wrench that is asked for -> tensions -> motor currents, each cycle: solver, ramp, calibrated compensation, safety gate.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/calibration/motor_calibration.h"
 #include "core/geometry/frame_geometry.h"
 #include "core/tension/tension_solver.h"
@@ -35,6 +36,12 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // Strings at a bound changed the wrench of the last pull().
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(render_.caps_from_latency, matrix_valid_, solver_warm_, at_rest_,
+                         saturated_) &&
+               spidar::is_sound(grip_) && solver_.is_sound();
+    }
 
 private:
     [[nodiscard]] bool is_broken(std::size_t string) const noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/one_pole.h"
+#include "core/base/sound_state.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "device/contract/motion.h"
 #include "device/settings/servo_settings.h"
@@ -47,6 +48,12 @@ public:
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest of P0 and the four pole ends (unit: m/s).
     [[nodiscard]] double fastest_point_m_s() const noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(carried_, has_pose_, solved_, grip_.frame.rotation_held,
+                         measured_frame_.rotation_held) &&
+               spidar::is_sound(geometry_) && kinematics_.is_sound() && lengths_of_.is_sound();
+    }
 
 private:
     void filter_twist(const Twist &raw, double dt_s) noexcept;

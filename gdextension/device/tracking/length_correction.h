@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/base/one_pole.h"
+#include "core/base/sound_state.h"
 #include "core/calibration/length_corrections.h"
 
 namespace spidar {
@@ -18,6 +19,8 @@ public:
     // of unchanged counts change.
     bool follow(const StringArray &tensions_n, double dt_s) noexcept;
     [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(wound_, stretched_); }
 
 private:
     // A wall of 2000 N/m on strings of 12 kN/m in series would become 1.2 times as stiff at once; below this it does.

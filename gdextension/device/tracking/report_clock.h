@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "core/base/sound_state.h"
+
 namespace spidar {
 
 class ReportClock {
@@ -32,6 +34,10 @@ public:
     [[nodiscard]] double apart_s() const noexcept { return apart_s_; }
     // From when the newest report was made to now, 0 to kOldest_s. In cycles with a report.
     [[nodiscard]] double age_s() const noexcept { return age_s_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(known_, believed_, has_before_);
+    }
 
 private:
     static constexpr double kStretch_s = 0.25;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/sound_state.h"
 #include "device/contract/transport.h"
 #include "device/settings/servo_settings.h"
 #include "device/tracking/report_clock.h"
@@ -84,6 +85,10 @@ public:
     // Of the wrench, 0..1.
     [[nodiscard]] double scale() const noexcept { return scale_; }
     [[nodiscard]] bool at_rest() const noexcept { return scale_ >= 1.0; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(answered_) && order_.is_sound() && clock_.is_sound();
+    }
 
 private:
     // The wrench falls to zero in this time when reports fail to come, and returns in that.

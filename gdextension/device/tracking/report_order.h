@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/base/sound_state.h"
+
 namespace spidar {
 
 class ReportOrder {
@@ -37,6 +39,10 @@ public:
     }
     // Lost before the report accepted last.
     [[nodiscard]] int missed() const noexcept { return missed_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(known_) && is_tally(missed_) && is_tally(old_in_row_);
+    }
 
 private:
     static constexpr std::uint16_t kLast = 0xFFFE;

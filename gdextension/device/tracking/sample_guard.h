@@ -2,6 +2,7 @@
 // glitch of the encoder or the link. One bad sample is skipped; several in a row mean that the zero is lost.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/base/types.h"
 #include "core/calibration/string_calibration.h"
 
@@ -29,6 +30,11 @@ public:
 
     // The string that moved too fast in the last bad sample (0-7), -1 before any.
     [[nodiscard]] int bad_string() const noexcept { return bad_string_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(has_reference_) && is_tally(max_bad_samples_) && is_tally(bad_in_row_) &&
+               is_string_or_none(bad_string_);
+    }
 
 private:
     StringArray metres_per_count_{};

@@ -115,6 +115,7 @@ godot::Dictionary SpidarG::get_replay_statistics() const {
     statistics["differing_cycles"] = static_cast<std::int64_t>(report.differing);
     statistics["lost_cycles"] = static_cast<std::int64_t>(report.lost);
     statistics["finished"] = report.finished;
+    statistics["poses_only"] = replay_ != nullptr && !replay_->why_poses_only().empty();
     return statistics;
 }
 
@@ -125,6 +126,10 @@ void SpidarG::open_replay() {
         replay_path_.clear();
         refuse_to_open(Status::open_failed, problem);
         return;
+    }
+    if (!replay->why_poses_only().empty()) {
+        godot::UtilityFunctions::push_warning(spidar::to_godot("SpidarG \"" + name_for_messages() +
+                                                               "\": " + replay->why_poses_only()));
     }
     settings_ = replay->settings();
     requests_.clear();
@@ -173,6 +178,7 @@ void SpidarG::watch_recordings() {
     const spidar::ReplayReport report = replay_->report();
     const std::string damage = replay_->damage();
     std::string message = std::to_string(report.cycles) + " cycles replayed";
+    const std::string &poses_only = replay_->why_poses_only();
     if (report.differing != 0) {
         message += ", " + std::to_string(report.differing) + " with other results, from cycle " +
                    std::to_string(report.first_differing) + " on";
@@ -184,6 +190,10 @@ void SpidarG::watch_recordings() {
     if (!damage.empty()) {
         message += " " + damage;
     }
-    const bool identical = report.differing == 0 && report.lost == 0 && damage.empty();
+    if (!poses_only.empty()) {
+        message += " " + poses_only;
+    }
+    const bool identical = report.differing == 0 && report.lost == 0 && report.cycles > 0 &&
+                           damage.empty() && poses_only.empty();
     emit_signal("replay_finished", identical, spidar::to_godot(message));
 }

@@ -289,7 +289,9 @@ TEST_CASE("recording: the head gives the settings back, to the bit, in any local
     // Fields of a later version are passed over; what cannot be is refused.
     CHECK(read_text(text + "settings.safety.invented.0=0x1p+0\n", back) == "");
     CHECK(read_text(text + "command_words=-3\n", back).find("cannot be") != std::string::npos);
-    CHECK(read_text("spidar_g recording\nformat=2\n", back).find("format 2") != std::string::npos);
+    CHECK(read_text("spidar_g recording\nformat=1\n", back) == "");
+    CHECK(read_text("spidar_g recording\nformat=3\n", back).find("format 3") != std::string::npos);
+    CHECK(read_text("spidar_g recording\nformat=0\n", back).find("format 0") != std::string::npos);
     CHECK(read_text("spidar_g recording\n", back).find("no format") != std::string::npos);
 }
 

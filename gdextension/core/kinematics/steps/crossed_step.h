@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/sound_state.h"
 #include "core/geometry/frame_geometry.h"
 #include "core/geometry/grip_geometry.h"
 #include "core/geometry/pole_lanes.h"
@@ -28,6 +29,17 @@ struct CrossedLayout {
     std::array<std::array<std::uint8_t, 2>, kSlotCount> strings{}; // [slot][pole]
     double pole_half_length_m = 0.0;
 };
+
+// core/base/sound_state.h
+[[nodiscard]] constexpr bool is_sound(const CrossedLayout &layout) noexcept {
+    bool sound = true;
+    for (const auto &slot : layout.strings) {
+        for (const std::uint8_t string : slot) {
+            sound = sound && string < kStringCount;
+        }
+    }
+    return sound;
+}
 
 // False, layout untouched, when some pole end does not carry exactly two strings, or the grip is rigid.
 [[nodiscard]] bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,

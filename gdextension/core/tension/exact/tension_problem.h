@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/sound_state.h"
 #include "core/base/status.h"
 #include "core/base/types.h"
 #include "core/geometry/wrench_matrix.h"
@@ -27,6 +28,15 @@ struct TensionProblem {
 
 enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
 using ActiveSet = std::array<StringBound, kStringCount>;
+
+// core/base/sound_state.h
+[[nodiscard]] constexpr bool is_sound(const ActiveSet &active) noexcept {
+    bool sound = true;
+    for (const StringBound bound : active) {
+        sound = sound && is_one_of(bound, StringBound::at_upper);
+    }
+    return sound;
+}
 
 struct TensionSolution {
     StringArray tensions_n{};

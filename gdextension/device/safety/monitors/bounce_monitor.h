@@ -3,6 +3,7 @@
 // each touch. A tap loses it.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
@@ -16,6 +17,8 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return !touching_ && row_ == 0; }
     // With which the last bounce of the row left (unit: m/s at the pole ends).
     [[nodiscard]] double speed_m_s() const noexcept { return speed_m_s_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(touching_) && is_tally(row_); }
 
 private:
     DofLanes arrival_m_s_{};

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/sound_state.h"
 #include "core/geometry/grip_geometry.h"
 #include "device/settings/servo_settings.h"
 
@@ -48,6 +49,8 @@ public:
     [[nodiscard]] bool present() const noexcept {
         return !(limit_s_ > 0.0) || (moved_ && still_s_ <= limit_s_);
     }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(known_, moved_, moving_); }
 
 private:
     double limit_s_ = 0.0;

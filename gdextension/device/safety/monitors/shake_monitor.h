@@ -3,6 +3,7 @@
 // of the grip's velocity, in each DOF, and of what the contacts push, where a firm hand hardly moves.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/base/types.h"
 
 namespace spidar {
@@ -27,6 +28,8 @@ public:
     [[nodiscard]] bool at_rest() const noexcept;
 
     static constexpr double kCalm_s = 2.0;
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(unstable_); }
 
 private:
     struct Kind {

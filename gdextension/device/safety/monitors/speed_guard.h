@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/sound_state.h"
 #include "core/base/types.h"
 #include "device/settings/servo_settings.h"
 
@@ -37,6 +38,8 @@ public:
         return fast_s_ > 0.0 && fast_s_ + 0.5 * dt_s >= kHold_s;
     }
     [[nodiscard]] bool too_fast() const noexcept { return too_fast_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(too_fast_); }
 
 private:
     SafetySettings safety_{};

@@ -3,6 +3,7 @@
 // StringFaultObserver (core) names the string in a second or so.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/diagnosis/string_fault_observer.h"
 #include "device/contract/grip_state.h"
 #include "device/settings/servo_settings.h"
@@ -31,6 +32,11 @@ public:
     // 0-7: the string that stands still or that the observer names; -1 when not known.
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double parity_m() const noexcept { return parity_m_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept {
+        return are_flags(names_, started_, faulty_) && is_string_or_none(string_) &&
+               observer_.is_sound() && spidar::is_sound(named_);
+    }
 
 private:
     struct Still { // where a string's count last moved

@@ -2,6 +2,7 @@
 // hardly tell or turn it.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/geometry/reach_box.h"
 #include "device/contract/grip_state.h"
 #include "device/settings/servo_settings.h"
@@ -21,6 +22,8 @@ public:
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
     // In which there is no wall (device frame).
     [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(on_); }
 
 private:
     ReachBox free_;
