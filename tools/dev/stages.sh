@@ -47,6 +47,7 @@ stage_dev() {
 stage_cpp_tests() {
     doctest build/bin/spidar_tests
     counted python3 tests/test_spidar_record.py build/bin
+    checked build/bin/stress_recordings --cases 3000 --seed 1
 }
 
 stage_reference_data() {
@@ -126,6 +127,7 @@ stress() { # stress BIN_FOLDER PROBLEMS DEVICE_RUNS
             $program != */stress_servo_step ]] || cases=$((5 * cases))
         [[ $program != */stress_servo ]] || cases=$3
         [[ $program != */stress_replay ]] || cases=1
+        [[ $program != */stress_recordings ]] || ((cases <= 100000)) || cases=100000
         # A case is ten seconds of motion for each of six kinds of errors; the time of sanitized code is nobody's bar.
         [[ $program != */stress_tracking ]] || { [[ $1 == build/bin ]] && cases=20 || continue; }
         [[ $program != */stress_tension_quick ]] || ((cases *= 5)) # some us each

@@ -83,8 +83,10 @@ public:
     }
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept {
-        return are_flags(crossed_, is_box_, closed_form_, warm_, foreseeing_, ambiguous_) &&
-               is_tally(ticks_to_rivals_) && spidar::is_sound(grip_) && spidar::is_sound(layout_);
+        return are_flags(crossed_, is_box_, closed_form_, warm_, foreseeing_, still_, fresh_,
+                         ambiguous_) &&
+               is_tally(ticks_to_rivals_) && is_tally(better_looks_) && prior_.is_sound() &&
+               blend_.is_sound() && spidar::is_sound(grip_) && spidar::is_sound(layout_);
     }
 
 private:

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "core/base/sound_state.h"
 #include "core/kinematics/steps/crossed_step.h"
 
 namespace spidar {
@@ -61,6 +62,8 @@ public:
     [[nodiscard]] double length_sigma_m() const noexcept { return std::sqrt(variance_m2_); }
     // The movement that the next tick is expected to make.
     [[nodiscard]] const CrossedPose &expected_change() const noexcept { return change_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:
     double variance_m2_ = 0.0;

@@ -2,6 +2,7 @@
 // moves on.
 #pragma once
 
+#include "core/base/sound_state.h"
 #include "core/geometry/grip_geometry.h"
 
 namespace spidar {
@@ -19,6 +20,8 @@ public:
     // Once a tick, with the newest pose found. Returns the pose to show.
     GripPose next(const GripPose &found) noexcept;
     [[nodiscard]] const GripPose &shown() const noexcept { return shown_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept { return left_ >= 0 && left_ <= kLongest_ticks; }
 
 private:
     int left_ = 0;

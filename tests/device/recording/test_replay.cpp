@@ -418,8 +418,9 @@ TEST_CASE("replay: a recording of another build plays as poses, tick for tick, a
         const double apart_m = glm::distance(now.grip.pose.position_m, then.grip.pose.position_m);
         const double turned_rad =
             std::abs(now.grip.frame.grasp_angle_rad - then.grip.frame.grasp_angle_rad);
-        CHECK(apart_m < 1e-6);
-        CHECK(turned_rad < 1e-5);
+        // Kinematics that began later settle within less than a count, which is 25 um.
+        CHECK(apart_m < 2e-5);
+        CHECK(turned_rad < 1e-3);
         for (std::size_t i = 0; i < kStringCount; ++i) {
             CHECK(std::abs(now.tensions_n[i] - then.tensions_n[i]) < 1e-3);
         }
@@ -452,7 +453,7 @@ TEST_CASE(
     std::size_t refused = 0;
     // One byte of it at a time: refused, or as good as any other. A sanitizer sees the flag that nobody checked.
     for (std::size_t i = 0; i < memory.size(); ++i) {
-        for (const std::uint8_t value : {0x5A, 0xFF}) {
+        for (const unsigned char value : {std::uint8_t{0x5A}, std::uint8_t{0xFF}}) {
             std::memcpy(static_cast<void *>(found.get()), memory.data(), memory.size());
             reinterpret_cast<unsigned char *>(found.get())[i] = value;
             if (!found->is_sound()) {

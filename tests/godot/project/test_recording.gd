@@ -145,6 +145,51 @@ func test_two_devices_never_record_into_one_file() -> void:
 	second.free()
 
 
+func test_a_recording_of_another_build_plays_as_poses() -> void:
+	var device := ideal_device()
+	device.forces_enabled = true
+	add(device)
+	await physics_frames(70)
+	check(device.start_recording(PATH), "the recording starts")
+	var poses: Array[Transform3D] = []
+	for frame: int in 60:
+		device.simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.2)
+		await physics_frames(1)
+		poses.append(device.get_grip_transform())
+	device.stop_recording()
+	# The head's line "build=" with another first digit, and its checksum.
+	var bytes: PackedByteArray = FileAccess.get_file_as_bytes(PATH)
+	var size: int = bytes.decode_u32(13)
+	var at: int = bytes.slice(17, 17 + size).get_string_from_ascii().find("\nbuild=") + 17 + 7
+	bytes[at] = 0x31 if bytes[at] == 0x30 else 0x30
+	bytes.encode_u32(17 + size, _crc32(bytes.slice(8, 17 + size)))
+	var file := FileAccess.open("user://other_build.rec", FileAccess.WRITE)
+	file.store_buffer(bytes)
+	file.close()
+	device.replay_finished.connect(
+		func(identical: bool, message: String) -> void: ends.append([identical, message]))
+	check(device.start_replay("user://other_build.rec"), "the replay starts")
+	check(device.get_replay_statistics()["poses_only"], "and says that it has poses only")
+	var worst_m: float = 0.0
+	for frame: int in 60:
+		await physics_frames(1)
+		check_equal(device.get_state(), SpidarG.STATE_ACTIVE, "the recorded state, frame %d" % frame)
+		worst_m = maxf(worst_m, device.get_grip_transform().origin.distance_to(poses[frame].origin))
+	check(worst_m < 2e-5, "the poses of then, tick for tick: %.7f m" % worst_m)
+	await physics_frames(3)
+	check(ends.size() == 1 and not ends[0][0] and ends[0][1].contains("another build"), "the end: %s" % [ends])
+	device.free()
+
+
+func _crc32(bytes: PackedByteArray) -> int:
+	var value: int = 0xFFFFFFFF
+	for byte: int in bytes:
+		value ^= byte
+		for _bit: int in 8:
+			value = (value >> 1) ^ (0xEDB88320 if value & 1 else 0)
+	return value ^ 0xFFFFFFFF
+
+
 func test_a_cut_recording_plays_up_to_the_cut() -> void:
 	var device := ideal_device()
 	add(device)
