@@ -169,6 +169,10 @@ private:
                    !other_side_holds(number, edge, from, to, at.normal)) {
             return;
         }
+        if (!source_.two_sided() && !in_front(number, at.normal) &&
+            !in_front(source_.neighbour(number, edge), at.normal)) {
+            return; // under the border of an open mesh
+        }
         add(place, at.on_core, at.on_edge, at.normal, false);
         if (at.end == EdgeDistance::kInner || core_.kind != CoreKind::disc) {
             CoreFace part;
@@ -176,6 +180,10 @@ private:
             part.add(to);
             add_wide(place, triangle, at.normal, part);
         }
+    }
+
+    [[nodiscard]] bool in_front(std::uint32_t triangle, const Vec3 &normal) const noexcept {
+        return triangle != kNone && glm::dot(normal_of(source_.corners(triangle)), normal) > -kLean;
     }
 
     // The triangle leads away from the edge, as seen along the normal.

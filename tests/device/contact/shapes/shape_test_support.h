@@ -136,8 +136,8 @@ inline double smallest_gap(const ClosestPoints &found) {
     return gap;
 }
 
-// Of the tool's outer surface to the nearest triangle of all, each looked at by itself; NaN when that one is seen from
-// behind and has one side.
+// Of the tool's outer surface to the nearest triangle of all, each looked at by itself; NaN when that one has
+// one side and the tool, or its middle, is behind it.
 inline double brute_gap(const ToolShape &tool, const Placement &tool_at, const CookedShape &mesh,
                         const Placement &mesh_at) {
     const TriangleSource source(mesh.data());
@@ -148,8 +148,6 @@ inline double brute_gap(const ToolShape &tool, const Placement &tool_at, const C
     bool from_behind = false;
     source.visit_box(Vec3(-1e9), Vec3(1e9), [&](std::uint32_t triangle) {
         const Corners corners = source.corners(triangle);
-        const bool behind =
-            !source.two_sided() && glm::dot(at.origin_m - corners[0], normal_of(corners)) < 0.0;
         CoreView other;
         other.kind = CoreKind::points;
         other.points = corners;
@@ -157,6 +155,10 @@ inline double brute_gap(const ToolShape &tool, const Placement &tool_at, const C
         const CoreDistance found =
             core_distance(core, at, other, std::numeric_limits<double>::infinity(), axis);
         const double gap = (found.overlap ? 0.0 : found.distance_m) - tool.skin_m();
+        const Vec3 front = normal_of(corners);
+        const bool behind =
+            !source.two_sided() && (glm::dot(at.origin_m - corners[0], front) < 0.0 ||
+                                    (!found.overlap && glm::dot(found.normal, front) < 0.0));
         // Of two that share the nearest point, the one seen from its front counts.
         if (gap < least - 1e-10 || (from_behind && !behind && gap < least + 1e-10)) {
             least = gap;
