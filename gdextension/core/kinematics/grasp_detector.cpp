@@ -38,8 +38,7 @@ GraspPhase GraspDetector::update(double grasp_angle_rad, double dt_s) noexcept {
     }
     const GraspPhase asked = phase_asked(settings_, phase_, grasp_angle_rad);
     if (asked == phase_) {
-        candidate_ = phase_;
-        candidate_age_s_ = 0.0;
+        candidate_ = phase_; // what is asked next begins its dwell
         return phase_;
     }
     if (asked != candidate_) {
@@ -50,7 +49,6 @@ GraspPhase GraspDetector::update(double grasp_angle_rad, double dt_s) noexcept {
     }
     if (candidate_age_s_ >= settings_.dwell_s) {
         phase_ = candidate_;
-        candidate_age_s_ = 0.0;
     }
     return phase_;
 }
