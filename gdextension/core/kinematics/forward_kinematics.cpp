@@ -165,7 +165,8 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
 
 // No search for a residual that is usual: errors of the strings that stay are no reason to doubt the pose.
 bool ForwardKinematics::residual_alarms(double residual_rms_m) const noexcept {
-    if (residual_rms_m <= kWarmResidualGate_m) {
+    // On the way to another answer its level is not known yet.
+    if (residual_rms_m <= kWarmResidualGate_m || blend_.active()) {
         return false;
     }
     const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
@@ -245,19 +246,29 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     result.pose = pose_of(pose);
     const bool look = --ticks_to_rivals_ <= 0;
     if (look) {
-        ticks_to_rivals_ = kRivalPeriod;
+        ticks_to_rivals_ = closed_form_ ? kRivalPeriod : kSlowRivalPeriod;
     }
     if (look || !noisy) { // the strings' own: the prior is no knowledge of the pose
         conditioning_ = noisy ? factorise(errors, pose, d).min_pivot : factor.min_pivot;
     }
     result.conditioning = conditioning_;
-    if (closed_form_ && look && !blend_.active()) {
-        look_for_rivals(lengths_m, result);
+    finish_look(look, lengths_m, result);
+    return accept(result);
+}
+
+void ForwardKinematics::finish_look(bool look, const StringArray &lengths_m,
+                                    KinematicsResult &result) noexcept {
+    const bool quick = closed_form_ && crossed_;
+    if (look && !blend_.active()) {
+        if (quick || result.residual_rms_m > kWarmResidualGate_m) {
+            look_for_rivals(lengths_m, result);
+        } else {
+            better_looks_ = 0;
+        }
     }
-    if (ambiguous_) {
+    if (quick && ambiguous_) {
         result.status = Status::ambiguous_pose;
     }
-    return accept(result);
 }
 
 // Changes `found` to another answer once that was better for long enough, and starts to blend from one to the other.
@@ -269,9 +280,9 @@ void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
     const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
     const RivalResult rival =
         find_rival({frame_, grip_, lengths_m}, search_tools(), known, usual_m);
-    ambiguous_ = rival.ambiguous;
+    ambiguous_ = rival.ambiguous && closed_form_ && crossed_; // of others cold starts alone tell
     better_looks_ = rival.preferable ? better_looks_ + 1 : 0;
-    if (better_looks_ >= kRivalLooks) {
+    if (better_looks_ >= (closed_form_ && crossed_ ? kRivalLooks : kSlowRivalLooks)) {
         better_looks_ = 0;
         blend_.start(found.pose, rival.best.pose);
         found.pose = rival.best.pose;
@@ -299,34 +310,69 @@ void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
     }
 }
 
+// Where the motion leads, as a pose of this grip.
+GripPose ForwardKinematics::expected_pose() const noexcept {
+    const double d = grip_.pole_half_length_m;
+    GripPose pose = pose_of(one_change_on(lanes_of(last_pose_), prior_.expected_change(), d));
+    pose.r2_m = d * glm::normalize(pose.r2_m);
+    if (grip_.kind == GripKind::rigid) {
+        pose.r1_m -= pose.r2_m * (glm::dot(pose.r1_m, pose.r2_m) / (d * d));
+    }
+    pose.r1_m = d * glm::normalize(pose.r1_m);
+    return pose;
+}
+
 // Rigid grips, strings that leave over pulleys, and grips with other than two strings to a pole end.
 KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
-    GripPose pose = last_pose_;
-    const GaussNewtonStep first = gauss_newton_step(problem, length_errors(problem, pose), pose);
-    if (!first.solvable || !(first.step_m <= kMaxWarmStep_m)) {
-        const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m);
+    ExpectedPose expected;
+    expected.weight = prior_.weight();
+    const bool noisy = expected.weight > 0.0;
+    expected.pose = noisy ? expected_pose() : last_pose_;
+    const double reach_m = noisy ? kNoiseReach * prior_.length_sigma_m() : 0.0;
+    GripPose pose = expected.pose;
+    const GaussNewtonStep first =
+        gauss_newton_step(problem, length_errors(problem, pose), pose, expected);
+    if (!first.solvable || !(first.step_m <= kMaxWarmStep_m + reach_m)) {
+        const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m + reach_m);
         return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
     }
-    const GaussNewtonStep second = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    LengthErrors errors = length_errors(problem, pose);
+    const GaussNewtonStep second = gauss_newton_step(problem, errors, pose, expected);
+    const double settling_m =
+        std::fmax(kMaxSecondStep_m, noisy ? kSettlingShare * first.step_m : 0.0);
     GaussNewtonStep last = second;
     int steps = 2;
-    if (second.solvable && second.step_m <= kMaxSecondStep_m &&
-        kLengthCurvature * second.step_m * second.step_m > kTrackingFloor_m) {
-        last = gauss_newton_step(problem, length_errors(problem, pose), pose);
+    errors = length_errors(problem, pose);
+    const double enough_m = noisy ? kTrackingShare * errors.rms_m() : kTrackingFloor_m;
+    if (second.solvable && second.step_m <= settling_m &&
+        kLengthCurvature * second.step_m * second.step_m > enough_m) {
+        last = gauss_newton_step(problem, errors, pose, expected);
+        errors = length_errors(problem, pose);
         ++steps;
     }
-    const double residual_rms_m = length_errors(problem, pose).rms_m();
-    if (!last.solvable || !(second.step_m <= kMaxSecondStep_m) || residual_alarms(residual_rms_m)) {
+    const double residual_rms_m = errors.rms_m();
+    if (!last.solvable || !(second.step_m <= settling_m) || residual_alarms(residual_rms_m)) {
         return search(lengths_m, &last_pose_, kWarmResidualGate_m);
     }
     KinematicsResult result;
     result.pose = pose;
     result.residual_rms_m = residual_rms_m;
-    prior_.learn(sum_of_squares(result), CrossedPose());
-    still_ = true; // no prior here: least squares alone
-    result.conditioning = last.min_pivot;
     result.steps = steps;
+    const CrossedPose change = minus(lanes_of(pose), lanes_of(last_pose_));
+    prior_.learn(sum_of_squares(result), change);
+    still_ = squared(change) <= kStill_m * kStill_m;
+    const bool look = --ticks_to_rivals_ <= 0;
+    if (look) {
+        ticks_to_rivals_ = kSlowRivalPeriod;
+    }
+    if (look || !noisy) {
+        GripPose unmoved = pose;
+        conditioning_ =
+            noisy ? gauss_newton_step(problem, errors, unmoved).min_pivot : last.min_pivot;
+    }
+    result.conditioning = conditioning_;
+    finish_look(look, lengths_m, result);
     return accept(result);
 }
 

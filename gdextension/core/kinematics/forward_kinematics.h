@@ -26,6 +26,10 @@ inline constexpr double kImpossibleResidual_m = 0.020;
 inline constexpr double kNearSingularPivot = 1e-4;
 // Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
 inline constexpr int kRivalPeriod = 8;
+// Without a closed form a look costs more: it is taken this often, and only while the lengths fit worse than calibrated
+// strings do.
+inline constexpr int kSlowRivalPeriod = 14;
+inline constexpr int kSlowRivalLooks = 5;
 // Looks in a row that must find a better answer before the pose goes there: 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
 // A movement within a tick of less than this, a hundredth of an encoder count in a second, is none.
@@ -96,6 +100,8 @@ private:
                             double content_m) noexcept;
     [[nodiscard]] SearchTools search_tools() const noexcept;
     void look_for_rivals(const StringArray &lengths_m, KinematicsResult &found) noexcept;
+    void finish_look(bool look, const StringArray &lengths_m, KinematicsResult &result) noexcept;
+    [[nodiscard]] GripPose expected_pose() const noexcept;
     [[nodiscard]] bool residual_alarms(double residual_rms_m) const noexcept;
     void foresee(const CrossedPose &change) noexcept;
     void forget_motion() noexcept {

@@ -6,6 +6,7 @@
 
 #include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/search/pose_polish.h"
+#include "core/presets/presets.h"
 #include "support/pose_helpers.h"
 
 using namespace spidar;
@@ -146,6 +147,68 @@ TEST_CASE("kinematics: strings that err by +-5 mm and stay so move the pose by n
             CAPTURE(run);
             CHECK(worst < 1e-3);
             CHECK(searches <= 2); // at the start, where nothing is known of the errors
+        }
+    }
+}
+
+TEST_CASE("kinematics: nor do they with exit pulleys, other motors or a rigid grip") {
+    FrameGeometry pulleys = test::paper_frame();
+    pulleys.pulley_radius_m = 0.005;
+    FrameGeometry bent = test::paper_frame();
+    bent.motors_m[0] += Vec3(0.03, -0.02, 0.01);
+    bent.motors_m[5] += Vec3(-0.02, 0.02, -0.03);
+    bent.motors_m[6] += Vec3(0.01, 0.03, 0.02);
+    const DevicePreset rigid = device_preset(Preset::spidar_g6_x3r);
+    const struct {
+        FrameGeometry frame;
+        GripGeometry grip;
+        double reach; // of T1
+    } devices[] = {{pulleys, GripGeometry(), 1.0},
+                   {bent, GripGeometry(), 1.0},
+                   {rigid.frame, rigid.grip, 0.3}};
+    for (const auto &device : devices) {
+        const auto hand_at = [&](double t) {
+            const GripPose pose = trajectory_t1(GripGeometry(), t);
+            const GripFrame frame = frame_of(pose, Mat3(1.0));
+            const bool crossed = device.grip.kind == GripKind::crossed;
+            const Mat3 rotation = glm::mat3_cast(
+                glm::slerp(glm::dquat(1, 0, 0, 0), glm::quat_cast(frame.rotation), device.reach));
+            return make_pose(device.grip, device.reach * pose.position_m, rotation,
+                             crossed ? frame.grasp_angle_rad : 0.0);
+        };
+        for (std::uint64_t run = 1; run <= 3; ++run) {
+            ForwardKinematics kinematics;
+            REQUIRE(kinematics.configure(device.frame, device.grip) == Status::ok);
+            test::Random random(run);
+            StringArray errors{};
+            for (double &error : errors) {
+                error = random.between(-3e-3, 3e-3);
+            }
+            GripPose hand = hand_at(0.0);
+            GripPose shown = hand;
+            kinematics.set_last_pose(hand);
+            int searches = 0;
+            double worst = 0.0;
+            for (int tick = 1; tick <= 4000; ++tick) {
+                const GripPose truth = hand_at(1e-3 * tick);
+                StringArray lengths = string_lengths(device.frame, device.grip, truth);
+                for (std::size_t i = 0; i < lengths.size(); ++i) {
+                    lengths[i] += errors[i];
+                }
+                const KinematicsResult result = kinematics.update(lengths);
+                REQUIRE(usable(result.status));
+                searches += result.cold_start ? 1 : 0;
+                if (tick > 50) {
+                    worst = std::fmax(worst, test::distance(result.pose, shown) -
+                                                 test::distance(truth, hand));
+                }
+                shown = result.pose;
+                hand = truth;
+            }
+            CAPTURE(&device - devices);
+            CAPTURE(run);
+            CHECK(worst < 1e-3);
+            CHECK(searches <= 2);
         }
     }
 }

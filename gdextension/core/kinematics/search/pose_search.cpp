@@ -232,7 +232,9 @@ void Search::judge(const PolishResult &candidate) noexcept {
 }
 
 void Search::weigh(const PolishResult &candidate) const noexcept {
-    const Vec3 &half_extents_m = *tools_.closed_form_half_extents_m;
+    const bool closed_form = tools_.closed_form_half_extents_m.has_value();
+    const Vec3 half_extents_m = tools_.closed_form_half_extents_m.value_or(Vec3(HUGE_VAL));
+    const double improbable_m = closed_form ? kImprobableResidual_m : kSuspiciousResidual_m;
     const double known_m = known_->residual_rms_m;
     const double fits_m = candidate.residual_rms_m;
     if (!(fits_m <= kImprobableResidual_m) || !candidate.converged ||
@@ -241,10 +243,11 @@ void Search::weigh(const PolishResult &candidate) const noexcept {
         return;
     }
     const bool clearly =
-        fits_m < (known_m > kImprobableResidual_m ? kClearlyBetter : kBeyondChance) * known_m;
-    const bool by_posture =
-        noise_m_ > kNoisyResidual_m && fits_m < kWithinNoise * std::fmax(noise_m_, known_m) &&
-        is_upright(half_extents_m, candidate.pose) && !is_upright(half_extents_m, known_->pose);
+        fits_m < (known_m > improbable_m ? kClearlyBetter : kBeyondChance) * known_m;
+    const bool by_posture = closed_form && noise_m_ > kNoisyResidual_m &&
+                            fits_m < kWithinNoise * std::fmax(noise_m_, known_m) &&
+                            is_upright(half_extents_m, candidate.pose) &&
+                            !is_upright(half_extents_m, known_->pose);
     if ((clearly || by_posture) && (!rival_->preferable || fits_m < rival_->best.residual_rms_m)) {
         rival_->preferable = true;
         rival_->best = candidate;
@@ -318,16 +321,19 @@ SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
 RivalResult find_rival(const LengthProblem &problem, const SearchTools &tools,
                        const PolishResult &known, double noise_m) noexcept {
     RivalResult rival;
-    if (!tools.closed_form_half_extents_m.has_value() || tools.layout == nullptr) {
-        return rival;
-    }
     SearchResult found;
     found.best = known;
     found.any = true;
     Search search(problem, tools, found);
     search.trust_memory();
     search.look_beside(known, noise_m, rival);
-    search.try_root_pairs();
+    if (tools.closed_form_half_extents_m.has_value()) {
+        search.try_root_pairs();
+    } else {
+        for (int start = 0; start < kStartCount && !search.settled(); ++start) {
+            search.offer(start_pose(problem, start));
+        }
+    }
     rival.ambiguous =
         found.ambiguous || pole_distance(found.best.pose, known.pose) > kDistinctPose_m;
     return rival;

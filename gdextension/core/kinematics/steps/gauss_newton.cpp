@@ -62,6 +62,22 @@ ArrowEquations arrow_equations(const LengthProblem &problem, const LengthErrors 
     return eq;
 }
 
+void add_expected(ArrowEquations &eq, const GripPose &pose, const PoseTangents &tangents,
+                  const ExpectedPose &expected) noexcept {
+    const double weight = expected.weight;
+    for (const std::size_t diagonal : {0U, 3U, 5U}) {
+        eq.position[diagonal] += weight;
+    }
+    eq.gradient += weight * (expected.pose.position_m - pose.position_m);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Vec3 off = k == 0 ? expected.pose.r1_m - pose.r1_m : expected.pose.r2_m - pose.r2_m;
+        eq.poles[k].uu += weight;
+        eq.poles[k].vv += weight;
+        eq.poles[k].gradient_u += weight * glm::dot(off, tangents.poles[k].u);
+        eq.poles[k].gradient_v += weight * glm::dot(off, tangents.poles[k].v);
+    }
+}
+
 // Smallest pivot over the diagonal entry it came from; 0 for anything that is no positive number.
 double scaled_pivot(double pivot, double diagonal) noexcept {
     const double ratio = pivot / diagonal;
@@ -155,10 +171,10 @@ LengthErrors length_errors(const LengthProblem &problem, const GripPose &pose) n
 }
 
 GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErrors &errors,
-                                  GripPose &pose) noexcept {
+                                  GripPose &pose, const ExpectedPose &expected) noexcept {
     GaussNewtonStep step;
     if (problem.grip.kind == GripKind::rigid) {
-        const RigidSolution rigid = solve_rigid(problem, errors, pose);
+        const RigidSolution rigid = solve_rigid(problem, errors, pose, expected);
         step.min_pivot = rigid.min_pivot;
         step.solvable = rigid.solvable;
         if (step.solvable) {
@@ -168,7 +184,11 @@ GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErro
         return step;
     }
     const PoseTangents tangents = tangents_of(pose);
-    const ArrowSolution solution = solve_arrow(arrow_equations(problem, errors, tangents));
+    ArrowEquations equations = arrow_equations(problem, errors, tangents);
+    if (expected.weight > 0.0) {
+        add_expected(equations, pose, tangents, expected);
+    }
+    const ArrowSolution solution = solve_arrow(equations);
     step.min_pivot = solution.min_pivot;
     step.solvable = solution.solvable;
     if (step.solvable) {

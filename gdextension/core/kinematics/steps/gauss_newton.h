@@ -38,8 +38,16 @@ struct GaussNewtonStep {
     bool solvable = false;  // false: a pivot vanished, the pose was not moved
 };
 
-// Moves `pose` by one Gauss-Newton step computed from its `errors`.
+// Where the grip is expected, and the weight of that against the lengths: weight |pose - expected|^2, over the grip centre
+// and both poles, is added to what is minimised. Weight 0: the lengths alone.
+struct ExpectedPose {
+    GripPose pose;
+    double weight = 0.0;
+};
+
+// Moves `pose` by one Gauss-Newton step computed from its `errors`. The pivots count what is expected, too.
 GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErrors &errors,
-                                  GripPose &pose) noexcept;
+                                  GripPose &pose,
+                                  const ExpectedPose &expected = ExpectedPose()) noexcept;
 
 } // namespace spidar

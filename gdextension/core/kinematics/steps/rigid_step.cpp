@@ -33,7 +33,7 @@ void move_rigid(GripPose &pose, const RigidStep &step, double pole_half_length_m
 }
 
 RigidSolution solve_rigid(const LengthProblem &problem, const LengthErrors &errors,
-                          const GripPose &pose) noexcept {
+                          const GripPose &pose, const ExpectedPose &expected) noexcept {
     RigidSolution solution;
     const double per_d = 1.0 / problem.grip.pole_half_length_m;
     std::array<RigidStep, kSize> normal{};
@@ -46,6 +46,26 @@ RigidSolution solve_rigid(const LengthProblem &problem, const LengthErrors &erro
             right[a] += slope[a] * errors.residual_m[i];
             for (std::size_t b = 0; b <= a; ++b) {
                 normal[a][b] += slope[a] * slope[b];
+            }
+        }
+    }
+    if (expected.weight > 0.0) {
+        // Both poles turn by cross(turn, pole) / d.
+        const double weight = expected.weight;
+        const Vec3 off = expected.pose.position_m - pose.position_m;
+        const Vec3 pull = per_d * (glm::cross(pose.r1_m, expected.pose.r1_m) +
+                                   glm::cross(pose.r2_m, expected.pose.r2_m));
+        const Vec3 n1 = per_d * pose.r1_m;
+        const Vec3 n2 = per_d * pose.r2_m;
+        for (int a = 0; a < 3; ++a) {
+            const auto row = static_cast<std::size_t>(a);
+            normal[row][row] += weight;
+            normal[3 + row][3 + row] += 2.0 * weight;
+            right[row] += weight * off[a];
+            right[3 + row] += weight * pull[a];
+            for (int b = 0; b <= a; ++b) {
+                normal[3 + row][3 + static_cast<std::size_t>(b)] -=
+                    weight * (n1[a] * n1[b] + n2[a] * n2[b]);
             }
         }
     }

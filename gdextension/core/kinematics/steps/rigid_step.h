@@ -21,6 +21,7 @@ struct RigidSolution {
 };
 
 [[nodiscard]] RigidSolution solve_rigid(const LengthProblem &problem, const LengthErrors &errors,
-                                        const GripPose &pose) noexcept;
+                                        const GripPose &pose,
+                                        const ExpectedPose &expected) noexcept;
 
 } // namespace spidar
