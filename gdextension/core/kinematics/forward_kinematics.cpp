@@ -9,45 +9,13 @@
 #include "core/kinematics/search/closed_form.h"
 #include "core/kinematics/search/pose_search.h"
 #include "core/kinematics/steps/gauss_newton.h"
+#include "core/kinematics/tracking_limits.h"
 
 namespace spidar {
 
 namespace {
 
-// Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
-constexpr double kFaceMargin_m = 1e-6;
-// No string is longer: the diagonal of the largest frame is 35 m.
-constexpr double kLongestString_m = 40.0;
-// After the steps of a warm tick a residual above this asks for a cold start, unless lengths have erred before. Calibrated
-// strings err by less, and the redundant eighth length shows only a third of the error of one string.
-constexpr double kWarmResidualGate_m = 1e-3;
-// A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
-// looked at too, and must fit 50 times better: next to it a wrong branch may fit to a millimetre.
-constexpr double kContentResidual_m = 2e-5;
-// A residual this many times its recent level is no usual one.
-constexpr double kUnusual = 3.0;
-// Lengths that err by sigma move the foreseen pose by up to this many sigma in a tick, near badly determined poses.
-constexpr double kNoiseReach = 4.0;
-// With errors a second step of less than this share of the first still settles.
-constexpr double kSettlingShare = 0.5;
-// Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
-constexpr double kMaxWarmStep_m = 5e-3;
-// Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
-// millimetres move the pole ends so far in a tick. Beyond, it competes with the closed form.
-constexpr double kTrustedStep_m = 0.02;
-// The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
-constexpr double kMaxSecondStep_m = 5e-4;
-// Above this it leaves more than 10 nm, and a third is taken: movements of more than a millimetre within a tick that were
-// not foreseen, or samples lost.
-constexpr double kThirdStep_m = 2e-5;
-// Motion within one tick after which the last pose says nothing (device restarted, samples lost).
-constexpr double kForgetStep_m = 0.05;
-// Below this smallest scaled pivot the lengths leave a direction open to the square root of rounding: the pose is refused.
-constexpr double kRankDeficientPivot = 1e-12;
-// A warm tick is done when the error it leaves is below this or below kTrackingShare of the residual.
-constexpr double kTrackingFloor_m = 1e-12;
-// A higher order of extrapolation is used when its squared miss was this much smaller.
-constexpr double kForeseenShare = 0.25;
+using namespace tracking;
 
 bool all_possible(const StringArray &lengths_m) noexcept {
     for (const double length : lengths_m) {
@@ -56,10 +24,6 @@ bool all_possible(const StringArray &lengths_m) noexcept {
         }
     }
     return true;
-}
-
-CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
-    return {a.position_m - b.position_m, a.poles_m - b.poles_m};
 }
 
 // Residual once a step is taken, by the linear model that the step comes from. The step of a prior decreases the
@@ -73,23 +37,6 @@ double rms_after(const CrossedErrors &errors, const CrossedStep &step, double pr
         left_m2 += prior * (2.0 * along_m2 - step.size_m2);
     }
     return std::sqrt(left_m2 > 0.0 ? left_m2 / kStringCount : 0.0);
-}
-
-double sum_of_squares(const KinematicsResult &result) noexcept {
-    return kStringCount * result.residual_rms_m * result.residual_rms_m;
-}
-
-double squared(const CrossedPose &change) noexcept {
-    return dot(change.position_m, change.position_m)[0] +
-           sum_of(dot(change.poles_m, change.poles_m));
-}
-
-// The pose one change on. Poles back on their spheres to second order: a start needs no more.
-CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change, double d) noexcept {
-    const LaneVec poles = pose.poles_m + change.poles_m;
-    const Lanes excess = dot(poles, poles) * both(1.0 / (d * d)) - both(1.0);
-    const Lanes scale = both(1.0) + excess * (both(0.375) * excess - both(0.5));
-    return {pose.position_m + change.position_m, scale * poles};
 }
 
 } // namespace
@@ -308,72 +255,6 @@ void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
         foreseeing_ = true;
         foreseen_change_ = {change.position_m + turn.position_m, change.poles_m + turn.poles_m};
     }
-}
-
-// Where the motion leads, as a pose of this grip.
-GripPose ForwardKinematics::expected_pose() const noexcept {
-    const double d = grip_.pole_half_length_m;
-    GripPose pose = pose_of(one_change_on(lanes_of(last_pose_), prior_.expected_change(), d));
-    pose.r2_m = d * glm::normalize(pose.r2_m);
-    if (grip_.kind == GripKind::rigid) {
-        pose.r1_m -= pose.r2_m * (glm::dot(pose.r1_m, pose.r2_m) / (d * d));
-    }
-    pose.r1_m = d * glm::normalize(pose.r1_m);
-    return pose;
-}
-
-// Rigid grips, strings that leave over pulleys, and grips with other than two strings to a pole end.
-KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
-    const LengthProblem problem{frame_, grip_, lengths_m};
-    ExpectedPose expected;
-    expected.weight = prior_.weight();
-    const bool noisy = expected.weight > 0.0;
-    expected.pose = noisy ? expected_pose() : last_pose_;
-    const double reach_m = noisy ? kNoiseReach * prior_.length_sigma_m() : 0.0;
-    GripPose pose = expected.pose;
-    const GaussNewtonStep first =
-        gauss_newton_step(problem, length_errors(problem, pose), pose, expected);
-    if (!first.solvable || !(first.step_m <= kMaxWarmStep_m + reach_m)) {
-        const bool forget = !first.solvable || !(first.step_m <= kForgetStep_m + reach_m);
-        return search(lengths_m, forget ? nullptr : &last_pose_, 0.0);
-    }
-    LengthErrors errors = length_errors(problem, pose);
-    const GaussNewtonStep second = gauss_newton_step(problem, errors, pose, expected);
-    const double settling_m =
-        std::fmax(kMaxSecondStep_m, noisy ? kSettlingShare * first.step_m : 0.0);
-    GaussNewtonStep last = second;
-    int steps = 2;
-    errors = length_errors(problem, pose);
-    const double enough_m = noisy ? kTrackingShare * errors.rms_m() : kTrackingFloor_m;
-    if (second.solvable && second.step_m <= settling_m &&
-        kLengthCurvature * second.step_m * second.step_m > enough_m) {
-        last = gauss_newton_step(problem, errors, pose, expected);
-        errors = length_errors(problem, pose);
-        ++steps;
-    }
-    const double residual_rms_m = errors.rms_m();
-    if (!last.solvable || !(second.step_m <= settling_m) || residual_alarms(residual_rms_m)) {
-        return search(lengths_m, &last_pose_, kWarmResidualGate_m);
-    }
-    KinematicsResult result;
-    result.pose = pose;
-    result.residual_rms_m = residual_rms_m;
-    result.steps = steps;
-    const CrossedPose change = minus(lanes_of(pose), lanes_of(last_pose_));
-    prior_.learn(sum_of_squares(result), change);
-    still_ = squared(change) <= kStill_m * kStill_m;
-    const bool look = --ticks_to_rivals_ <= 0;
-    if (look) {
-        ticks_to_rivals_ = kSlowRivalPeriod;
-    }
-    if (look || !noisy) {
-        GripPose unmoved = pose;
-        conditioning_ =
-            noisy ? gauss_newton_step(problem, errors, unmoved).min_pivot : last.min_pivot;
-    }
-    result.conditioning = conditioning_;
-    finish_look(look, lengths_m, result);
-    return accept(result);
 }
 
 KinematicsResult ForwardKinematics::solve_cold(const StringArray &lengths_m) noexcept {
