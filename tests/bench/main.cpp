@@ -23,10 +23,8 @@ struct Problem {
 };
 
 constexpr Problem kProblems[] = {
-    {"contacts", spidar::bench::bench_contacts},
-    {"fk", spidar::bench::bench_fk},
-    {"recording", spidar::bench::bench_recording},
-    {"step", spidar::bench::bench_step},
+    {"contacts", spidar::bench::bench_contacts},   {"fk", spidar::bench::bench_fk},
+    {"recording", spidar::bench::bench_recording}, {"step", spidar::bench::bench_step},
     {"tension", spidar::bench::bench_tension},
 };
 

@@ -9,8 +9,8 @@ extern "C" {
 
 const char *peer_name(void);
 /* Null: this peer has no such shape. */
-void *peer_shape(int kind, const double *size, const double *points, int point_count, const unsigned *indices,
-                 int triangle_count);
+void *peer_shape(int kind, const double *size, const double *points, int point_count,
+                 const unsigned *indices, int triangle_count);
 /* The distance; normal[3] from b to a. Negative: it found none. */
 double peer_distance(void *a, const double *pose_a, void *b, const double *pose_b, double *normal);
 
