@@ -75,7 +75,8 @@ bool ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
         }
     }
     host_events_.begin_cycle(snapshot.time_s);
-    const ServoSnapshot &shown = source_->shown(snapshot);
+    const ServoSnapshot *const instead = source_->shown(snapshot);
+    const ServoSnapshot &shown = instead != nullptr ? *instead : snapshot;
     tick_ = shown.counters.ticks;
     snapshots_.write(shown);
     source_->finish(snapshot, drive, input.dt_s);

@@ -102,9 +102,9 @@ bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noe
     return true;
 }
 
-const ServoSnapshot &Replay::shown(const ServoSnapshot &snapshot) noexcept {
+const ServoSnapshot *Replay::shown(const ServoSnapshot &snapshot) noexcept {
     if (why_poses_only_.empty()) {
-        return snapshot;
+        return nullptr;
     }
     constexpr double kNewton = 1e-3; // from mN
     shown_ = snapshot;
@@ -120,7 +120,7 @@ const ServoSnapshot &Replay::shown(const ServoSnapshot &snapshot) noexcept {
     for (std::size_t i = 0; i < shown_.tensions_n.size(); ++i) {
         shown_.tensions_n[i] = kNewton * cycle_.tensions_mn[i];
     }
-    return shown_;
+    return &shown_;
 }
 
 Status Replay::write(const DriveCommand & /*drive*/) noexcept {

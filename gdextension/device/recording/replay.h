@@ -47,7 +47,7 @@ public:
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
     // The recorded state, where it plays as poses.
-    const ServoSnapshot &shown(const ServoSnapshot &snapshot) noexcept override;
+    const ServoSnapshot *shown(const ServoSnapshot &snapshot) noexcept override;
     // Compares.
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;

@@ -37,8 +37,10 @@ public:
     // measured. It may set `step` to another state. False: there is no cycle left.
     virtual bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept = 0;
     virtual Status write(const DriveCommand &drive) noexcept = 0;
-    // What a game sees of the cycle, between write() and finish(): the step's own snapshot, unless the source knows more.
-    virtual const ServoSnapshot &shown(const ServoSnapshot &snapshot) noexcept { return snapshot; }
+    // Between write() and finish(): what a game sees in place of the step's snapshot. Null: the step's snapshot.
+    virtual const ServoSnapshot *shown(const ServoSnapshot & /*snapshot*/) noexcept {
+        return nullptr;
+    }
     virtual void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                         double dt_s) noexcept = 0;
 
