@@ -14,6 +14,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 
@@ -164,6 +165,28 @@ def check_runner():
               "an interrupt ends the stage with its children, and the run")
 
 
+# --- Jolt's sources --------------------------------------------------------------------------------
+
+
+def check_jolt():
+    """Sources that are not the known ones are refused, and nothing of them is left."""
+    with tempfile.TemporaryDirectory() as folder:
+        inner = os.path.join(folder, "godot-x", "thirdparty", "jolt_physics")
+        os.makedirs(os.path.join(inner, "Jolt"))
+        for name in ("LICENSE", "Jolt/Jolt.h"):
+            with open(os.path.join(inner, name), "w", encoding="utf-8") as file:
+                file.write("altered\n")
+        archive = os.path.join(folder, "godot.orig.tar.xz")
+        with tarfile.open(archive, "w:xz") as file:
+            file.add(os.path.join(folder, "godot-x"), "godot-x")
+        target = os.path.join(folder, "jolt")
+        code, output = run(["python3", "tools/fetch/unpack_jolt.py", archive, target])
+        check(code != 0 and "not the known sources" in output and not os.path.exists(target),
+              "altered sources of Jolt are refused")
+    code, output = run(["scons", "-Q", "-n", "jolt=/nowhere", "spidar_tests"])
+    check(code == 2 and "no Jolt/Jolt.h" in output and "./dev build" in output, "scons says how to come by Jolt")
+
+
 # --- A folder of an awkward name -------------------------------------------------------------------
 
 
@@ -239,6 +262,7 @@ def check_awkward_folder():
 
 if __name__ == "__main__":
     check_words()
+    check_jolt()
     check_table()
     check_runner()
     check_awkward_folder()

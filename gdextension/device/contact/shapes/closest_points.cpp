@@ -97,27 +97,27 @@ private:
 
 } // namespace
 
-Status closest_points(const ToolShape &tool_shape, const Placement &tool_at,
-                      const CookedShape &cooked, const Placement &shape_at, double margin_m,
-                      PairMemory &memory, ClosestPoints &out) noexcept {
+Status closest_points(const ToolShape &tool, const Placement &tool_at, const CookedShape &shape,
+                      const Placement &shape_at, double margin_m, PairMemory &memory,
+                      ClosestPoints &out) noexcept {
     out.count = 0;
     out.left_out = false;
     if (!all_finite(tool_at) || !all_finite(shape_at) || !std::isfinite(margin_m)) {
         return Status::not_finite;
     }
-    const ToolShape::Data &tool = tool_shape.data();
-    const CookedShape::Data &shape = cooked.data();
+    const ToolShape::Data &tool_data = tool.data();
+    const CookedShape::Data &shape_data = shape.data();
     const Placement at = relative(tool_at, shape_at);
-    if (too_far(shape, tool, at.origin_m, margin_m)) {
+    if (too_far(shape_data, tool_data, at.origin_m, margin_m)) {
         return Status::ok;
     }
     ContactCandidates found;
-    if (cooked.kind() == ShapeKind::half_space) {
-        half_space_contacts(shape.description, tool, at, margin_m, found);
-    } else if (cooked.convex()) {
-        ConvexContacts(shape, tool, at, margin_m, found).run(memory.axis);
+    if (shape.kind() == ShapeKind::half_space) {
+        half_space_contacts(shape_data.description, tool_data, at, margin_m, found);
+    } else if (shape.convex()) {
+        ConvexContacts(shape_data, tool_data, at, margin_m, found).run(memory.axis);
     } else {
-        mesh_contacts(shape, tool, at, margin_m, memory, found);
+        mesh_contacts(shape_data, tool_data, at, margin_m, memory, found);
         out.left_out = memory.full;
     }
     found.choose(shape_at, kSpacing_m, out);

@@ -21,7 +21,7 @@ struct Candidate {
     bool done; // taken, or behind one that was taken
 };
 
-class ContactCandidates {
+class ContactCandidates { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
     // From points of both cores and the skins round them. A list that is full keeps the nearer ones.
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,

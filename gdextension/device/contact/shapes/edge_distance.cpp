@@ -71,9 +71,7 @@ struct EdgeOverDisc {
 EdgeDistance finish(const Vec3 &from, const Vec3 &to, double t, const Vec3 &on_core,
                     double limit_m) noexcept {
     EdgeDistance found;
-    found.end = t <= 0.0   ? EdgeDistance::kFrom
-                : t >= 1.0 ? EdgeDistance::kTo
-                           : EdgeDistance::kInner;
+    found.end = t <= 0.0 ? EdgeDistance::from : t >= 1.0 ? EdgeDistance::to : EdgeDistance::inner;
     found.on_edge = from + t * (to - from);
     found.on_core = on_core;
     const Vec3 apart = found.on_core - found.on_edge;
@@ -123,9 +121,9 @@ EdgeDistance from_core(const CoreView &core, const Placement &at, const Vec3 &fr
     found.on_core = apart.on_tool_m;
     found.on_edge = apart.on_shape_m;
     found.normal = apart.normal;
-    found.end = glm::length(found.on_edge - from) < kEnd_m ? EdgeDistance::kFrom
-                : glm::length(found.on_edge - to) < kEnd_m ? EdgeDistance::kTo
-                                                           : EdgeDistance::kInner;
+    found.end = glm::length(found.on_edge - from) < kEnd_m ? EdgeDistance::from
+                : glm::length(found.on_edge - to) < kEnd_m ? EdgeDistance::to
+                                                           : EdgeDistance::inner;
     return found;
 }
 

@@ -7,10 +7,10 @@
 namespace spidar {
 
 struct EdgeDistance {
-    enum End : std::uint8_t { kInner, kFrom, kTo }; // where on the edge
-    bool beyond = false;                            // farther than the limit; nothing else is set
-    bool overlap = false;                           // they meet; nothing else is set
-    End end = kInner;
+    enum End : std::uint8_t { inner, from, to }; // where on the edge
+    bool beyond = false;                         // farther than the limit; nothing else is set
+    bool overlap = false;                        // they meet; nothing else is set
+    End end = inner;
     Vec3 on_core{0.0};
     Vec3 on_edge{0.0};
     Vec3 normal{0.0}; // unit, from the edge to the core

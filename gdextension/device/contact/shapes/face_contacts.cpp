@@ -80,7 +80,7 @@ CoreFace hull_face(const CoreView &core, const Vec3 &way) noexcept {
 }
 
 // Convex polygon, clipped in place.
-struct Polygon {
+struct Polygon { // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<Vec3, kMaxFacePairs> corners;
     int count = 0;
 
@@ -97,7 +97,8 @@ void clip(Polygon &polygon, const Vec3 &outward, double offset) noexcept {
     const int edges = polygon.count == 2 ? 1 : polygon.count;
     for (int i = 0; i < polygon.count; ++i) {
         const Vec3 &from = polygon.corners[static_cast<std::size_t>(i)];
-        const Vec3 &to = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.count)];
+        const Vec3 &to =
+            polygon.corners[static_cast<std::size_t>(i + 1 < polygon.count ? i + 1 : 0)];
         const double a = glm::dot(outward, from) - offset;
         const double b = glm::dot(outward, to) - offset;
         if (a <= 0.0) {
@@ -129,7 +130,7 @@ void clip_by(Polygon &polygon, const CoreFace &face, const Vec3 &normal) noexcep
     const Vec3 middle = middle_of(face);
     for (int i = 0; i < face.count; ++i) {
         const Vec3 &from = face.corners[static_cast<std::size_t>(i)];
-        const Vec3 &to = face.corners[static_cast<std::size_t>((i + 1) % face.count)];
+        const Vec3 &to = face.corners[static_cast<std::size_t>(i + 1 < face.count ? i + 1 : 0)];
         Vec3 outward = glm::cross(to - from, normal);
         if (glm::dot(outward, middle - from) > 0.0) {
             outward = -outward;

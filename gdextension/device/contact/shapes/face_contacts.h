@@ -11,7 +11,7 @@ namespace spidar {
 inline constexpr int kMaxFaceCorners = 16; // of a face with more, evenly spread ones are taken
 
 // A corner, an edge or a face of a core.
-struct CoreFace {
+struct CoreFace { // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<Vec3, kMaxFaceCorners> corners;
     int count = 0;
     std::uint32_t number = 0;
@@ -36,7 +36,7 @@ struct FacePair {
 
 inline constexpr int kMaxFacePairs = 2 * kMaxFaceCorners;
 
-struct FacePairs {
+struct FacePairs { // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<FacePair, kMaxFacePairs> pairs;
     int count = 0;
 };

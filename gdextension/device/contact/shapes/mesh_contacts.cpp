@@ -27,7 +27,7 @@ constexpr double kAlong = 0.9986; // normals within 3 degrees
 // beyond edge i. Only where it does for both triangles of an edge can the edge be nearest to the tool.
 constexpr std::uint8_t kUnseen = 8; // seen from behind: the other triangle alone says it
 
-class MeshContacts {
+class MeshContacts { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
     MeshContacts(const TriangleSource &source, const ToolShape::Data &tool,
                  const Placement &tool_at, double margin_m, const PairMemory &memory,
@@ -160,8 +160,8 @@ private:
             return;
         }
         const auto corners = source_.corner_numbers(number);
-        if (at.end != EdgeDistance::kInner) {
-            const std::size_t corner = at.end == EdgeDistance::kFrom ? edge : (edge + 1) % 3;
+        if (at.end != EdgeDistance::inner) {
+            const std::size_t corner = at.end == EdgeDistance::from ? edge : (edge + 1) % 3;
             if (!corner_holds(number, corners[corner], corner, triangle[corner], at.normal)) {
                 return;
             }
@@ -174,7 +174,7 @@ private:
             return; // under the border of an open mesh
         }
         add(place, at.on_core, at.on_edge, at.normal, false);
-        if (at.end == EdgeDistance::kInner || core_.kind != CoreKind::disc) {
+        if (at.end == EdgeDistance::inner || core_.kind != CoreKind::disc) {
             CoreFace part;
             part.add(from);
             part.add(to);

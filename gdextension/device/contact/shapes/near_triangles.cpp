@@ -33,7 +33,7 @@ struct NearerLast {
     }
 };
 
-class Gatherer {
+class Gatherer { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
     Gatherer(const TriangleSource &source, const ToolShape::Data &tool, const Placement &tool_at,
              double reach_m, PairMemory &memory) noexcept
@@ -113,7 +113,7 @@ private:
 };
 
 // Places of the list by the numbers of their triangles: a table at most half full.
-class Places {
+class Places { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
     explicit Places(const PairMemory &memory) noexcept : memory_(memory) {
         table_.fill(kNoTriangle);
@@ -135,7 +135,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kSlots = 2 * kMaxNearTriangles;
+    static constexpr std::size_t kSlots = std::size_t{2} * kMaxNearTriangles;
 
     static std::size_t slot_of(std::uint32_t triangle) noexcept {
         return (triangle * 0x9e3779b1U) >> 21U; // Knuth's multiplication; the upper 11 bits

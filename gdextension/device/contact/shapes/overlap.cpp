@@ -23,6 +23,7 @@ struct PlacedCore {
     Mat3 rotation;
     Vec3 origin;
 
+    // NOLINTNEXTLINE(readability-identifier-naming): Jolt's name
     [[nodiscard]] JPH::Vec3 GetSupport(JPH::Vec3Arg way) const {
         return to_jolt(origin +
                        rotation * support(core, glm::transpose(rotation) * from_jolt(way)));

@@ -155,9 +155,11 @@ private:
             return shape.points_m[number];
         }
         const auto columns = static_cast<std::uint32_t>(shape.columns);
-        return {(number % columns - 0.5 * (shape.columns - 1)) * shape.spacing_x_m,
+        const std::uint32_t column = number % columns;
+        const std::uint32_t row = number / columns;
+        return {(column - 0.5 * (shape.columns - 1)) * shape.spacing_x_m,
                 static_cast<double>(shape.heights_m[number]),
-                (number / columns - 0.5 * (shape.rows - 1)) * shape.spacing_z_m};
+                (row - 0.5 * (shape.rows - 1)) * shape.spacing_z_m};
     }
 
     // kNone outside the grid and at a hole.
