@@ -46,7 +46,8 @@ struct NearTriangle {
     std::uint8_t sharp_edges = 0;
 };
 
-inline constexpr int kMaxNearTriangles = 1024;
+// A box of 40 mm on triangles of 2.5 mm^2 has 1100 of them near.
+inline constexpr int kMaxNearTriangles = 1536;
 inline constexpr std::uint16_t kNoTriangle = 0xffff;
 
 // What one tool remembers of one shape between cycles. It only saves time: forgetting it changes an answer by less than

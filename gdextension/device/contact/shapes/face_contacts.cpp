@@ -150,9 +150,10 @@ Polygon polygon_of(const CoreFace &face) noexcept {
 // Unit normal of a face of three corners or more; zero when it has no area.
 Vec3 plane_of(const CoreFace &face) noexcept {
     Vec3 area(0.0);
-    for (int i = 1; i + 1 < face.count; ++i) {
-        area += glm::cross(face.corners[static_cast<std::size_t>(i)] - face.corners[0],
-                           face.corners[static_cast<std::size_t>(i + 1)] - face.corners[0]);
+    const auto count = static_cast<std::size_t>(face.count);
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        area +=
+            glm::cross(face.corners[i] - face.corners[0], face.corners[i + 1] - face.corners[0]);
     }
     const double length = glm::length(area);
     return length > 0.0 ? area / length : Vec3(0.0);

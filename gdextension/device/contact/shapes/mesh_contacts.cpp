@@ -27,8 +27,9 @@ constexpr double kAlong = 0.9986; // normals within 3 degrees
 // beyond edge i. Only where it does for both triangles of an edge can the edge be nearest to the tool.
 constexpr std::uint8_t kUnseen = 8; // seen from behind: the other triangle alone says it
 
-class MeshContacts { // NOLINT(cppcoreguidelines-pro-type-member-init)
+class MeshContacts {
 public:
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): large, and filled before it is read
     MeshContacts(const TriangleSource &source, const ToolShape::Data &tool,
                  const Placement &tool_at, double margin_m, const PairMemory &memory,
                  ContactCandidates &found) noexcept

@@ -33,8 +33,9 @@ struct NearerLast {
     }
 };
 
-class Gatherer { // NOLINT(cppcoreguidelines-pro-type-member-init)
+class Gatherer {
 public:
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): large, and filled before it is read
     Gatherer(const TriangleSource &source, const ToolShape::Data &tool, const Placement &tool_at,
              double reach_m, PairMemory &memory) noexcept
         : source_(source), memory_(memory), reach_m_(reach_m), core_(view_of(tool.core)),
@@ -113,8 +114,9 @@ private:
 };
 
 // Places of the list by the numbers of their triangles: a table at most half full.
-class Places { // NOLINT(cppcoreguidelines-pro-type-member-init)
+class Places {
 public:
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     explicit Places(const PairMemory &memory) noexcept : memory_(memory) {
         table_.fill(kNoTriangle);
         for (int place = 0; place < memory.count; ++place) {
@@ -135,12 +137,12 @@ public:
     }
 
 private:
-    static constexpr std::size_t kSlots = std::size_t{2} * kMaxNearTriangles;
+    static constexpr std::size_t kSlots = 4096;
 
     static std::size_t slot_of(std::uint32_t triangle) noexcept {
-        return (triangle * 0x9e3779b1U) >> 21U; // Knuth's multiplication; the upper 11 bits
+        return (triangle * 0x9e3779b1U) >> 20U; // Knuth's multiplication; the upper 12 bits
     }
-    static_assert(kSlots == 1U << 11U);
+    static_assert(kSlots == 1U << 12U && kSlots / 2 > kMaxNearTriangles);
 
     const PairMemory &memory_;
     std::array<std::uint16_t, kSlots> table_;
