@@ -66,7 +66,8 @@ bool Replay::restore(ServoStep &step) noexcept {
     if (sound) {
         ServoStep found; // of this build (why_no_replay), trivially copyable (recorder.cpp)
         std::memcpy(static_cast<void *>(&found), memory.data(), sizeof found);
-        sound = found.is_sound();
+        // It counts the cycles as the file does.
+        sound = found.is_sound() && found.snapshot().counters.ticks + 1 == cycle_.tick;
         if (sound) {
             step = found;
         }
