@@ -127,6 +127,7 @@ stress() { # stress BIN_FOLDER PROBLEMS DEVICE_RUNS
             $program != */stress_servo_step ]] || cases=$((5 * cases))
         [[ $program != */stress_servo ]] || cases=$3
         [[ $program != */stress_replay ]] || cases=1
+        [[ $program != */stress_shapes ]] || cases=200 # 1200 tools on 200 fields, against all triangles
         [[ $program != */stress_recordings ]] || ((cases <= 100000)) || cases=100000
         # A case is ten seconds of motion for each of six kinds of errors; the time of sanitized code is nobody's bar.
         [[ $program != */stress_tracking ]] || { [[ $1 == build/bin ]] && cases=20 || continue; }
