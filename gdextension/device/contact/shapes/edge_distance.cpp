@@ -39,14 +39,18 @@ struct EdgeOverDisc {
         if (high_slope <= 0.0) {
             return 1.0;
         }
-        // Regula falsi by the Illinois rule; 6 to 10 steps are usual.
-        constexpr int kMaxSteps = 40;
+        // Regula falsi by the Illinois rule, and a bisection after a step that did not halve the interval: at the rim the
+        // slope may be a thousand times steeper on one side. 10 steps are usual.
+        constexpr int kMaxSteps = 80;
         constexpr double kTolerance = 1e-12; // of the edge
         const double small = kTolerance * glm::dot(along, along);
         double t = 0.5;
         int side = 0;
+        bool bisect = false;
         for (int step = 0; step < kMaxSteps && high - low > kTolerance; ++step) {
-            t = (low * high_slope - high * low_slope) / (high_slope - low_slope);
+            const double width = high - low;
+            t = bisect ? 0.5 * (low + high)
+                       : (low * high_slope - high * low_slope) / (high_slope - low_slope);
             const double here = slope(t);
             if (std::abs(here) <= small) {
                 break;
@@ -62,6 +66,7 @@ struct EdgeOverDisc {
                 high_slope *= side == -1 ? 0.5 : 1.0;
                 side = -1;
             }
+            bisect = !bisect && high - low > 0.5 * width;
         }
         return t;
     }
