@@ -81,7 +81,17 @@ public:
         return observer_.update(counts, lengths, kinematics_.update(lengths));
     }
 
-private:
+    // Forgets what it has seen: the pose and the observer's suspicions.
+    void reset() noexcept {
+        kinematics_.reset();
+        observer_.reset();
+    }
+    // Two observers of one device see the same: this one is asked in place of its own.
+    const FaultEvidence &step_with(StringFaultObserver &other, const CountArray &counts) {
+        const StringArray lengths = lengths_from_counts(believed_, counts);
+        return other.update(counts, lengths, kinematics_.update(lengths));
+    }
+    [[nodiscard]] StringFaultObserver observer() const { return observer_; }
     CountArray counts_at_time(double t) {
         const auto s = static_cast<std::size_t>(fault_.string);
         const bool on = t >= fault_.onset_s;
@@ -108,6 +118,7 @@ private:
         return counts;
     }
 
+private:
     FaultCase fault_;
     Draw &draw_;
     MotionLikeT1 motion_;

@@ -42,7 +42,8 @@ void PoseBlend::start(const GripPose &shown, const GripPose &found) noexcept {
     const double arc_m = glm::length(found.r1_m) * std::max(angle_between(shown.r1_m, found.r1_m),
                                                             angle_between(shown.r2_m, found.r2_m));
     const double way_m = glm::distance(shown.position_m, found.position_m) + arc_m;
-    left_ = std::min(kLongest_ticks, 1 + static_cast<int>(way_m / kStep_m));
+    const double steps = std::min(way_m / kStep_m, static_cast<double>(kLongest_ticks - 1));
+    left_ = steps >= 0.0 ? 1 + static_cast<int>(steps) : 1; // a way that is no number is none
 }
 
 GripPose PoseBlend::next(const GripPose &found) noexcept {

@@ -43,6 +43,33 @@ TEST_CASE("string faults: large errors that once threw a guess to where no pose 
     }
 }
 
+TEST_CASE("string faults: after reset() an observer says what a fresh one says, tick for tick") {
+    for (const StringFault before : {StringFault::slipped, StringFault::swapped}) {
+        Draw draw(17);
+        FaultyDevice suspicious(random_fault(draw, before), draw);
+        for (int k = 0; k < 3000; ++k) {
+            suspicious.step(k * kTick_s);
+        }
+        StringFaultObserver used = suspicious.observer();
+        used.reset();
+        // Another device's lengths, with a fault of its own: scores and suspects go through all they can.
+        FaultyDevice device(random_fault(draw, StringFault::slack), draw);
+        StringFaultObserver fresh = device.observer();
+        fresh.reset();
+        FaultyDevice other = device; // the same kinematics for both
+        for (int k = 0; k < 4000; ++k) {
+            const CountArray counts = device.counts_at_time(k * kTick_s);
+            const FaultEvidence expected = device.step_with(fresh, counts);
+            const FaultEvidence found = other.step_with(used, counts);
+            REQUIRE(found.fault == expected.fault);
+            REQUIRE(found.string == expected.string);
+            REQUIRE(found.misfit == expected.misfit);
+            REQUIRE(found.next_misfit == expected.next_misfit);
+            REQUIRE(found.parity_rms_m == expected.parity_rms_m);
+        }
+    }
+}
+
 TEST_CASE("string faults: a healthy device is not accused") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         Draw draw(seed);

@@ -280,6 +280,10 @@ TEST_CASE(
     machine.clear(true);
     CHECK(machine.state() == DeviceState::connected);
     CHECK_FALSE(machine.needs_clearing());
+    // Lost once more, for another reason.
+    (void)machine.stop(StopReason::device_lost, Status::write_failed);
+    CHECK(machine.state() == DeviceState::closed);
+    CHECK(machine.fault() == Status::write_failed);
     // Other reasons mean nothing to a device that is closed.
     machine = machine_in(DeviceState::closed);
     (void)machine.stop(StopReason::fault, Status::loop_stalled);

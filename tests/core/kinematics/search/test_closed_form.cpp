@@ -97,3 +97,45 @@ TEST_CASE("closed form: the misfit is nothing for the true pair and foretells th
     }
     CHECK(wrong > 0);
 }
+
+TEST_CASE("closed form: the forecast is nothing for the true pair, never negative, and near the "
+          "misfit of small errors") {
+    const GripGeometry grip;
+    const FrameGeometry frame = test::paper_frame();
+    test::Random random(9);
+    int compared = 0;
+    double worst = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const GripPose truth = random.pose(grip, 0.12, 25.0 * kDeg);
+        StringArray lengths = string_lengths(frame, grip, truth);
+        const auto form_of = [&](const StringArray &of) {
+            return solve_closed_form(Vec3(kPaperHalfExtent_m), grip.pole_half_length_m, of);
+        };
+        const ClosedForm form = form_of(lengths);
+        const RootHeights heights = root_heights(form);
+        for (std::size_t flipped = 0; flipped < 2; ++flipped) {
+            for (std::size_t face = 0; face < 2; ++face) {
+                CHECK(heights.slope_m[flipped][face] >= 0.0);
+            }
+        }
+        for (int pair = 0; pair < kRootPairCount; ++pair) {
+            const MisfitForecast forecast = forecast_misfit(heights, grip.pole_half_length_m, pair);
+            CHECK(forecast.misfit_m >= 0.0);
+            CHECK(forecast.gain > 1.0);
+            const RootPairPose found = root_pair_pose(form, pair);
+            if (test::distance(pose_of(found.pose), truth) < 1e-9) {
+                CHECK(forecast.misfit_m < 1e-7);
+            }
+        }
+        // Lengths with an error: of the true pair, what the forecast says lies near what is left once the errors are
+        // shared out (KinematicsResult: the best pose's residual), within the forecast's own gain.
+        lengths[static_cast<std::size_t>(i % kStringCount)] += 1e-4;
+        const RootHeights moved = root_heights(form_of(lengths));
+        const double least = forecast_misfit(moved, grip.pole_half_length_m, 0).misfit_m;
+        ++compared;
+        worst = std::fmax(worst, least);
+    }
+    CHECK(compared == 1000);
+    CHECK(worst > 1e-6); // an error is seen
+    CHECK(worst < 1e-2); // and not blown up beyond its gain
+}

@@ -194,6 +194,30 @@ TEST_CASE("DOF mask: a far bound guessed wrongly leaves no rounding behind (foun
     }
 }
 
+TEST_CASE(
+    "DOF mask: translation alone is answered the fast way nearly always, by the exact answer") {
+    for (const SimdLevel level : levels()) {
+        int answered = 0;
+        constexpr std::uint64_t kProblems = 400;
+        for (std::uint64_t seed = 120000; seed < 120000 + kProblems; ++seed) {
+            TensionProblem problem = test::random_problem(seed).problem;
+            problem.weights = {1, 1, 1, 0, 0, 0, 0};
+            problem.proximal_weight = 1e-3;
+            TensionSolution fast;
+            if (!solve_fast(FastInput::of(problem), nullptr, level, fast)) {
+                continue;
+            }
+            ++answered;
+            const StringArray safe = solve_exactly(problem, nullptr).tensions_n;
+            CAPTURE(seed);
+            for (std::size_t i = 0; i < safe.size(); ++i) {
+                CHECK(std::abs(fast.tensions_n[i] - safe[i]) < 1e-10);
+            }
+        }
+        CHECK(answered > static_cast<int>(kProblems) * 80 / 100); // 15 % are made to be hard
+    }
+}
+
 TEST_CASE("DOF mask: what is left out weighs nothing, what remains is met") {
     test::Random random(31);
     const FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
