@@ -351,6 +351,72 @@ long run_set(const Set &set, const std::vector<ContactPeer> &peers, std::vector<
     return entries[0].failures;
 }
 
+// --- A tool that slides over the field, its triangles remembered -----------------------------------
+
+constexpr double kPeriod_s = 1e-3;
+constexpr double kSpeed_m_s = 0.4;
+constexpr double kCircle_m = 0.15; // radius of the way
+
+// Half a millimetre over the field, flat on it.
+Placement on_field(double time_s, double half_thickness_m) {
+    const double angle = kSpeed_m_s * time_s / kCircle_m;
+    const double x = kCircle_m * std::cos(angle);
+    const double z = kCircle_m * std::sin(angle);
+    constexpr double kStep_m = 1e-6;
+    const Vec3 up = glm::normalize(
+        Vec3(field_height(x - kStep_m, z) - field_height(x + kStep_m, z), 2.0 * kStep_m,
+             field_height(x, z - kStep_m) - field_height(x, z + kStep_m)));
+    const Vec3 side = glm::normalize(glm::cross(up, Vec3(0.0, 0.0, 1.0)));
+    return {Vec3(x, field_height(x, z), z) + (half_thickness_m + 5e-4) * up,
+            Mat3(side, up, glm::cross(side, up))};
+}
+
+// Errors: against the same question with nothing remembered.
+long slide(const char *name, const ToolShape &tool, double half_thickness_m, int cells,
+           std::vector<BenchRow> &rows) {
+    const auto mesh = cooked(field(cells));
+    const std::size_t ticks = limited(kPairs);
+    Set set;
+    set.name = name;
+    Entry entry("ours", ticks);
+    const auto memory = std::make_unique<PairMemory>();
+    const auto nothing = std::make_unique<PairMemory>();
+    for (int run = 0; run < kRuns; ++run) {
+        memory->forget();
+        for (std::size_t tick = 0; tick < ticks; ++tick) {
+            const Placement at = on_field(kPeriod_s * static_cast<double>(tick), half_thickness_m);
+            ClosestPoints found;
+            entry.times.time(tick, [&] {
+                static_cast<void>(closest_points(tool, at, *mesh, {}, 1e-3, *memory, found));
+            });
+            nothing->forget();
+            ClosestPoints fresh;
+            static_cast<void>(closest_points(tool, at, *mesh, {}, 1e-3, *nothing, fresh));
+            const Answer answer{found.points[0].gap_m, found.points[0].normal};
+            const Pair exact{{}, {}, fresh.points[0].gap_m, fresh.points[0].normal};
+            if (run == 0 && (found.count == 0 || fresh.count == 0)) {
+                ++entry.failures;
+            } else if (run == 0) {
+                entry.judge(answer, exact);
+            }
+        }
+    }
+    report(set, entry, rows);
+    return entry.failures;
+}
+
+long slides(std::vector<BenchRow> &rows) {
+    const auto ball = make_sphere(0.012).tool;
+    const auto pad = make_pad(0.012, 0.003, 0.003).tool;
+    const auto bar = make_tool(*box(Vec3(0.02)), kSkin_m).tool;
+    return slide("ball sliding, 20,000", *ball, 0.012, 100, rows) +
+           slide("ball sliding, 100,000", *ball, 0.012, 224, rows) +
+           slide("pad sliding, 20,000", *pad, 0.003, 100, rows) +
+           slide("pad sliding, 100,000", *pad, 0.003, 224, rows) +
+           slide("box of 40 mm sliding, 20,000", *bar, 0.02, 100, rows) +
+           slide("box of 40 mm sliding, 100,000", *bar, 0.02, 224, rows);
+}
+
 } // namespace
 
 int bench_contacts(std::vector<BenchRow> &rows) {
@@ -360,6 +426,7 @@ int bench_contacts(std::vector<BenchRow> &rows) {
     for (const Set &set : make_sets(limited(kPairs))) {
         failures += run_set(set, peers, rows);
     }
+    failures += slides(rows);
     return failures == 0 ? 0 : 1;
 }
 

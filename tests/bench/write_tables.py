@@ -98,7 +98,8 @@ def contacts(results):
         cells = [of_set]
         for method in methods:
             gap, normal = (find(rows, method, of_set, mode) for mode in ("gap (m)", "normal (rad)"))
-            cells.append("-" if gap is None else f"{gap['median_ns']:.0f}; {gap['worst_error']:.0e} m, "
+            tail = f" (p99.9 {gap['p999_ns']:.0f})" if gap and "sliding" in of_set else ""
+            cells.append("-" if gap is None else f"{gap['median_ns']:.0f}{tail}; {gap['worst_error']:.0e} m, "
                          f"{normal['worst_error']:.0e} rad" + (f"; {gap['failures']} wrong" if gap["failures"] else ""))
         lines.append(cells)
     return table(["pair", *methods], lines)
