@@ -4,21 +4,26 @@ namespace spidar {
 
 ProxyMemory::ProxyMemory() : slots_(std::make_unique<std::array<Slot, kPairs>>()) {}
 
-PairMemory &ProxyMemory::of(std::int32_t tool_id, std::int32_t scene_id) noexcept {
+PairMemory &ProxyMemory::of(const ToolPart &tool, const ScenePart &scene) noexcept {
     ++clock_;
-    Slot *oldest = slots_->data();
+    const std::array<std::uint64_t, 2> ids{static_cast<std::uint64_t>(tool.id),
+                                           static_cast<std::uint64_t>(scene.id)};
+    const std::array<std::uint64_t, 2> shapes{tool.shape->number(), scene.shape->number()};
+    Slot *chosen = slots_->data();
     for (Slot &slot : *slots_) {
-        if (slot.used != 0 && slot.tool_id == tool_id && slot.scene_id == scene_id) {
-            slot.used = clock_;
-            return slot.memory;
+        if (slot.used != 0 && slot.ids == ids) {
+            chosen = &slot;
+            break;
         }
-        oldest = slot.used < oldest->used ? &slot : oldest;
+        chosen = slot.used < chosen->used ? &slot : chosen;
     }
-    oldest->tool_id = tool_id;
-    oldest->scene_id = scene_id;
-    oldest->used = clock_;
-    oldest->memory.forget();
-    return oldest->memory;
+    if (chosen->ids != ids || chosen->shapes != shapes) {
+        chosen->ids = ids;
+        chosen->shapes = shapes;
+        chosen->memory.forget();
+    }
+    chosen->used = clock_;
+    return chosen->memory;
 }
 
 } // namespace spidar

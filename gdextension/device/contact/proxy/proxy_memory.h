@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "device/contact/proxy/contact_scene.h"
+#include "device/contact/proxy/tool.h"
 #include "device/contact/shapes/closest_points.h"
 
 namespace spidar {
@@ -13,14 +15,14 @@ namespace spidar {
 class ProxyMemory {
 public:
     ProxyMemory();
-    // Of this pair; another pair's is forgotten for it when there are many.
-    [[nodiscard]] PairMemory &of(std::int32_t tool_id, std::int32_t scene_id) noexcept;
+    // Of this pair; another pair's is forgotten for it when there are many, and its own when a shape is another one.
+    [[nodiscard]] PairMemory &of(const ToolPart &tool, const ScenePart &scene) noexcept;
 
 private:
     static constexpr std::size_t kPairs = 32;
     struct Slot {
-        std::int32_t tool_id = 0;
-        std::int32_t scene_id = 0;
+        std::array<std::uint64_t, 2> ids{};
+        std::array<std::uint64_t, 2> shapes{}; // their numbers
         std::uint64_t used = 0;
         PairMemory memory;
     };

@@ -124,9 +124,8 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
                 continue;
             }
             ++queries_;
-            const Status status =
-                closest_points(*part.shape, at, *other.shape, other.at, settings_.margin_m,
-                               memory.of(part.id, other.id), found);
+            const Status status = closest_points(*part.shape, at, *other.shape, other.at,
+                                                 settings_.margin_m, memory.of(part, other), found);
             for (int i = 0; usable(status) && i < found.count; ++i) {
                 const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
                 ProxyContact contact;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <string>
 
@@ -222,7 +223,13 @@ std::size_t bytes_of(const std::vector<T> &list) noexcept {
 
 } // namespace
 
-CookedShape::CookedShape(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+std::uint64_t new_shape_number() noexcept {
+    static std::atomic<std::uint64_t> last{0};
+    return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+CookedShape::CookedShape(std::unique_ptr<const Data> data)
+    : data_(std::move(data)), number_(new_shape_number()) {}
 CookedShape::~CookedShape() = default;
 
 ShapeKind CookedShape::kind() const noexcept {

@@ -52,6 +52,9 @@ struct ShapeDescription {
 
 struct CookResult;
 
+// The next one that no shape has had.
+[[nodiscard]] std::uint64_t new_shape_number() noexcept;
+
 class CookedShape {
 public:
     struct Data; // shape_data.h; only this room looks inside
@@ -69,8 +72,13 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept;
     [[nodiscard]] const Data &data() const noexcept { return *data_; }
 
+    // No other cooked or tool shape of this process has it, now or later: what was remembered of a shape is not taken for
+    // another's.
+    [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+
 private:
     std::unique_ptr<const Data> data_;
+    std::uint64_t number_;
 };
 
 struct CookResult {

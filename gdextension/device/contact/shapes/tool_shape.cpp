@@ -31,7 +31,8 @@ double skin_for(double wanted_m, double half_thickness_m) {
 
 } // namespace
 
-ToolShape::ToolShape(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+ToolShape::ToolShape(std::unique_ptr<const Data> data)
+    : data_(std::move(data)), number_(new_shape_number()) {}
 ToolShape::~ToolShape() = default;
 
 double ToolShape::skin_m() const noexcept {

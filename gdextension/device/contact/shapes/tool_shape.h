@@ -28,8 +28,12 @@ public:
     [[nodiscard]] double reach_m() const noexcept;
     [[nodiscard]] const Data &data() const noexcept { return *data_; }
 
+    // As CookedShape::number().
+    [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+
 private:
     std::unique_ptr<const Data> data_;
+    std::uint64_t number_;
 };
 
 struct ToolResult {

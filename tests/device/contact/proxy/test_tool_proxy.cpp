@@ -381,6 +381,34 @@ TEST_CASE("proxy: a way round in contact without friction gives back what it too
     CHECK(std::abs(work_j) < 0.02 * turned_over_j);
 }
 
+TEST_CASE("proxy: another shape under the same id is looked at anew") {
+    const auto field = [](int cells, double height_m) {
+        ShapeDescription description;
+        description.kind = ShapeKind::height_map;
+        description.columns = cells + 1;
+        description.rows = cells + 1;
+        description.spacing_x_m = 0.2 / cells;
+        description.spacing_z_m = 0.2 / cells;
+        description.heights_m.assign(static_cast<std::size_t>((cells + 1) * (cells + 1)),
+                                     static_cast<float>(height_m));
+        return cook(std::move(description)).shape;
+    };
+    Rig rig;
+    rig.add_tool(make_sphere(0.012));
+    rig.add(field(100, 0.0)); // triangle numbers up to 20,000
+    rig.start_at(at(Vec3(0.09, 0.02, 0.09)));
+    rig.move_to(at(Vec3(0.09, 0.007, 0.09)), 100);
+    CHECK(rig.proxy.wrench().force_n.y == doctest::Approx(5.0).epsilon(1e-3));
+    const auto coarse = field(4, -0.001);
+    rig.keep.push_back(coarse);
+    rig.scene.parts[0].shape = coarse.get(); // 32 triangles
+    rig.tick();
+    rig.tick();
+    CHECK(rig.proxy.wrench().force_n.y == doctest::Approx(4.0).epsilon(1e-3));
+    ProxyMemory memory;
+    CHECK(memory.of(rig.tool.parts[0], rig.scene.parts[0]).slack_m < 0.0);
+}
+
 TEST_CASE("proxy: what is not finite pushes nothing, and the proxy waits") {
     Rig rig;
     rig.add_tool(make_sphere(0.012));
