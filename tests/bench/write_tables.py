@@ -98,9 +98,13 @@ def contacts(results):
         cells = [of_set]
         for method in methods:
             gap, normal = (find(rows, method, of_set, mode) for mode in ("gap (m)", "normal (rad)"))
-            tail = f" (p99.9 {gap['p999_ns']:.0f})" if gap and "sliding" in of_set else ""
-            cells.append("-" if gap is None else f"{gap['median_ns']:.0f}{tail}; {gap['worst_error']:.0e} m, "
-                         f"{normal['worst_error']:.0e} rad" + (f"; {gap['failures']} wrong" if gap["failures"] else ""))
+            if gap is None:
+                cells.append("-")
+            elif "sliding" in of_set:  # its error is that against a fresh answer of ours; stress_shapes has the true one
+                cells.append(f"{gap['median_ns']:.0f} (p99.9 {gap['p999_ns']:.0f})")
+            else:
+                wrong = f"; {gap['failures']} wrong" if gap["failures"] else ""
+                cells.append(f"{gap['median_ns']:.0f}; {gap['worst_error']:.0e} m, {normal['worst_error']:.0e} rad{wrong}")
         lines.append(cells)
     return table(["pair", *methods], lines)
 
