@@ -86,6 +86,36 @@ TEST_CASE("motion filter: at rest it is exactly at rest") {
     CHECK(filter.velocity().linear_m_s.x == 0.0);
 }
 
+TEST_CASE("motion filter: after reset() in the middle of a motion it is as a new one") {
+    MotionFilter fresh;
+    fresh.configure(RenderSettings(), 1.0 / kTick_s);
+    MotionFilter used = fresh;
+    for (int i = 0; i < 7; ++i) {
+        used.update(along_x(3e-4), kTick_s);
+    }
+    used.reset();
+    CHECK(used.ahead().linear_m.x == 0.0);
+    for (int i = 0; i < 20; ++i) {
+        fresh.update(along_x(1e-4), kTick_s);
+        used.update(along_x(1e-4), kTick_s);
+        CHECK(used.ahead().linear_m.x == fresh.ahead().linear_m.x);
+        CHECK(used.velocity().linear_m_s.x == fresh.velocity().linear_m_s.x);
+    }
+}
+
+TEST_CASE("motion filter: time steps of any length give the motion of even ones") {
+    MotionFilter even;
+    even.configure(RenderSettings(), 1.0 / kTick_s);
+    MotionFilter odd = even;
+    for (int i = 0; i < 400; ++i) { // 0.1 m/s, seen each millisecond, and at 0.4 and 1.6 ms in turn
+        even.update(along_x(1e-4), kTick_s);
+        const double step_s = i % 2 == 0 ? 0.4e-3 : 1.6e-3;
+        odd.update(along_x(0.1 * step_s), step_s);
+    }
+    CHECK(odd.velocity().linear_m_s.x == doctest::Approx(0.1).epsilon(1e-3));
+    CHECK(odd.ahead().linear_m.x == doctest::Approx(even.ahead().linear_m.x).epsilon(0.02));
+}
+
 TEST_CASE("motion filter: a resonance beyond the rate, or none, leaves the pose as measured") {
     for (const double hz : {0.0, 60.0}) {
         RenderSettings settings;
