@@ -35,18 +35,6 @@ bool is_grasp_stop(const ContactPlane &plane) noexcept {
     return plane.target == ContactTarget::grasp_stop;
 }
 
-// Of what a contact and the deepest one would push alone, the most that it pushes beside others: reached in a wedge
-// of 50 degrees, and where no place satisfies all.
-constexpr double kMostPush = 1.5;
-
-double own_push(const ConstraintRow &row) noexcept {
-    double square = 0.0;
-    for (const double value : row.row) {
-        square += value * value;
-    }
-    return square > 0.0 ? std::max(row.depth, 0.0) / square : 0.0;
-}
-
 bool is_turn_stop(const ContactPlane &plane) noexcept {
     return plane.target == ContactTarget::turn_stop;
 }

@@ -78,6 +78,14 @@ std::uint32_t negatives(const std::array<double, kRows> &push, std::uint32_t mas
 
 } // namespace
 
+double own_push(const ConstraintRow &row) noexcept {
+    double square = 0.0;
+    for (const double value : row.row) {
+        square += value * value;
+    }
+    return square > 0.0 ? std::max(row.depth, 0.0) / square : 0.0;
+}
+
 template <int kRows>
 RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
                             std::uint32_t first_guess, double softness) noexcept {

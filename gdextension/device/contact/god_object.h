@@ -22,6 +22,12 @@ struct ConstraintRow {
         0.0; // of what gives way behind the constraint; unit: that of depth per push
 };
 
+// Of what a constraint and the deepest one would push alone, the most that it pushes beside others: reached in a wedge of
+// 50 degrees, and where no place satisfies all, as in a slot that is too narrow.
+inline constexpr double kMostPush = 1.5;
+// What this constraint would push alone.
+[[nodiscard]] double own_push(const ConstraintRow &row) noexcept;
+
 template <int kRows>
 struct RowPushes {
     std::array<double, kRows> push{}; // >= 0; the move is the sum of push * row

@@ -27,9 +27,6 @@ constexpr double kAnticipated_m = 1e-6;
 constexpr double kTurned = 1.0 - 5e-7; // 1e-3 rad
 // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
 constexpr double kRowSoftness = 1e-7;
-// Of what a contact and the deepest one would push alone, the most that it pushes beside others: where no place satisfies
-// all, as in a slot that is too narrow.
-constexpr double kMostPush = 1.5;
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
@@ -42,25 +39,6 @@ double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexc
     return sum;
 }
 
-std::array<double, 8> scaled(const Displacement &move, const DofGains &stiffness,
-                             bool by_root) noexcept {
-    const DofLanes row = lanes(move);
-    std::array<double, 8> result{};
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const double root = std::sqrt(stiffness[i]);
-        result[i] = by_root ? row[i] * root : row[i] / root;
-    }
-    return result;
-}
-
-Displacement unscaled(const std::array<double, 8> &move, const DofGains &stiffness) noexcept {
-    DofLanes row{};
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        row[i] = move[i] / std::sqrt(stiffness[i]);
-    }
-    return of_lanes<Displacement>(row);
-}
-
 void move_on(ScenePart &part, double dt_s) noexcept {
     part.at.origin_m += dt_s * part.velocity_m_s;
     if (part.angular_rad_s != Vec3(0.0)) {
@@ -68,22 +46,19 @@ void move_on(ScenePart &part, double dt_s) noexcept {
     }
 }
 
-// No point of the tool is nearer to the shape than `margin_m`: told by its bounding box.
-bool is_far(const ToolShape &tool, const Placement &tool_at, const ScenePart &part,
-            double margin_m) noexcept {
-    const Vec3 centre_m = glm::transpose(part.at.rotation) * (tool_at.origin_m - part.at.origin_m);
-    const Vec3 outside_m = glm::max(
-        glm::max(part.shape->lower_m() - centre_m, centre_m - part.shape->upper_m()), Vec3(0.0));
-    const double reach_m = tool.reach_m() + margin_m;
-    return glm::dot(outside_m, outside_m) > reach_m * reach_m;
-}
-
 } // namespace
+
+void ToolProxy::configure(const ProxySettings &settings) noexcept {
+    settings_ = settings;
+    for (std::size_t dof = 0; dof < settings.stiffness.size(); ++dof) {
+        root_[dof] = std::sqrt(settings.stiffness[dof]);
+    }
+}
 
 void ToolProxy::put(const ToolPose &pose) noexcept {
     const ProxySettings settings = settings_;
     *this = ToolProxy();
-    settings_ = settings;
+    configure(settings);
     pose_ = pose;
     device_ = pose;
     placed_ = true;
@@ -120,7 +95,9 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
         const Placement at = placement_of(part, tool.jaws, pose_);
         for (int s = 0; s < scene.count; ++s) {
             const ScenePart &other = scene.parts[static_cast<std::size_t>(s)];
-            if (is_far(*part.shape, at, other, settings_.margin_m)) {
+            const Vec3 tool_m =
+                glm::transpose(other.at.rotation) * (at.origin_m - other.at.origin_m);
+            if (is_far(*part.shape, tool_m, *other.shape, settings_.margin_m)) {
                 continue;
             }
             ++queries_;
@@ -143,12 +120,78 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
     }
 }
 
+ToolProxy::Move ToolProxy::scaled(const Displacement &by) const noexcept {
+    const DofLanes row = lanes(by);
+    Move move{};
+    for (std::size_t dof = 0; dof < row.size(); ++dof) {
+        move[dof] = row[dof] * root_[dof];
+    }
+    return move;
+}
+
+Displacement ToolProxy::unscaled(const Move &move) const noexcept {
+    DofLanes row{};
+    for (std::size_t dof = 0; dof < row.size(); ++dof) {
+        row[dof] = move[dof] / root_[dof];
+    }
+    return of_lanes<Displacement>(row);
+}
+
+ToolProxy::Move ToolProxy::nearest_to(const Move &target, const Rows &rows,
+                                      const RowPushes<kMaxRows> &pushes) const noexcept {
+    Move move = target;
+    for (int i = 0; i < count_; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        for (std::size_t lane = 0; lane < move.size(); ++lane) {
+            move[lane] += pushes.push[k] * rows[k].row[lane];
+        }
+    }
+    return move;
+}
+
+double ToolProxy::length_of(const Move &move, const Tool &tool) const noexcept {
+    double reach_m = 0.0;
+    for (int t = 0; t < tool.count; ++t) {
+        const ToolPart &part = tool.parts[static_cast<std::size_t>(t)];
+        const double jaw_m =
+            part.mount == ToolMount::grip ? 0.0 : 0.5 * tool.jaws.gap_m(pose_.grasp_rad);
+        reach_m = std::max(reach_m, glm::length(part.at.origin_m) + jaw_m + part.shape->reach_m());
+    }
+    const Displacement by = unscaled(move);
+    return glm::length(by.linear_m) + reach_m * glm::length(by.angular_rad) +
+           0.5 * std::abs(tool.jaws.slope_m_rad(pose_.grasp_rad) * by.grasp_rad);
+}
+
+// Two steps that break no row have none between them that does: what gets out of the way, and a part of the rest.
+ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &least,
+                                     const Tool &tool, double most_m) const noexcept {
+    Rows rows = rows_;
+    for (int i = 0; i < count_; ++i) {
+        rows[static_cast<std::size_t>(i)].depth = least[static_cast<std::size_t>(i)];
+    }
+    // Without a row that the proxy stands in this costs nothing and is no move.
+    Move move =
+        nearest_to(Move{}, rows, solve_rows<kMaxRows>(rows, count_, active_mask_, kRowSoftness));
+    const double out_m = length_of(move, tool);
+    const double shrink = out_m > most_m ? most_m / out_m : 1.0;
+    Move rest{};
+    for (std::size_t lane = 0; lane < rest.size(); ++lane) {
+        move[lane] *= shrink;
+        rest[lane] = step[lane] - move[lane];
+    }
+    const double rest_m = length_of(rest, tool);
+    const double part =
+        rest_m > 0.0 ? std::clamp((most_m - shrink * out_m) / rest_m, 0.0, 1.0) : 0.0;
+    for (std::size_t lane = 0; lane < rest.size(); ++lane) {
+        move[lane] += part * rest[lane];
+    }
+    return move;
+}
+
 bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                              double dt_s) noexcept {
-    const DofGains &stiffness = settings_.stiffness;
-    const std::array<double, 8> target = scaled(between(pose_, device), stiffness, true);
-    std::array<double, kMaxRows> least{}; // what the proxy itself must move along row i
-    bool entered = false;
+    const Move target = scaled(between(pose_, device));
+    std::array<double, kMaxRows> least{};
     double fastest_m_s = 0.0;
     for (int s = 0; s < scene.count; ++s) {
         const ScenePart &part = scene.parts[static_cast<std::size_t>(s)];
@@ -157,88 +200,41 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const ProxyContact &contact = contacts_[k];
-        const ToolPart &part = tool.parts[contact.tool_part];
         const ScenePart &other = scene.parts[contact.scene_part];
-        const Displacement along =
-            moves_along(part, tool.jaws, pose_, contact.point_m, contact.normal);
+        const DofLanes along = lanes(moves_along(tool.parts[contact.tool_part], tool.jaws, pose_,
+                                                 contact.point_m, contact.normal));
         const double comes_m =
             dt_s * glm::dot(contact.normal, surface_velocity(other, contact.point_m));
         rows_[k] = ConstraintRow();
-        rows_[k].row = scaled(along, stiffness, false);
+        for (std::size_t dof = 0; dof < along.size(); ++dof) {
+            rows_[k].row[dof] = along[dof] / root_[dof];
+        }
         least[k] = comes_m - contact.gap_m;
-        entered = entered || least[k] > 0.0;
         rows_[k].depth = least[k] - dot(rows_[k].row, target);
     }
     const RowPushes<kMaxRows> solved =
         solve_rows<kMaxRows>(rows_, count_, active_mask_, kRowSoftness);
     active_mask_ = solved.active_mask;
-    std::array<double, 8> step = target;
-    for (int i = 0; i < count_; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        for (std::size_t lane = 0; lane < step.size(); ++lane) {
-            step[lane] += solved.push[k] * rows_[k].row[lane];
-        }
-    }
-    double reach_m = 0.0;
-    for (int t = 0; t < tool.count; ++t) {
-        const ToolPart &part = tool.parts[static_cast<std::size_t>(t)];
-        const double jaw_m =
-            part.mount == ToolMount::grip ? 0.0 : 0.5 * tool.jaws.gap_m(pose_.grasp_rad);
-        reach_m = std::max(reach_m, glm::length(part.at.origin_m) + jaw_m + part.shape->reach_m());
-    }
-    const auto length_of = [&](const std::array<double, 8> &move) {
-        const Displacement by = unscaled(move, stiffness);
-        return glm::length(by.linear_m) + reach_m * glm::length(by.angular_rad) +
-               0.5 * std::abs(tool.jaws.slope_m_rad(pose_.grasp_rad) * by.grasp_rad);
-    };
+    Move step = nearest_to(target, rows_, solved);
     const double most_m = std::max(kPartOfMargin * (settings_.margin_m - fastest_m_s * dt_s),
                                    kLeastStep * settings_.margin_m);
-    const double length_m = length_of(step);
-    const bool cut = length_m > most_m;
+    const bool cut = length_of(step, tool) > most_m;
     if (cut) {
-        // Two steps that break no row have none between them that does: what gets out of the way, and a part of the rest.
-        std::array<double, 8> out{};
-        if (entered) {
-            Rows rows = rows_;
-            for (int i = 0; i < count_; ++i) {
-                rows[static_cast<std::size_t>(i)].depth = least[static_cast<std::size_t>(i)];
-            }
-            const RowPushes<kMaxRows> leaving =
-                solve_rows<kMaxRows>(rows, count_, active_mask_, kRowSoftness);
-            for (int i = 0; i < count_; ++i) {
-                const auto k = static_cast<std::size_t>(i);
-                for (std::size_t lane = 0; lane < out.size(); ++lane) {
-                    out[lane] += leaving.push[k] * rows[k].row[lane];
-                }
-            }
-        }
-        const double out_m = length_of(out);
-        const double shrink = out_m > most_m ? most_m / out_m : 1.0;
-        std::array<double, 8> rest{};
-        for (std::size_t lane = 0; lane < rest.size(); ++lane) {
-            out[lane] *= shrink;
-            rest[lane] = step[lane] - out[lane];
-        }
-        const double rest_m = length_of(rest);
-        const double part =
-            rest_m > 0.0 ? std::clamp((most_m - shrink * out_m) / rest_m, 0.0, 1.0) : 0.0;
-        for (std::size_t lane = 0; lane < rest.size(); ++lane) {
-            step[lane] = out[lane] + part * rest[lane];
-        }
+        step = shortened(step, least, tool, most_m);
     }
     bool anticipated = false;
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const ProxyContact &contact = contacts_[k];
+        ProxyContact &contact = contacts_[k];
         if (solved.push[k] > 0.0 && !anticipated) {
             const ProxyContact *last = nearest_before(contact);
             anticipated = contact.gap_m > kAnticipated_m ||
                           (passes_ == 0 && last != nullptr &&
                            glm::dot(last->normal, contact.normal) < kTurned);
         }
-        contacts_[k].gap_m = dot(rows_[k].row, step) - least[k];
+        contact.gap_m = dot(rows_[k].row, step) - least[k];
     }
-    pose_ = moved(pose_, unscaled(step, stiffness));
+    pose_ = moved(pose_, unscaled(step));
     return cut || anticipated;
 }
 
@@ -271,7 +267,7 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         // The damper acts as a deeper spring: so the push stays one-sided, and shared.
         rows[k].depth = std::max(0.0, rows[k].depth - damping_n_s_m * softness_m_n *
                                                           glm::dot(contact.normal, speed_m_s));
-        alone[k] = rows[k].depth / softness_m_n;
+        alone[k] = own_push(rows[k]);
         deepest_n = std::max(deepest_n, alone[k]);
     }
     const RowPushes<kMaxRows> solved =
@@ -282,8 +278,7 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         const auto k = static_cast<std::size_t>(i);
         contacts_[k].push_n = std::min(solved.push[k], kMostPush * (alone[k] + deepest_n));
         for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-            sum[dof] +=
-                contacts_[k].push_n * rows[k].row[dof] * std::sqrt(settings_.stiffness[dof]);
+            sum[dof] += contacts_[k].push_n * rows[k].row[dof] * root_[dof];
         }
     }
     wrench_ = of_lanes<Wrench>(sum);

@@ -52,7 +52,7 @@ struct ProxySettings {
 
 class ToolProxy {
 public:
-    void configure(const ProxySettings &settings) noexcept { settings_ = settings; }
+    void configure(const ProxySettings &settings) noexcept;
     // The proxy is here: where the tool appears, in no surface.
     void put(const ToolPose &pose) noexcept;
 
@@ -78,9 +78,22 @@ public:
 private:
     using Contacts = std::array<ProxyContact, kMaxRows>;
     using Rows = std::array<ConstraintRow, kMaxRows>;
+    // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
+    using Move = std::array<double, 8>;
 
     void find_contacts(const Tool &tool, const ContactScene &scene, ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
+    [[nodiscard]] Move scaled(const Displacement &by) const noexcept;
+    [[nodiscard]] Displacement unscaled(const Move &move) const noexcept;
+    // The target moved by the pushes of the rows: as near to it as they let.
+    [[nodiscard]] Move nearest_to(const Move &target, const Rows &rows,
+                                  const RowPushes<kMaxRows> &pushes) const noexcept;
+    // No point of the tool moves further than this.
+    [[nodiscard]] double length_of(const Move &move, const Tool &tool) const noexcept;
+    // What breaks no row and is no longer than most_m, as near to `step` as can be told. least: what the proxy must move
+    // along each row.
+    [[nodiscard]] Move shortened(const Move &step, const std::array<double, kMaxRows> &least,
+                                 const Tool &tool, double most_m) const noexcept;
     // True: another look from where the proxy is now may bring it nearer to the device.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                       double dt_s) noexcept;
@@ -90,6 +103,7 @@ private:
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact) const noexcept;
 
     ProxySettings settings_;
+    Move root_{}; // of the stiffnesses
     ToolPose pose_;
     ToolPose device_; // of the last cycle
     bool placed_ = false;

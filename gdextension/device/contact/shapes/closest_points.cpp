@@ -21,14 +21,6 @@ Placement relative(const Placement &tool_at, const Placement &shape_at) noexcept
     return {back * (tool_at.origin_m - shape_at.origin_m), back * tool_at.rotation};
 }
 
-bool too_far(const CookedShape::Data &shape, const ToolShape::Data &tool, const Vec3 &tool_at,
-             double margin_m) noexcept {
-    const Vec3 apart =
-        glm::max(glm::max(shape.lower_m - tool_at, tool_at - shape.upper_m), Vec3(0.0));
-    const double reach = tool.reach_m + margin_m;
-    return glm::dot(apart, apart) > reach * reach;
-}
-
 // A flat wall without end: every corner of the tool has its exact distance, on both sides.
 void half_space_contacts(const ShapeDescription &wall, const ToolShape::Data &tool,
                          const Placement &tool_at, double margin_m,
@@ -97,6 +89,14 @@ private:
 
 } // namespace
 
+bool is_far(const ToolShape &tool, const Vec3 &tool_m, const CookedShape &shape,
+            double margin_m) noexcept {
+    const Vec3 apart_m =
+        glm::max(glm::max(shape.lower_m() - tool_m, tool_m - shape.upper_m()), Vec3(0.0));
+    const double reach_m = tool.reach_m() + margin_m;
+    return glm::dot(apart_m, apart_m) > reach_m * reach_m;
+}
+
 Status closest_points(const ToolShape &tool, const Placement &tool_at, const CookedShape &shape,
                       const Placement &shape_at, double margin_m, PairMemory &memory,
                       ClosestPoints &out) noexcept {
@@ -108,7 +108,7 @@ Status closest_points(const ToolShape &tool, const Placement &tool_at, const Coo
     const ToolShape::Data &tool_data = tool.data();
     const CookedShape::Data &shape_data = shape.data();
     const Placement at = relative(tool_at, shape_at);
-    if (too_far(shape_data, tool_data, at.origin_m, margin_m)) {
+    if (is_far(tool, at.origin_m, shape, margin_m)) {
         return Status::ok;
     }
     ContactCandidates found;

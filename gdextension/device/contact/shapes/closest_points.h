@@ -70,6 +70,11 @@ struct PairMemory {
     }
 };
 
+// No point of the tool is within margin_m of the shape: told by its reach and the shape's bounding box, without looking at
+// the shape itself. tool_m: the tool's origin in the shape's frame.
+[[nodiscard]] bool is_far(const ToolShape &tool, const Vec3 &tool_m, const CookedShape &shape,
+                          double margin_m) noexcept;
+
 // All contact points with a gap of at most margin_m; none: the tool may move by margin_m without touching. Up to four
 // for each pair of faces, the nearest first. Status::not_finite: a placement or the margin is not finite, out is empty.
 [[nodiscard]] Status closest_points(const ToolShape &tool, const Placement &tool_at,
