@@ -200,26 +200,39 @@ bool in_time(Condition condition) {
     return false;
 }
 
+// A rig with a thread of its own, on this device.
+void start_on(SlowEndpoint &device, Fixture &f) {
+    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
+    f.rig = std::make_unique<CalibrationRig>(
+        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
+    REQUIRE(f.rig->start_threaded());
+}
+
+void watch(Fixture &f) {
+    ++f.orders.beat;
+    f.rig->give(f.orders);
+    (void)f.rig->latest(f.news);
+}
+
+// Watched until the motors are on; a busy machine may end the task: then again.
+void pull_taut(const SlowEndpoint &device, Fixture &f) {
+    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
+    REQUIRE(in_time([&] {
+        f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
+        watch(f);
+        return device.motors_on.load();
+    }));
+}
+
 } // namespace
 
 TEST_CASE("rig: an endpoint that takes 15 ms a write delays nothing: nobody watches, and a second "
           "later it is off") {
     SlowEndpoint device;
     Fixture f;
-    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
-    f.rig = std::make_unique<CalibrationRig>(
-        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
-    REQUIRE(f.rig->start_threaded());
+    start_on(device, f);
     REQUIRE(in_time([&] { return f.rig->latest(f.news) && f.news.readings > 0; }));
-    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
-    REQUIRE(in_time(
-        [&] { // watched, until the motors are on; a busy machine may end the task: then again
-            ++f.orders.beat;
-            f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
-            f.rig->give(f.orders);
-            (void)f.rig->latest(f.news);
-            return device.motors_on.load();
-        }));
+    pull_taut(device, f);
     // Nobody gives orders any more. A write takes 15 ms, so a second has no more than 67 of them: counting cycles
     // that each write would have taken a thousand.
     const int writes = device.writes;
@@ -239,18 +252,8 @@ TEST_CASE("rig: a device that takes 5 ms a reading: a second is a second, not a 
     device.write_takes_ms = 0;
     device.read_takes_ms = 5;
     Fixture f;
-    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
-    f.rig = std::make_unique<CalibrationRig>(
-        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
-    REQUIRE(f.rig->start_threaded());
-    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
-    REQUIRE(in_time([&] {
-        ++f.orders.beat;
-        f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
-        f.rig->give(f.orders);
-        (void)f.rig->latest(f.news);
-        return device.motors_on.load();
-    }));
+    start_on(device, f);
+    pull_taut(device, f);
     const int reads = device.reads;
     CHECK(in_time([&] { return !device.motors_on; }));
     CHECK(device.reads - reads <= 1.2 * kUnwatched_s / 0.005);
@@ -260,24 +263,11 @@ TEST_CASE("rig: a device that takes no more commands ends the task") {
     SlowEndpoint device;
     device.write_takes_ms = 0;
     Fixture f;
-    f.settings.scale_m_per_count.fill(f.plant.metres_per_count);
-    f.rig = std::make_unique<CalibrationRig>(
-        f.settings, [&](std::string &) { return std::make_unique<SlowEndpointTransport>(device); });
-    REQUIRE(f.rig->start_threaded());
-    f.orders.task = {CalibrationTask::taut, 0, 0.0, 1};
-    const auto watched = [&] {
-        ++f.orders.beat;
-        f.rig->give(f.orders);
-        (void)f.rig->latest(f.news);
-    };
-    REQUIRE(in_time([&] {
-        f.orders.task.number += f.news.task.verdict == TaskVerdict::stopped ? 1U : 0U;
-        watched();
-        return device.motors_on.load();
-    }));
+    start_on(device, f);
+    pull_taut(device, f);
     device.write_takes_ms = 300;
     CHECK(in_time([&] {
-        watched();
+        watch(f);
         return f.news.task.verdict == TaskVerdict::not_ready ||
                f.news.task.verdict == TaskVerdict::stopped;
     }));

@@ -1,6 +1,9 @@
 // What the tests of this room check of every answer.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "support/shape_samples.h"
@@ -25,6 +28,22 @@ inline void check_points(const ClosestPoints &found, double margin_m) {
               1e-12);
         CHECK(point.gap_m <= margin_m + 1e-12);
     }
+}
+
+// A flat tool across a block stands on four points, this far off, on the edges at +-half_m along x.
+inline void check_stands_on_edges(const ClosestPoints &found, double half_m, double gap_m,
+                                  double gap_error_m) {
+    REQUIRE(found.count == 4);
+    double left = 1.0;
+    double right = -1.0;
+    for (int i = 0; i < 4; ++i) {
+        const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
+        CHECK(std::abs(point.gap_m - gap_m) < gap_error_m);
+        left = std::min(left, point.on_shape_m.x);
+        right = std::max(right, point.on_shape_m.x);
+    }
+    CHECK(std::abs(left + half_m) < 1e-9);
+    CHECK(std::abs(right - half_m) < 1e-9);
 }
 
 } // namespace spidar::test

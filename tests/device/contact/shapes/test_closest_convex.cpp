@@ -194,17 +194,7 @@ TEST_CASE("closest points: a bar across a block touches along the block's edges"
     const ShapePtr block = box({0.01, 0.05, 0.05}); // its top is 20 mm wide
     const ClosestPoints found = ask(*held, {{0.08, 0.061, 0}, Mat3(1.0)}, *block, {}, 0.003);
     check_points(found, 0.003);
-    REQUIRE(found.count == 4);
-    double left = 1.0;
-    double right = -1.0;
-    for (int i = 0; i < 4; ++i) {
-        const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
-        CHECK(std::abs(point.gap_m - 0.001) < 1e-10);
-        left = std::min(left, point.on_shape_m.x);
-        right = std::max(right, point.on_shape_m.x);
-    }
-    CHECK(std::abs(left + 0.01) < 1e-9);
-    CHECK(std::abs(right - 0.01) < 1e-9);
+    check_stands_on_edges(found, 0.01, 0.001, 1e-10);
 }
 
 TEST_CASE("closest points: the margin decides what is told, and far shapes cost nothing") {

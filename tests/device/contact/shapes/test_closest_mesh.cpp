@@ -173,17 +173,7 @@ TEST_CASE("mesh contacts: a flat bar on a narrow block of triangles stands on th
     const ShapePtr block = cooked(box_mesh({0.01, 0.05, 0.05}));
     const ToolPtr bar = tool(make_tool(*box({0.1, 0.01, 0.01})));
     const ClosestPoints found = ask(*bar, {{0.08, 0.061, 0}, Mat3(1.0)}, *block, {}, 0.003);
-    REQUIRE(found.count == 4);
-    double left = 1.0;
-    double right = -1.0;
-    for (int i = 0; i < 4; ++i) {
-        const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
-        CHECK(std::abs(point.gap_m - 0.001) < 1e-9);
-        left = std::min(left, point.on_shape_m.x);
-        right = std::max(right, point.on_shape_m.x);
-    }
-    CHECK(std::abs(left + 0.01) < 1e-9);
-    CHECK(std::abs(right - 0.01) < 1e-9);
+    check_stands_on_edges(found, 0.01, 0.001, 1e-9);
 }
 
 TEST_CASE(
