@@ -116,6 +116,8 @@ struct LiveLimits {
     double max_grasp_stiffness_nm_rad = 0.0; // per radian of grasp_angle
 };
 
+struct TouchScene; // device/contact/touch
+
 struct HapticCommand {
     bool forces_enabled = false;
     // Edge counters: the device acts when a value differs from the last one it saw.
@@ -140,6 +142,10 @@ struct HapticCommand {
     std::array<ContactPlane, kMaxContacts> contacts{};
     // As Coupling::state_time_s.
     double contacts_state_time_s = -1.0;
+
+    // Null with another touch_sequence: nothing to touch. It stays as it is until the device has acknowledged a newer one.
+    std::uint64_t touch_sequence = 0;
+    const TouchScene *touch = nullptr;
 
     std::uint64_t coupling_sequence = 0;
     Coupling coupling;

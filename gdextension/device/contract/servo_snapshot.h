@@ -22,6 +22,45 @@ struct ContactReport {
     bool touching = false;
 };
 
+// What a part of the scene got from the tool (device/contact/touch).
+struct TouchPartReport {
+    std::int32_t id = 0;
+    bool touching = false;
+    Vec3 impulse_ns{0.0}; // on the part, summed since this id appeared
+    Vec3 angular_impulse_nms{0.0}; // about the part's origin
+};
+
+// A point where the tool touches, or is about to.
+struct TouchPointReport {
+    std::int32_t tool_id = 0;
+    std::int32_t scene_id = 0;
+    Vec3 point_m{0.0}; // on the surface of the scene
+    Vec3 normal{0.0};  // out of the scene
+    Vec3 force_n{0.0}; // on the tool
+    double gap_m = 0.0;
+};
+
+inline constexpr int kMostTouchParts = 32;
+inline constexpr int kMostTouchPoints = 24;
+struct TouchReport {
+    std::uint64_t sequence = 0; // of the scene that is rendered
+    // The proxy: where the tool appears, in no surface.
+    Vec3 position_m{0.0};
+    Mat3 rotation{1.0};
+    double grasp_rad = 0.0;
+    Wrench wrench; // of contacts and load on the hand, before limits
+    double stop_push_nm = 0.0; // grasp torque of the jaws' stop
+    DofGains stiffness{}; // in use
+    int part_count = 0;
+    int point_count = 0;
+    // Of the last cycle, and cycles whose answer was the last one's.
+    std::int32_t queries = 0;
+    std::int32_t passes = 0;
+    std::uint64_t skipped = 0;
+    std::array<TouchPartReport, kMostTouchParts> parts{}; // in the order of the scene
+    std::array<TouchPointReport, kMostTouchPoints> points{};
+};
+
 // Each only grows.
 struct ServoCounters {
     std::uint64_t ticks = 0;
@@ -68,6 +107,7 @@ struct ServoSnapshot {
     bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
+    TouchReport touch;
     // Work done on the hand in each DOF since the start: commanded tensions times the motion that the lengths show.
     std::array<double, kDofCount> injected_j{}; // in the order of DofGains
     GainClamp clamp;                            // the last gain that was brought down
@@ -85,6 +125,12 @@ struct ServoSnapshot {
                  is_sound(snapshot.clamp);
     for (const ContactReport &contact : snapshot.contacts) {
         sound = sound && are_flags(contact.touching);
+    }
+    const TouchReport &touch = snapshot.touch;
+    sound = sound && touch.part_count >= 0 && touch.part_count <= kMostTouchParts &&
+            touch.point_count >= 0 && touch.point_count <= kMostTouchPoints;
+    for (const TouchPartReport &part : touch.parts) {
+        sound = sound && are_flags(part.touching);
     }
     return sound;
 }

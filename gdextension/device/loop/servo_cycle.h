@@ -14,7 +14,9 @@ namespace spidar {
 
 class ServoCycle {
 public:
-    explicit ServoCycle(std::unique_ptr<CycleSource> source) : source_(std::move(source)) {}
+    explicit ServoCycle(std::unique_ptr<CycleSource> source) : source_(std::move(source)) {
+        step_.use(&touch_memory_);
+    }
 
     // At rest. What was asked and what happened before does not act after it.
     Status configure(const ServoSettings &settings) noexcept;
@@ -50,6 +52,7 @@ private:
     static constexpr std::size_t kWaitingEvents = 256;
 
     std::unique_ptr<CycleSource> source_;
+    ProxyMemory touch_memory_;
     ServoStep step_;
     double thermal_time_s_ = 0.0;
     std::uint64_t tick_ = 0;

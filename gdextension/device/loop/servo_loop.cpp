@@ -88,4 +88,20 @@ void ServoLoop::advance_to(std::uint64_t tick) noexcept {
     }
 }
 
+void ServoLoop::publish(HapticCommand &command, std::shared_ptr<const TouchScene> touch) {
+    command.touch = touch.get();
+    ++command.touch_sequence;
+    touches_.push_back({command.touch_sequence, std::move(touch)});
+    publish(command);
+}
+
+bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept {
+    const bool is_newer = cycle_.latest(snapshot);
+    // The loop holds the shapes of the scene that it renders, and looks at no older one.
+    while (is_newer && !touches_.empty() && touches_.front().sequence < snapshot.touch.sequence) {
+        touches_.pop_front();
+    }
+    return is_newer;
+}
+
 } // namespace spidar

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <string>
 
+#include "device/contact/touch/touch_scene.h"
 #include "device/contract/transport.h"
 #include "device/loop/loop_timing.h"
 #include "device/loop/servo_cycle.h"
@@ -59,8 +61,10 @@ public:
 
     // Newest command wins. Wait-free.
     void publish(const HapticCommand &command) noexcept { cycle_.source().publish(command); }
+    // The same with the scene that command.touch shall point to: kept, with its shapes, until the loop renders a newer one.
+    void publish(HapticCommand &command, std::shared_ptr<const TouchScene> touch);
     // The newest snapshot. True when it is newer than at the last call. Wait-free.
-    bool latest(ServoSnapshot &snapshot) noexcept { return cycle_.latest(snapshot); }
+    bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept { return timing_.statistics(); }
     // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
@@ -92,6 +96,11 @@ private:
     ServoThread thread_{cycle_, timing_};
     TickAccumulator ticks_; // stepped
     ServoSettings settings_;
+    struct Kept {
+        std::uint64_t sequence = 0;
+        std::shared_ptr<const TouchScene> touch;
+    };
+    std::deque<Kept> touches_; // that the loop's thread may still look at
     bool is_running_ = false;
 };
 

@@ -5,10 +5,13 @@
 namespace spidar {
 
 void HapticRenderer::configure(const ServoSettings &settings) noexcept {
+    const TouchRenderer touch = parts_.touch; // its memory
     *this = HapticRenderer();
+    parts_.touch = touch;
     const RenderSettings &render = settings.render;
     parts_.motion.configure(render, settings.rate_hz);
     parts_.contacts.configure(settings);
+    parts_.touch.configure(settings);
     parts_.coupling.configure(settings);
     parts_.wrench.configure(settings.safety);
     parts_.effects.configure(settings);
@@ -22,6 +25,7 @@ void HapticRenderer::configure(const ServoSettings &settings) noexcept {
 
 void HapticRenderer::retune(const ServoSettings &settings) noexcept {
     parts_.contacts.retune(settings);
+    parts_.touch.retune(settings);
     parts_.coupling.retune(settings);
     parts_.effects.retune(settings);
     parts_.wrench.retune(settings.safety);
@@ -30,6 +34,7 @@ void HapticRenderer::retune(const ServoSettings &settings) noexcept {
 void HapticRenderer::acknowledge(const HapticCommand &command) noexcept {
     wrench_sequence_ = command.wrench_sequence;
     contacts_sequence_ = command.contacts_sequence;
+    touch_sequence_ = command.touch_sequence;
     coupling_sequence_ = command.coupling_sequence;
     effects_sequence_ = command.effects_sequence;
 }
@@ -45,6 +50,7 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
                           ServoCounters &counters) noexcept {
     counters.expired_requests += parts_.wrench.age(dt_s) ? 1U : 0U;
     counters.expired_requests += parts_.contacts.age(dt_s) ? 1U : 0U;
+    counters.expired_requests += parts_.touch.age(dt_s) ? 1U : 0U;
     counters.expired_requests += parts_.coupling.age(dt_s) ? 1U : 0U;
     counters.expired_requests += static_cast<std::uint64_t>(parts_.effects.age(dt_s));
     // A renewed sequence that is not valid: the last good request stands until it expires.
@@ -64,6 +70,18 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     if (is_new(contacts_sequence_, command.contacts_sequence,
                [&] { return validate_contacts(command); })) {
         note(parts_.contacts.accept(command, now_s), counters);
+    }
+    const TouchScene *const touch = command.touch;
+    if (is_new(touch_sequence_, command.touch_sequence, [&] {
+            return touch == nullptr         ? Status::ok
+                   : !parts_.touch.ready() ? Status::invalid_request
+                                            : validate(*touch);
+        })) {
+        if (touch == nullptr) {
+            parts_.touch.accept_nothing(command.touch_sequence);
+        } else {
+            note(parts_.touch.accept(*touch, command.touch_sequence, now_s), counters);
+        }
     }
     if (is_new(coupling_sequence_, command.coupling_sequence,
                [&] { return validate_coupling(command.coupling); })) {
@@ -95,8 +113,11 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
     contact_push_ = Wrench();
     if (!parts_.contacts.at_rest()) {
         contact_push_ = parts_.contacts.render(motion, dt_s);
-        sum = sum + contact_push_;
     }
+    if (parts_.touch.ready()) {
+        contact_push_ = contact_push_ + parts_.touch.render(motion, dt_s);
+    }
+    sum = sum + contact_push_;
     if (!parts_.effects.at_rest()) {
         sum = sum + parts_.effects.render(motion);
     }
@@ -105,11 +126,13 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
 
 void HapticRenderer::given(double scale, double dt_s) noexcept {
     parts_.contacts.integrate(scale, dt_s);
+    parts_.touch.integrate(scale, dt_s);
     parts_.observer.hold(Wrench()); // until it is known what the strings give
 }
 
 void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {
     snapshot.contact_count = parts_.contacts.report(snapshot.contacts);
+    parts_.touch.report(snapshot.touch);
     snapshot.injected_j = parts_.observer.injected_j();
     snapshot.clamp = last_clamp_;
 }
@@ -117,6 +140,7 @@ void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {
 bool HapticRenderer::has_seen(const HapticCommand &command) const noexcept {
     return command.wrench_sequence == wrench_sequence_ &&
            command.contacts_sequence == contacts_sequence_ &&
+           command.touch_sequence == touch_sequence_ &&
            command.coupling_sequence == coupling_sequence_ &&
            command.effects_sequence == effects_sequence_;
 }
@@ -125,6 +149,7 @@ bool HapticRenderer::has_seen(const HapticCommand &command) const noexcept {
 void HapticRenderer::advance_at_rest(double dt_s) noexcept {
     parts_.wrench.age(dt_s);
     parts_.contacts.age(dt_s);
+    parts_.touch.age(dt_s);
     parts_.effects.age(dt_s);
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/sound_state.h"
 #include "device/contact/contact_renderer.h"
+#include "device/contact/touch/touch_renderer.h"
 #include "device/contract/rest.h"
 #include "device/contract/servo_snapshot.h"
 #include "device/rendering/coupling_request.h"
@@ -19,6 +20,9 @@ public:
     void configure(const ServoSettings &settings) noexcept;
     // Other limits and caps; what acts goes on.
     void retune(const ServoSettings &settings) noexcept;
+    // What shapes are felt with; see TouchRenderer.
+    [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.touch; }
+    [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.touch; }
     // Takes this command's requests as already seen.
     void acknowledge(const HapticCommand &command) noexcept;
 
@@ -53,7 +57,7 @@ public:
     void advance_at_rest(double dt_s) noexcept;
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept {
-        return parts_.motion.is_sound() && parts_.contacts.is_sound() &&
+        return parts_.motion.is_sound() && parts_.contacts.is_sound() && parts_.touch.is_sound() &&
                parts_.coupling.is_sound() && parts_.wrench.is_sound() &&
                parts_.effects.is_sound() && parts_.controller.is_sound() &&
                parts_.observer.is_sound() && spidar::is_sound(last_clamp_);
@@ -65,6 +69,7 @@ private:
     struct Parts {
         MotionFilter motion;
         ContactRenderer contacts;
+        TouchRenderer touch;
         CouplingRequest coupling;
         WrenchRequest wrench;
         EffectSet effects;
@@ -72,8 +77,8 @@ private:
         EnergyObserver observer;
         template <typename Combine>
         auto with_all(Combine &&combine) const noexcept {
-            const auto &[a, b, c, d, e, f, g] = *this;
-            return combine(a, b, c, d, e, f, g);
+            const auto &[a, b, c, d, e, f, g, h] = *this;
+            return combine(a, b, c, d, e, f, g, h);
         }
     };
     Parts parts_;
@@ -82,6 +87,7 @@ private:
     GainClamp last_clamp_{};
     std::uint64_t wrench_sequence_ = 0;
     std::uint64_t contacts_sequence_ = 0;
+    std::uint64_t touch_sequence_ = 0;
     std::uint64_t coupling_sequence_ = 0;
     std::uint64_t effects_sequence_ = 0;
 };

@@ -31,6 +31,7 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     parts.guard.configure(settings.strings, safety.max_count_speed_m_s, safety.max_bad_samples,
                           fresh.nominal_dt_s_);
     parts.grasp.configure(settings.grasp);
+    parts.renderer.touch().use(parts_.renderer.touch().memory());
     parts.renderer.configure(settings);
     parts.machine.configure(safety.arming_time_s);
     fresh.game_.configure(safety.game_timeout_s);

@@ -32,6 +32,12 @@ public:
     // On a failure the old settings stand; else everything starts afresh. Not from the servo loop.
     Status configure(const ServoSettings &settings) noexcept;
 
+    // What the closest points of shapes remember (ProxyMemory): owned by the loop, and kept through configure(). Without it
+    // no shape is felt.
+    void use(ProxyMemory *memory) noexcept { parts_.renderer.touch().use(memory); }
+    [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.renderer.touch(); }
+    [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.renderer.touch(); }
+
     // Takes this command's edges and requests as already seen: what was asked before a start does not act after it.
     void acknowledge(const HapticCommand &command) noexcept;
 

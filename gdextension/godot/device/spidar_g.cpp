@@ -178,6 +178,8 @@ void SpidarG::open_device() {
     command_.wrench_sequence = 0;
     command_.contacts_sequence = 0;
     command_.contact_count = 0;
+    command_.touch_sequence = 0;
+    command_.touch = nullptr;
     publish_forces();
     opened_revision_ = resources_revision();
     limits_wanted_ = spidar::live_limits(settings_);

@@ -173,6 +173,15 @@ public:
     [[nodiscard]] godot::String get_clamp_text() const;
     [[nodiscard]] godot::PackedFloat64Array get_injected_energy() const;
 
+    // For SpidarGHand, in C++ alone: what its tool can touch and what it carries, from the next cycle on. The scene's
+    // state_time_s is set here. Null: nothing any more. While a recording is played it is not taken.
+    void publish_touch(std::shared_ptr<spidar::TouchScene> touch);
+    // The newest that the device told, device frame.
+    [[nodiscard]] const spidar::ServoSnapshot &snapshot() const { return snapshot_; }
+    [[nodiscard]] spidar::WorldFrame world() const;
+    [[nodiscard]] const spidar::NodeMotion &node_motion() const { return motion_; }
+    [[nodiscard]] const spidar::ServoSettings &servo_settings() const { return settings_; }
+
     // State (spidar_g_state.cpp). World coordinates.
     [[nodiscard]] State get_state() const;
     [[nodiscard]] godot::String get_state_text() const;
@@ -305,7 +314,6 @@ private:
     void tell_recording_failed();
     bool reject(const std::string &message);
     bool take_effect(const char *method, spidar::Effect effect, int dof_mask);
-    [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] std::string fault_message() const;
     [[nodiscard]] std::string name_for_messages() const;
 

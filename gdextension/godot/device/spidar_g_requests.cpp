@@ -107,6 +107,16 @@ void SpidarG::publish_wrench() {
     }
 }
 
+void SpidarG::publish_touch(std::shared_ptr<spidar::TouchScene> touch) {
+    if (!loop_ || replay_ != nullptr) {
+        return;
+    }
+    if (touch) {
+        touch->state_time_s = snapshot_.time_s;
+    }
+    loop_->publish(command_, std::move(touch));
+}
+
 void SpidarG::publish_contacts() {
     requests_.write_contacts(command_, snapshot_.time_s); // the game saw this one
     replay_contacts_.note(command_);

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/contact/proxy/tool.h"
 #include "device/contact/shapes/cooked_shape.h"
 #include "device/contact/shapes/placement.h"
 
@@ -22,6 +23,7 @@ struct ScenePart {
     double damping_n_s_m = 0.0;
     double friction = 0.0; // Coulomb coefficient
     std::int32_t id = 0;   // of this shape of this body; persistent
+    std::uint8_t groups = kAllGroups; // what of the tool touches it
 };
 
 // Of the part where point_m is.

@@ -26,4 +26,14 @@ PairMemory &ProxyMemory::of(const ToolPart &tool, const ScenePart &scene) noexce
     return chosen->memory;
 }
 
+void ProxyMemory::forget() noexcept {
+    for (Slot &slot : *slots_) {
+        slot.ids = {};
+        slot.shapes = {};
+        slot.used = 0;
+        slot.memory.forget();
+    }
+    clock_ = 0;
+}
+
 } // namespace spidar

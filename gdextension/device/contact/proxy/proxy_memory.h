@@ -18,8 +18,11 @@ public:
     // Of this pair; another pair's is forgotten for it when there are many, and its own when a shape is another one.
     [[nodiscard]] PairMemory &of(const ToolPart &tool, const ScenePart &scene) noexcept;
 
+    // As new.
+    void forget() noexcept;
+
 private:
-    static constexpr std::size_t kPairs = 32;
+    static constexpr std::size_t kPairs = 64;
     struct Slot {
         std::array<std::uint64_t, 2> ids{};
         std::array<std::uint64_t, 2> shapes{}; // their numbers

@@ -1,8 +1,10 @@
 // The tool in seven degrees of freedom: parts that ride on the grip or on one of its two jaws. Device frame, SI.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "device/contact/shapes/placement.h"
 #include "device/contact/shapes/tool_shape.h"
@@ -38,18 +40,30 @@ struct Jaws {
     }
 };
 
+// Parts of a tool and of a scene touch when they share a bit: pads and a held body may collide with different things.
+inline constexpr std::uint8_t kPadGroup = 1;
+inline constexpr std::uint8_t kHeldGroup = 2;
+inline constexpr std::uint8_t kAllGroups = 0xff;
+
 struct ToolPart {
     const ToolShape *shape = nullptr;
     ToolMount mount = ToolMount::grip;
     Placement at; // in the grip's frame from P0; on a jaw: from the middle of its inner face
     std::int32_t id = 0;
+    std::uint8_t groups = kAllGroups; // of the scene's parts, those that it touches
 };
 
-inline constexpr int kMaxToolParts = 8;
+inline constexpr int kMaxToolParts = 16;
 struct Tool {
     std::array<ToolPart, kMaxToolParts> parts{};
     int count = 0;
     Jaws jaws;
+    // The jaws close no further than this, nor beyond jaws.closed_rad: on what they hold.
+    double stop_rad = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] double closes_to_rad() const noexcept {
+        return std::min(stop_rad, jaws.closed_rad);
+    }
 };
 
 [[nodiscard]] Placement placement_of(const ToolPart &part, const Jaws &jaws,

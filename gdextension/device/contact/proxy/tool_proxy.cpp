@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/finite.h"
+#include "core/base/sound_state.h"
 #include "core/geometry/rotation_log.h"
 #include "device/contract/dof_lanes.h"
 
@@ -30,6 +31,7 @@ constexpr double kRowSoftness = 1e-7;
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
+constexpr std::size_t kGrasp = 6;
 
 double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexcept {
     double sum = 0.0;
@@ -79,7 +81,7 @@ void ToolProxy::offer(const ProxyContact &contact) noexcept {
         }
         worst = other.gap_m > contacts_[static_cast<std::size_t>(worst)].gap_m ? i : worst;
     }
-    if (count_ < kMaxRows) {
+    if (count_ < kMaxPoints) {
         contacts_[static_cast<std::size_t>(count_++)] = contact;
     } else if (contact.gap_m < contacts_[static_cast<std::size_t>(worst)].gap_m) {
         contacts_[static_cast<std::size_t>(worst)] = contact;
@@ -95,6 +97,9 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
         const Placement at = placement_of(part, tool.jaws, pose_);
         for (int s = 0; s < scene.count; ++s) {
             const ScenePart &other = scene.parts[static_cast<std::size_t>(s)];
+            if ((part.groups & other.groups) == 0) {
+                continue;
+            }
             const Vec3 tool_m =
                 glm::transpose(other.at.rotation) * (at.origin_m - other.at.origin_m);
             if (is_far(*part.shape, tool_m, *other.shape, settings_.margin_m)) {
@@ -140,7 +145,7 @@ Displacement ToolProxy::unscaled(const Move &move) const noexcept {
 ToolProxy::Move ToolProxy::nearest_to(const Move &target, const Rows &rows,
                                       const RowPushes<kMaxRows> &pushes) const noexcept {
     Move move = target;
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < row_count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         for (std::size_t lane = 0; lane < move.size(); ++lane) {
             move[lane] += pushes.push[k] * rows[k].row[lane];
@@ -166,12 +171,12 @@ double ToolProxy::length_of(const Move &move, const Tool &tool) const noexcept {
 ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &least,
                                      const Tool &tool, double most_m) const noexcept {
     Rows rows = rows_;
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < row_count_; ++i) {
         rows[static_cast<std::size_t>(i)].depth = least[static_cast<std::size_t>(i)];
     }
     // Without a row that the proxy stands in this costs nothing and is no move.
     Move move =
-        nearest_to(Move{}, rows, solve_rows<kMaxRows>(rows, count_, active_mask_, kRowSoftness));
+        nearest_to(Move{}, rows, solve_rows<kMaxRows>(rows, row_count_, active_mask_, kRowSoftness));
     const double out_m = length_of(move, tool);
     const double shrink = out_m > most_m ? most_m / out_m : 1.0;
     Move rest{};
@@ -212,8 +217,14 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         least[k] = comes_m - contact.gap_m;
         rows_[k].depth = least[k] - dot(rows_[k].row, target);
     }
+    const auto stop = static_cast<std::size_t>(count_);
+    row_count_ = count_ + 1;
+    rows_[stop] = ConstraintRow();
+    rows_[stop].row[kGrasp] = -1.0 / root_[kGrasp];
+    least[stop] = pose_.grasp_rad - tool.closes_to_rad();
+    rows_[stop].depth = least[stop] - dot(rows_[stop].row, target);
     const RowPushes<kMaxRows> solved =
-        solve_rows<kMaxRows>(rows_, count_, active_mask_, kRowSoftness);
+        solve_rows<kMaxRows>(rows_, row_count_, active_mask_, kRowSoftness);
     active_mask_ = solved.active_mask;
     Move step = nearest_to(target, rows_, solved);
     const double most_m = std::max(kPartOfMargin * (settings_.margin_m - fastest_m_s * dt_s),
@@ -270,10 +281,21 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         alone[k] = own_push(rows[k]);
         deepest_n = std::max(deepest_n, alone[k]);
     }
+    const auto stop = static_cast<std::size_t>(count_);
+    if (rows[stop].depth > 0.0) {
+        const double closing_rad_s = velocity.grasp_rate_rad_s;
+        const double softness_rad_nm = dot(rows[stop].row, rows[stop].row);
+        rows[stop].depth = std::max(0.0, rows[stop].depth + settings_.stop_damping_nm_s_rad *
+                                                                softness_rad_nm * closing_rad_s);
+        alone[stop] = own_push(rows[stop]);
+        deepest_n = std::max(deepest_n, alone[stop]);
+    }
     const RowPushes<kMaxRows> solved =
-        solve_rows<kMaxRows>(rows, count_, pushing_mask_, kRowSoftness);
+        solve_rows<kMaxRows>(rows, row_count_, pushing_mask_, kRowSoftness);
     pushing_mask_ = solved.active_mask;
     DofLanes sum{};
+    stop_push_nm_ = std::min(solved.push[stop], kMostPush * (alone[stop] + deepest_n));
+    sum[kGrasp] -= stop_push_nm_;
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         contacts_[k].push_n = std::min(solved.push[k], kMostPush * (alone[k] + deepest_n));
@@ -284,23 +306,42 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
     wrench_ = of_lanes<Wrench>(sum);
 }
 
+void ToolProxy::follow(const ToolPose &device) noexcept {
+    if (!idle_) {
+        wrench_ = Wrench();
+        given_ = {};
+        stop_push_nm_ = 0.0;
+        before_count_ = 0;
+        count_ = 0;
+        active_mask_ = 0;
+        pushing_mask_ = 0;
+        idle_ = true;
+    }
+    pose_ = device;
+    device_ = device;
+    placed_ = true;
+}
+
 void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &device,
                        const Twist &velocity, double dt_s, ProxyMemory &memory) noexcept {
     queries_ = 0;
     passes_ = 0;
+    const bool known =
+        all_finite(device.position_m, device.rotation, device.grasp_rad, velocity, dt_s);
+    const bool open = device.grasp_rad <= tool.closes_to_rad();
+    if (known && (!placed_ || ((scene.count == 0 || tool.count == 0) && open))) {
+        follow(device);
+        return;
+    }
+    idle_ = false;
     wrench_ = Wrench();
     given_ = {};
+    stop_push_nm_ = 0.0;
     before_ = contacts_;
     before_count_ = count_;
     count_ = 0;
-    if (!all_finite(device.position_m, device.rotation, device.grasp_rad, velocity, dt_s)) {
-        return; // nothing is known: nothing pushes, and the proxy waits
-    }
-    if (!placed_ || scene.count == 0 || tool.count == 0) {
-        pose_ = device;
-        device_ = device;
-        placed_ = true;
-        return;
+    if (!known) {
+        return; // nothing pushes, and the proxy waits
     }
     double left_s = dt_s; // of the scene's motion
     bool again = true;
@@ -316,6 +357,19 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     push(tool, scene, velocity);
     rub(tool, scene, device, velocity, dt_s);
     device_ = device;
+}
+
+bool ToolProxy::is_sound() const noexcept {
+    const auto points_to_parts = [](const Contacts &contacts, int count) {
+        bool sound = count >= 0 && count <= kMaxPoints;
+        for (int i = 0; sound && i < count; ++i) {
+            const ProxyContact &contact = contacts[static_cast<std::size_t>(i)];
+            sound = contact.tool_part < kMaxToolParts && contact.scene_part < kMaxSceneParts;
+        }
+        return sound;
+    };
+    return are_flags(placed_, idle_) && points_to_parts(contacts_, count_) &&
+           points_to_parts(before_, before_count_) && row_count_ >= 0 && row_count_ <= kMaxRows;
 }
 
 } // namespace spidar

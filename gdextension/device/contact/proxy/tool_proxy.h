@@ -46,8 +46,9 @@ struct ProxySettings {
     DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
     // Of each contact, along its normal and along its surface.
     double damping_n_s_m = 2.0;
+    double stop_damping_nm_s_rad = 0.001; // of the jaws' stop
     // Surfaces nearer than this are looked at in a cycle.
-    double margin_m = 0.004;
+    double margin_m = 0.002;
 };
 
 class ToolProxy {
@@ -71,16 +72,22 @@ public:
     [[nodiscard]] const std::array<PartForce, kMaxSceneParts> &given() const noexcept {
         return given_;
     }
+    // The jaws' stop, N m of grasp torque: what the fingers press on each other, or on what they hold. 0 when open.
+    [[nodiscard]] double stop_push_nm() const noexcept { return stop_push_nm_; }
     // Pairs whose closest points were asked for in the last cycle, and passes that it took.
     [[nodiscard]] int queries() const noexcept { return queries_; }
     [[nodiscard]] int passes() const noexcept { return passes_; }
+    // core/base/sound_state.h
+    [[nodiscard]] bool is_sound() const noexcept;
 
 private:
-    using Contacts = std::array<ProxyContact, kMaxRows>;
+    using Contacts = std::array<ProxyContact, kMaxPoints>;
     using Rows = std::array<ConstraintRow, kMaxRows>;
     // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
     using Move = std::array<double, 8>;
 
+    // Nothing is in reach: the proxy is where the device is.
+    void follow(const ToolPose &device) noexcept;
     void find_contacts(const Tool &tool, const ContactScene &scene, ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
     [[nodiscard]] Move scaled(const Displacement &by) const noexcept;
@@ -111,11 +118,15 @@ private:
     int count_ = 0;
     Contacts before_{}; // of the last cycle
     int before_count_ = 0;
-    Rows rows_{}; // of the last pass, for `contacts_`
+    // Of the last pass, for `contacts_`, and behind them the stop of the jaws.
+    Rows rows_{};
+    int row_count_ = 0;
     std::uint32_t active_mask_ = 0;
     std::uint32_t pushing_mask_ = 0;
     Wrench wrench_{};
     std::array<PartForce, kMaxSceneParts> given_{};
+    double stop_push_nm_ = 0.0;
+    bool idle_ = true; // the last cycle left no contact and no force behind
     int queries_ = 0;
     int passes_ = 0;
 };

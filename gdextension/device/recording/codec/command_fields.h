@@ -12,7 +12,7 @@ static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list it
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
 static_assert(count_members<LiveLimits>() == 6, "LiveLimits changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 22, "HapticCommand changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 24, "HapticCommand changed: list its fields here");
 
 template <typename Matrix, typename Visit>
 void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
@@ -59,6 +59,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         ++i;
     }
     visit("contacts_state_time_s", 0, command.contacts_state_time_s);
+    visit("touch_sequence", 0, command.touch_sequence); // the scene itself: ChunkKind::touch
     visit("coupling_sequence", 0, command.coupling_sequence);
     auto &coupling = command.coupling;
     visit_vector("coupling.position_m", 0, coupling.position_m, visit);

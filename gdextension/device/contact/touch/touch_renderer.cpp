@@ -1,0 +1,308 @@
+#include "device/contact/touch/touch_renderer.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
+
+namespace spidar {
+
+namespace {
+
+// A part that a new scene puts further away than this was put there: nothing lies in between.
+constexpr double kJump_m = 0.05;
+constexpr double kJump_rad = 0.5;
+constexpr double kMaxFriction = 10.0;
+// As ContactRenderer's.
+constexpr double kMaxPartSpeed_m_s = 10.0;
+
+bool same(const ToolPose &a, const ToolPose &b) noexcept {
+    return a.position_m == b.position_m && a.rotation == b.rotation && a.grasp_rad == b.grasp_rad;
+}
+
+bool same(const Wrench &a, const Wrench &b) noexcept {
+    return lanes(a) == lanes(b);
+}
+
+bool same(const Twist &a, const Twist &b) noexcept {
+    return lanes(a) == lanes(b);
+}
+
+Wrench blend(const Wrench &from, const Wrench &to, double share) noexcept {
+    return (1.0 - share) * from + share * to;
+}
+
+// Caps a velocity's size and leaves its direction.
+Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp) noexcept {
+    const double speed_m_s = glm::length(velocity_m_s);
+    const double given_m_s = capped(speed_m_s, kMaxPartSpeed_m_s, GainClamp::Gain::speed, index,
+                                    false, clamp);
+    return given_m_s < speed_m_s ? (given_m_s / speed_m_s) * velocity_m_s : velocity_m_s;
+}
+
+} // namespace
+
+static_assert(kMostTouchParts == kMaxSceneParts && kMostTouchPoints == kMaxPoints);
+
+void TouchRenderer::configure(const ServoSettings &settings) noexcept {
+    ProxyMemory *const memory = memory_;
+    *this = TouchRenderer();
+    memory_ = memory;
+    strength_.configure(settings.safety);
+    retune(settings);
+}
+
+void TouchRenderer::retune(const ServoSettings &settings) noexcept {
+    caps_ = gain_caps(settings.render, settings.rate_hz);
+    GainClamp unnoted;
+    tune(unnoted);
+}
+
+void TouchRenderer::tune(GainClamp &clamp) noexcept {
+    // The proxy divides by it.
+    constexpr double kSoftest = 1e-6;
+    for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
+        const DofCap cap = stiffness_cap(caps_, dof);
+        const double wanted =
+            asked_[dof] > 0.0
+                ? capped(asked_[dof], cap.most, cap.gain, static_cast<std::int32_t>(dof),
+                         caps_.from_latency, clamp)
+                : kAutomaticShare * cap.most;
+        settings_.stiffness[dof] = std::max(wanted, kSoftest);
+    }
+    settings_.damping_n_s_m =
+        capped(asked_damping_n_s_m_, caps_.damping_n_s_m, GainClamp::Gain::damping, 0, false, clamp);
+    settings_.stop_damping_nm_s_rad =
+        std::min(ProxySettings().stop_damping_nm_s_rad, caps_.grasp_damping_nm_s_rad);
+    proxy_.configure(settings_);
+    settled_ = false;
+}
+
+GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
+                                double now_s) noexcept {
+    GainClamp clamp;
+    sequence_ = sequence;
+    settled_ = false;
+    clock_.receive(touch.state_time_s, now_s);
+    asked_ = touch.stiffness;
+    asked_damping_n_s_m_ = touch.damping_n_s_m;
+    tune(clamp);
+    tool_ = touch.tool;
+    for (int t = 0; t < tool_.count; ++t) {
+        const auto k = static_cast<std::size_t>(t);
+        tool_numbers_[k] = tool_.parts[k].shape->number();
+    }
+    felt_ = touch.felt;
+    load_from_ = load_now_;
+    load_ = touch.load;
+    loaded_ = !same(load_, Wrench()) || !same(load_from_, Wrench());
+    renew(touch, clamp);
+    if (empty()) {
+        strength_.set(1.0); // the game goes on and touches nothing: nothing to recover from
+    }
+    return clamp;
+}
+
+void TouchRenderer::accept_nothing(std::uint64_t sequence) noexcept {
+    sequence_ = sequence;
+    settled_ = false;
+    drop();
+    strength_.set(1.0);
+}
+
+void TouchRenderer::drop() noexcept {
+    tool_.count = 0;
+    tool_.stop_rad = Tool().stop_rad;
+    scene_.count = 0;
+    load_ = Wrench();
+    load_from_ = Wrench();
+    load_now_ = Wrench();
+    loaded_ = false;
+}
+
+bool TouchRenderer::empty() const noexcept {
+    return scene_.count == 0 && !loaded_ && !(tool_.stop_rad < tool_.jaws.closed_rad);
+}
+
+void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
+    const ContactScene old = scene_;
+    const std::array<Track, kMaxSceneParts> old_tracks = tracks_;
+    scene_.count = touch.scene.count;
+    // Where a moving part is now, and seen as far ahead as the grip is.
+    const double later_s = clock_.carried_s() + lead_s_;
+    for (int s = 0; s < scene_.count; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        ScenePart part = touch.scene.parts[k];
+        part.friction =
+            capped(part.friction, kMaxFriction, GainClamp::Gain::friction, s, false, clamp);
+        part.velocity_m_s = capped_speed(part.velocity_m_s, s, clamp);
+        shape_numbers_[k] = part.shape->number();
+        Track track;
+        track.velocity_m_s = part.velocity_m_s;
+        track.angular_rad_s = part.angular_rad_s;
+        part.at.origin_m += later_s * part.velocity_m_s;
+        if (part.angular_rad_s != Vec3(0.0)) {
+            part.at.rotation = rotation_exp(later_s * part.angular_rad_s) * part.at.rotation;
+        }
+        const auto *const end = old.parts.data() + old.count;
+        const auto *const before = std::find_if(
+            old.parts.data(), end, [&part](const ScenePart &one) { return one.id == part.id; });
+        if (before != end) {
+            const Track &was = old_tracks[static_cast<std::size_t>(before - old.parts.data())];
+            track.impulse_ns = was.impulse_ns;
+            track.angular_impulse_nms = was.angular_impulse_nms;
+            const Vec3 by_m = part.at.origin_m - before->at.origin_m;
+            const bool turned = part.at.rotation != before->at.rotation;
+            const Vec3 by_rad =
+                turned ? rotation_log(part.at.rotation * glm::transpose(before->at.rotation))
+                       : Vec3(0.0);
+            if (glm::length(by_m) < kJump_m && glm::length(by_rad) < kJump_rad) {
+                part.at = before->at;
+                track.correction_m = by_m;
+                track.correction_rad = by_rad;
+            }
+        }
+        scene_.parts[k] = part;
+        tracks_[k] = track;
+    }
+}
+
+bool TouchRenderer::age(double dt_s) noexcept {
+    clock_.advance(dt_s);
+    if (empty()) {
+        return false; // an empty scene never grows old
+    }
+    if (strength_.advance(clock_.age_s(), dt_s)) {
+        return false;
+    }
+    drop();
+    return true;
+}
+
+void TouchRenderer::carry(double dt_s) noexcept {
+    const bool carries = clock_.carries();
+    const double left_s = std::clamp(kCrossFade_s - clock_.age_s(), 0.0, dt_s);
+    const double corrects = left_s / (kCrossFade_s * dt_s);
+    moving_ = false;
+    for (int s = 0; s < scene_.count; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        const Track &track = tracks_[k];
+        ScenePart &part = scene_.parts[k];
+        part.velocity_m_s = corrects * track.correction_m;
+        part.angular_rad_s = corrects * track.correction_rad;
+        if (carries) {
+            part.velocity_m_s += track.velocity_m_s;
+            part.angular_rad_s += track.angular_rad_s;
+        }
+        moving_ = moving_ || part.velocity_m_s != Vec3(0.0) || part.angular_rad_s != Vec3(0.0);
+    }
+}
+
+Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
+    lead_s_ = motion.lead_s;
+    const ToolPose grip{motion.grip.pose.position_m, motion.grip.frame.rotation,
+                        motion.grip.frame.grasp_angle_rad};
+    ToolPose device = moved(grip, motion.ahead);
+    if (memory_ == nullptr) {
+        return {};
+    }
+    if (loaded_) {
+        const double share = cross_fade(clock_.age_s() + dt_s);
+        load_now_ = blend(load_from_, load_, share);
+        // The load pulls on the proxy: as far as its springs give, or to what carries it.
+        DofLanes gives = lanes(load_now_);
+        for (std::size_t dof = 0; dof < gives.size(); ++dof) {
+            gives[dof] /= settings_.stiffness[dof];
+        }
+        device = moved(device, of_lanes<Displacement>(gives));
+    }
+    carry(dt_s);
+    const double strength = strength_.value();
+    if (settled_ && !moving_ && same(device, device_) && same(motion.velocity, velocity_) &&
+        strength == rendered_strength_) {
+        ++skipped_;
+        return wrench_;
+    }
+    const ToolPose before = proxy_.pose();
+    const Wrench wrench_before = wrench_;
+    proxy_.update(tool_, scene_, device, motion.velocity, dt_s, *memory_);
+    squeezing_ = proxy_.stop_push_nm() > 0.0;
+    DofLanes felt = lanes(proxy_.wrench());
+    const DofLanes load = lanes(load_now_);
+    for (std::size_t dof = 0; dof < felt.size(); ++dof) {
+        const bool is_felt = ((felt_ >> dof) & 1U) != 0;
+        felt[dof] = strength * ((is_felt ? felt[dof] : 0.0) + load[dof]);
+    }
+    wrench_ = of_lanes<Wrench>(felt);
+    const bool waits = same(device, device_) && same(motion.velocity, velocity_) && !moving_ &&
+                       strength == rendered_strength_;
+    settled_ = waits && same(before, proxy_.pose()) && same(wrench_before, wrench_);
+    device_ = device;
+    velocity_ = motion.velocity;
+    rendered_strength_ = strength;
+    return wrench_;
+}
+
+void TouchRenderer::integrate(double scale, double dt_s) noexcept {
+    if (!(scale > 0.0)) {
+        return;
+    }
+    const double impulse = scale * dt_s * rendered_strength_;
+    for (int s = 0; s < scene_.count; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        const PartForce &given = proxy_.given()[k];
+        tracks_[k].impulse_ns += impulse * given.force_n;
+        tracks_[k].angular_impulse_nms += impulse * given.moment_nm;
+    }
+}
+
+void TouchRenderer::report(TouchReport &report) const noexcept {
+    report.sequence = sequence_;
+    const ToolPose &pose = proxy_.pose();
+    report.position_m = pose.position_m;
+    report.rotation = pose.rotation;
+    report.grasp_rad = pose.grasp_rad;
+    report.wrench = wrench_;
+    report.stop_push_nm = proxy_.stop_push_nm();
+    report.stiffness = settings_.stiffness;
+    report.queries = proxy_.queries();
+    report.passes = proxy_.passes();
+    report.skipped = skipped_;
+    report.part_count = scene_.count;
+    for (int s = 0; s < scene_.count; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        const Track &track = tracks_[k];
+        report.parts[k] = {scene_.parts[k].id, false, track.impulse_ns, track.angular_impulse_nms};
+    }
+    report.point_count = proxy_.contact_count();
+    for (int i = 0; i < report.point_count; ++i) {
+        const ProxyContact &contact = proxy_.contact(i);
+        const bool touches = contact.push_n > 0.0;
+        if (touches && contact.scene_part < report.part_count) {
+            report.parts[contact.scene_part].touching = true;
+        }
+        report.points[static_cast<std::size_t>(i)] = {
+            contact.tool_id,
+            contact.scene_id,
+            contact.point_m,
+            contact.normal,
+            contact.push_n * contact.normal + contact.friction_n,
+            contact.gap_m};
+    }
+}
+
+bool TouchRenderer::is_sound() const noexcept {
+    bool sound = scene_.count >= 0 && scene_.count <= kMaxSceneParts && tool_.count >= 0 &&
+                 tool_.count <= kMaxToolParts && are_flags(caps_.from_latency, loaded_, squeezing_,
+                                                           moving_, settled_) &&
+                 clock_.is_sound() && proxy_.is_sound();
+    for (const ToolPart &part : tool_.parts) {
+        sound = sound && is_one_of(part.mount, ToolMount::jaw_plus);
+    }
+    return sound;
+}
+
+} // namespace spidar

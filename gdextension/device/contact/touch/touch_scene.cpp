@@ -1,0 +1,65 @@
+#include "device/contact/touch/touch_scene.h"
+
+#include <algorithm>
+
+#include "core/base/finite.h"
+
+namespace spidar {
+
+namespace {
+
+Status validate_part(const ScenePart &part) noexcept {
+    if (!all_finite(part.at) || !all_finite(part.velocity_m_s, part.angular_rad_s,
+                                            part.stiffness_n_m, part.damping_n_s_m, part.friction)) {
+        return Status::not_finite;
+    }
+    const bool good = part.shape != nullptr && part.stiffness_n_m >= 0.0 &&
+                      part.damping_n_s_m >= 0.0 && part.friction >= 0.0;
+    return good ? Status::ok : Status::invalid_request;
+}
+
+Status validate_part(const ToolPart &part) noexcept {
+    if (!all_finite(part.at)) {
+        return Status::not_finite;
+    }
+    return part.shape != nullptr && part.mount <= ToolMount::jaw_plus ? Status::ok
+                                                                      : Status::invalid_request;
+}
+
+} // namespace
+
+Status validate(const TouchScene &touch) noexcept {
+    const Tool &tool = touch.tool;
+    const ContactScene &scene = touch.scene;
+    const bool counted = tool.count >= 0 && tool.count <= kMaxToolParts && scene.count >= 0 &&
+                         scene.count <= kMaxSceneParts && touch.felt <= kAllDof;
+    if (!counted) {
+        return Status::invalid_request;
+    }
+    if (!all_finite(touch.stiffness, touch.damping_n_s_m, touch.load, touch.state_time_s,
+                    tool.jaws.open_m, tool.jaws.closed_rad) ||
+        tool.stop_rad != tool.stop_rad) {
+        return Status::not_finite;
+    }
+    const bool good = touch.damping_n_s_m >= 0.0 && tool.jaws.open_m >= 0.0 &&
+                      tool.jaws.closed_rad > 0.0 &&
+                      std::ranges::all_of(touch.stiffness, [](double k) { return k >= 0.0; });
+    if (!good) {
+        return Status::invalid_request;
+    }
+    for (int t = 0; t < tool.count; ++t) {
+        const Status status = validate_part(tool.parts[static_cast<std::size_t>(t)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    for (int s = 0; s < scene.count; ++s) {
+        const Status status = validate_part(scene.parts[static_cast<std::size_t>(s)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    return Status::ok;
+}
+
+} // namespace spidar
