@@ -50,8 +50,12 @@ struct Bench {
     bool simulated = true;
     DriveCommand drive;
     TickChecks checks;
+    std::shared_ptr<ProxyMemory> memory = std::make_shared<ProxyMemory>();
 
-    Bench() { start(); }
+    Bench() {
+        step.use(memory.get());
+        start();
+    }
     void start() { started = step.configure(settings); }
     Status started = Status::ok;
 

@@ -21,6 +21,9 @@ inline std::uint64_t bits_of(const ServoSnapshot &snapshot) {
     for (ContactReport &contact : copy.contacts) {
         __builtin_clear_padding(&contact);
     }
+    for (TouchPartReport &part : copy.touch.parts) {
+        __builtin_clear_padding(&part);
+    }
     std::array<std::uint64_t, sizeof(ServoSnapshot) / sizeof(std::uint64_t)> words{};
     std::memcpy(words.data(), &copy, sizeof copy);
     std::uint64_t hash = 1;

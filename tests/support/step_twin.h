@@ -32,9 +32,11 @@ public:
     Skipped tick(Bench &bench) {
         *whole_ = bench.step;
         whole_->forget_settled();
+        bench.step.touch().forget_pairs(); // both look at shapes as for the first time
         const DriveCommand truth =
             whole_->step(bench.read_status, bench.reading, bench.command, kTick_s, bench.simulated);
         const ServoCounters before = bench.now().counters;
+        bench.step.touch().forget_pairs();
         bench.tick();
         REQUIRE(bench.drive.motors_on == truth.motors_on);
         REQUIRE(bench.drive.clear_faults == truth.clear_faults);

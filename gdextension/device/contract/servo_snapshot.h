@@ -26,7 +26,7 @@ struct ContactReport {
 struct TouchPartReport {
     std::int32_t id = 0;
     bool touching = false;
-    Vec3 impulse_ns{0.0}; // on the part, summed since this id appeared
+    Vec3 impulse_ns{0.0};          // on the part, summed since this id appeared
     Vec3 angular_impulse_nms{0.0}; // about the part's origin
 };
 
@@ -48,9 +48,9 @@ struct TouchReport {
     Vec3 position_m{0.0};
     Mat3 rotation{1.0};
     double grasp_rad = 0.0;
-    Wrench wrench; // of contacts and load on the hand, before limits
+    Wrench wrench;             // of contacts and load on the hand, before limits
     double stop_push_nm = 0.0; // grasp torque of the jaws' stop
-    DofGains stiffness{}; // in use
+    DofGains stiffness{};      // in use
     int part_count = 0;
     int point_count = 0;
     // Of the last cycle, and cycles whose answer was the last one's.

@@ -73,9 +73,9 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     }
     const TouchScene *const touch = command.touch;
     if (is_new(touch_sequence_, command.touch_sequence, [&] {
-            return touch == nullptr         ? Status::ok
+            return touch == nullptr        ? Status::ok
                    : !parts_.touch.ready() ? Status::invalid_request
-                                            : validate(*touch);
+                                           : validate(*touch);
         })) {
         if (touch == nullptr) {
             parts_.touch.accept_nothing(command.touch_sequence);

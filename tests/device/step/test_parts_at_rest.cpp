@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "support/step_twin.h"
+#include "support/touch_scenes.h"
 
 using namespace spidar;
 using spidar::test::Bench;
@@ -24,6 +25,13 @@ void touch(Bench &bench, bool on) {
     bench.command.contact_count = on ? 1 : 0;
     bench.command.contacts[0].offset_m = 0.002;
     ++bench.command.contacts_sequence;
+}
+
+void touch_shapes(Bench &bench, bool on) {
+    static const TouchScene nothing;
+    static const test::FloorScene floor;
+    bench.command.touch = on ? &floor.touch : &nothing;
+    ++bench.command.touch_sequence;
 }
 
 void couple(Bench &bench, bool on) {
@@ -107,6 +115,11 @@ TEST_CASE("rest: each part that evolves is seen awake, and then nothing is skipp
             }
         },
         [](Bench &bench, int i) {
+            if (i == 0 || i == 100) {
+                touch_shapes(bench, i == 0);
+            }
+        },
+        [](Bench &bench, int i) {
             if (i < 200 && i % 20 == 0) {
                 couple(bench, true);
                 put_at(bench, {1e-4 * i, 0.0, 0.0});
@@ -157,7 +170,7 @@ TEST_CASE("rest: each part that evolves is seen awake, and then nothing is skipp
 
     CHECK(seen.skipped > 100);
     CHECK(seen.parts.step == all_of(10));
-    CHECK(seen.parts.renderer == all_of(7));
+    CHECK(seen.parts.renderer == all_of(8));
     CHECK(seen.parts.monitor == all_of(6));
 }
 

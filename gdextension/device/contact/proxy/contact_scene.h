@@ -21,8 +21,8 @@ struct ScenePart {
     // Of this part's own surface, in series with the tool's; 0: it does not give way.
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
-    double friction = 0.0; // Coulomb coefficient
-    std::int32_t id = 0;   // of this shape of this body; persistent
+    double friction = 0.0;            // Coulomb coefficient
+    std::int32_t id = 0;              // of this shape of this body; persistent
     std::uint8_t groups = kAllGroups; // what of the tool touches it
 };
 

@@ -175,8 +175,8 @@ ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, 
         rows[static_cast<std::size_t>(i)].depth = least[static_cast<std::size_t>(i)];
     }
     // Without a row that the proxy stands in this costs nothing and is no move.
-    Move move =
-        nearest_to(Move{}, rows, solve_rows<kMaxRows>(rows, row_count_, active_mask_, kRowSoftness));
+    Move move = nearest_to(Move{}, rows,
+                           solve_rows<kMaxRows>(rows, row_count_, active_mask_, kRowSoftness));
     const double out_m = length_of(move, tool);
     const double shrink = out_m > most_m ? most_m / out_m : 1.0;
     Move rest{};
@@ -329,8 +329,11 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     const bool known =
         all_finite(device.position_m, device.rotation, device.grasp_rad, velocity, dt_s);
     const bool open = device.grasp_rad <= tool.closes_to_rad();
-    if (known && (!placed_ || ((scene.count == 0 || tool.count == 0) && open))) {
+    const bool alone = (scene.count == 0 || tool.count == 0) && open;
+    if (known && (!placed_ || alone)) {
         follow(device);
+    }
+    if (known && alone) {
         return;
     }
     idle_ = false;

@@ -38,8 +38,8 @@ Wrench blend(const Wrench &from, const Wrench &to, double share) noexcept {
 // Caps a velocity's size and leaves its direction.
 Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp) noexcept {
     const double speed_m_s = glm::length(velocity_m_s);
-    const double given_m_s = capped(speed_m_s, kMaxPartSpeed_m_s, GainClamp::Gain::speed, index,
-                                    false, clamp);
+    const double given_m_s =
+        capped(speed_m_s, kMaxPartSpeed_m_s, GainClamp::Gain::speed, index, false, clamp);
     return given_m_s < speed_m_s ? (given_m_s / speed_m_s) * velocity_m_s : velocity_m_s;
 }
 
@@ -67,14 +67,13 @@ void TouchRenderer::tune(GainClamp &clamp) noexcept {
     for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
         const DofCap cap = stiffness_cap(caps_, dof);
         const double wanted =
-            asked_[dof] > 0.0
-                ? capped(asked_[dof], cap.most, cap.gain, static_cast<std::int32_t>(dof),
-                         caps_.from_latency, clamp)
-                : kAutomaticShare * cap.most;
+            asked_[dof] > 0.0 ? capped(asked_[dof], cap.most, cap.gain,
+                                       static_cast<std::int32_t>(dof), caps_.from_latency, clamp)
+                              : kAutomaticShare * cap.most;
         settings_.stiffness[dof] = std::max(wanted, kSoftest);
     }
-    settings_.damping_n_s_m =
-        capped(asked_damping_n_s_m_, caps_.damping_n_s_m, GainClamp::Gain::damping, 0, false, clamp);
+    settings_.damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
+                                     GainClamp::Gain::damping, 0, false, clamp);
     settings_.stop_damping_nm_s_rad =
         std::min(ProxySettings().stop_damping_nm_s_rad, caps_.grasp_damping_nm_s_rad);
     proxy_.configure(settings_);
@@ -131,8 +130,8 @@ void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
     const ContactScene old = scene_;
     const std::array<Track, kMaxSceneParts> old_tracks = tracks_;
     scene_.count = touch.scene.count;
-    // Where a moving part is now, and seen as far ahead as the grip is.
-    const double later_s = clock_.carried_s() + lead_s_;
+    // Where a moving part was when the last cycle ended, and seen as far ahead as the grip is.
+    const double later_s = clock_.carried_s() + lead_s_ - cycle_s_;
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
         ScenePart part = touch.scene.parts[k];
@@ -172,6 +171,7 @@ void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
 
 bool TouchRenderer::age(double dt_s) noexcept {
     clock_.advance(dt_s);
+    cycle_s_ = dt_s;
     if (empty()) {
         return false; // an empty scene never grows old
     }
@@ -223,7 +223,7 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
     const double strength = strength_.value();
     if (settled_ && !moving_ && same(device, device_) && same(motion.velocity, velocity_) &&
         strength == rendered_strength_) {
-        ++skipped_;
+        skipped_ += scene_.count > 0 ? 1 : 0;
         return wrench_;
     }
     const ToolPose before = proxy_.pose();
@@ -284,20 +284,20 @@ void TouchRenderer::report(TouchReport &report) const noexcept {
         if (touches && contact.scene_part < report.part_count) {
             report.parts[contact.scene_part].touching = true;
         }
-        report.points[static_cast<std::size_t>(i)] = {
-            contact.tool_id,
-            contact.scene_id,
-            contact.point_m,
-            contact.normal,
-            contact.push_n * contact.normal + contact.friction_n,
-            contact.gap_m};
+        report.points[static_cast<std::size_t>(i)] = {contact.tool_id,
+                                                      contact.scene_id,
+                                                      contact.point_m,
+                                                      contact.normal,
+                                                      contact.push_n * contact.normal +
+                                                          contact.friction_n,
+                                                      contact.gap_m};
     }
 }
 
 bool TouchRenderer::is_sound() const noexcept {
     bool sound = scene_.count >= 0 && scene_.count <= kMaxSceneParts && tool_.count >= 0 &&
-                 tool_.count <= kMaxToolParts && are_flags(caps_.from_latency, loaded_, squeezing_,
-                                                           moving_, settled_) &&
+                 tool_.count <= kMaxToolParts &&
+                 are_flags(caps_.from_latency, loaded_, squeezing_, moving_, settled_) &&
                  clock_.is_sound() && proxy_.is_sound();
     for (const ToolPart &part : tool_.parts) {
         sound = sound && is_one_of(part.mount, ToolMount::jaw_plus);

@@ -113,6 +113,7 @@ private:
     std::uint64_t sequence_ = 0;
     // Of the last cycle.
     double lead_s_ = 0.0;
+    double cycle_s_ = 0.0;
     ToolPose device_;
     Twist velocity_;
     Wrench wrench_;

@@ -21,7 +21,8 @@ struct TouchScene {
     // What the tool carries, about P0: weight and inertia of what is held, springs on it. It pulls on the proxy, so the hand
     // feels of it what no surface carries.
     Wrench load;
-    std::uint8_t felt = kAllDof; // DOF in which the contacts reach the hand; the load is felt in all
+    std::uint8_t felt =
+        kAllDof; // DOF in which the contacts reach the hand; the load is felt in all
     // As Coupling::state_time_s.
     double state_time_s = -1.0;
     // The owners of the shapes above. The servo loop does not look at them: whoever publishes keeps a scene until a newer

@@ -1,0 +1,71 @@
+// Scenes of real shapes for tests of the servo loop.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <utility>
+
+#include "device/contact/touch/touch_scene.h"
+
+namespace spidar::test {
+
+inline std::shared_ptr<const CookedShape> cooked(ShapeDescription description) {
+    CookResult result = cook(std::move(description));
+    REQUIRE(usable(result.status));
+    return result.shape;
+}
+
+inline std::shared_ptr<const CookedShape> cooked_half_space() {
+    ShapeDescription description;
+    description.kind = ShapeKind::half_space;
+    return cooked(std::move(description));
+}
+
+inline std::shared_ptr<const CookedShape> cooked_box(const Vec3 &half_extents_m) {
+    ShapeDescription description;
+    description.kind = ShapeKind::box;
+    description.half_extents_m = half_extents_m;
+    return cooked(std::move(description));
+}
+
+// Adds a shape to a scene, which keeps it.
+inline ScenePart &add(TouchScene &touch, const std::shared_ptr<const CookedShape> &shape,
+                      const Placement &at = {}) {
+    touch.shapes.push_back(shape);
+    ScenePart &part = touch.scene.parts[static_cast<std::size_t>(touch.scene.count++)];
+    part = ScenePart();
+    part.shape = shape.get();
+    part.at = at;
+    part.id = touch.scene.count;
+    return part;
+}
+
+inline ToolPart &add_tool(TouchScene &touch, const ToolResult &made,
+                          ToolMount mount = ToolMount::grip, const Placement &at = {}) {
+    REQUIRE(usable(made.status));
+    touch.tool_shapes.push_back(made.tool);
+    ToolPart &part = touch.tool.parts[static_cast<std::size_t>(touch.tool.count++)];
+    part = ToolPart();
+    part.shape = made.tool.get();
+    part.mount = mount;
+    part.at = at;
+    part.id = touch.tool.count;
+    return part;
+}
+
+inline constexpr double kBall_m = 0.012;
+
+// A ball at the grip's centre and a floor whose surface is at height_m: its normal is +y.
+struct FloorScene {
+    TouchScene touch;
+    explicit FloorScene(double height_m = 0.0, double stiffness_n_m = 0.0) {
+        add_tool(touch, make_sphere(kBall_m));
+        add(touch, cooked_half_space(), {Vec3(0.0, height_m, 0.0), Mat3(1.0)});
+        for (std::size_t dof = 0; dof < 3; ++dof) {
+            touch.stiffness[dof] = stiffness_n_m;
+        }
+    }
+};
+
+} // namespace spidar::test
