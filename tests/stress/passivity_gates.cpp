@@ -2,6 +2,7 @@
 // at 30 to 144 Hz with jitter and dropped frames. In each: the work of a tap, dither while pressing a plane, a turn stop,
 // a grasp stop, all seven and a coupling, the drag of a coupling in free space, walls that move and turn, an edge, and
 // one or four coplanar contacts.
+// And real shapes with automatic stiffness: a face, the end of a bar, a box between the pads, a peg in a hole.
 //   passivity_gates [--cases N] [--seed S] [--out FOLDER]
 // N of the combinations, at random; all of them without --cases. --out: passivity_gates.csv, all figures of each, and
 // passivity_gates.md, the worst of all.
@@ -15,6 +16,7 @@
 
 #include "support/command_line.h"
 #include "support/gate_measures.h"
+#include "support/touch_gates.h"
 
 using namespace spidar;
 using namespace spidar::test;
@@ -28,6 +30,7 @@ constexpr double kStill_rad = 0.05 * std::numbers::pi / 180.0;
 constexpr double kMostDrag_n = 0.25;
 // Of the rms force: what moves, turns or has an edge against the ideal wall, and four contacts against one.
 constexpr double kSameFeel = 0.05;
+constexpr double kSameFace = 0.02;
 
 struct Gate {
     const char *name;
@@ -48,7 +51,7 @@ struct Gate {
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr std::size_t kGates = 17;
+constexpr std::size_t kGates = 31;
 using Gates = std::array<Gate, kGates>;
 
 Gates all_gates() {
@@ -80,7 +83,21 @@ Gates all_gates() {
             feel("moving wall", "moving_percent"),
             feel("turning wall", "turning_percent"),
             feel("edge of two walls", "edge_percent"),
-            feel("one or four coplanar", "coplanar_percent")};
+            feel("one or four coplanar", "coplanar_percent"),
+            work("energy of a tap, face", "tap_face_mj"),
+            still("dither, face", "face_mm"),
+            turn("dither, face, turns", "face_deg"),
+            work("energy of a tap, bar's end", "tap_bar_mj"),
+            still("dither, bar's end", "bar_mm"),
+            turn("dither, bar's end, turns", "bar_deg"),
+            work("energy of a tap, width", "tap_width_mj"),
+            still("dither, width", "width_mm"),
+            turn("dither, width, turns", "width_deg"),
+            work("energy of a tap, peg", "tap_peg_mj"),
+            still("dither, peg", "peg_mm"),
+            turn("dither, peg, turns", "peg_deg"),
+            Gate{"face or ball", "face_percent", "%", kSameFace, 100.0},
+            feel("moving floor", "floor_percent")};
 }
 
 // In the order of all_gates().
@@ -112,6 +129,16 @@ std::vector<double> measure(const Case &one) {
     values.push_back(moving_wall_error(one, true));
     values.push_back(edge_error(one));
     values.push_back(coplanar_difference(one));
+    for (int i = 0; i < kTouchWalls; ++i) {
+        const auto wall = static_cast<TouchWall>(i);
+        values.push_back(touch_tap_work(one, wall));
+        const PressResult pressed =
+            touch_press(rig_for(one), scene_of(wall), touch_target(wall, 1.0));
+        metres(pressed);
+        radians(pressed);
+    }
+    values.push_back(touch_face_difference(one));
+    values.push_back(touch_moving_error(one));
     return values;
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "device/contact/touch/touch_scene.h"
 #include "device/simulation/simulated_plant.h"
 #include "device/step/servo_step.h"
 
@@ -51,6 +52,7 @@ public:
                               plant_.counts(), settings_.plant.metres_per_count);
         settings_.servo.safety.arming_time_s = kArming_s;
         settings_.servo.render.latency_s = settings.latency_s;
+        step_.use(&memory_);
         started_ = step_.configure(settings_.servo);
         command_.forces_enabled = true;
         pending_ = command_;
@@ -143,6 +145,7 @@ private:
 
     RigSettings settings_;
     SimulatedPlant plant_;
+    ProxyMemory memory_;
     ServoStep step_;
     std::mt19937_64 random_;
     std::uniform_real_distribution<double> uniform_{0.0, 1.0};
@@ -157,6 +160,24 @@ private:
     double next_frame_s_ = 0.0;
     double publish_s_ = 0.0;
     bool waiting_ = false;
+};
+
+// Publishes a scene anew, of which the caller keeps one to be written while the loop may look at the other.
+class TouchGame {
+public:
+    explicit TouchGame(TouchScene first) : scene(std::move(first)) {}
+    void publish(const ServoSnapshot &seen, HapticCommand &command) {
+        turn_ = 1 - turn_;
+        published_[turn_] = scene;
+        published_[turn_].state_time_s = seen.time_s;
+        command.touch = &published_[turn_];
+        ++command.touch_sequence;
+    }
+    TouchScene scene;
+
+private:
+    std::array<TouchScene, 2> published_;
+    std::size_t turn_ = 0;
 };
 
 // Replaces the set of contacts.

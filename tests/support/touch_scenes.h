@@ -1,9 +1,8 @@
 // Scenes of real shapes for tests of the servo loop.
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "device/contact/touch/touch_scene.h"
@@ -12,7 +11,9 @@ namespace spidar::test {
 
 inline std::shared_ptr<const CookedShape> cooked(ShapeDescription description) {
     CookResult result = cook(std::move(description));
-    REQUIRE(usable(result.status));
+    if (!usable(result.status)) {
+        throw std::runtime_error(result.sentence);
+    }
     return result.shape;
 }
 
@@ -43,7 +44,9 @@ inline ScenePart &add(TouchScene &touch, const std::shared_ptr<const CookedShape
 
 inline ToolPart &add_tool(TouchScene &touch, const ToolResult &made,
                           ToolMount mount = ToolMount::grip, const Placement &at = {}) {
-    REQUIRE(usable(made.status));
+    if (!usable(made.status)) {
+        throw std::runtime_error(made.sentence);
+    }
     touch.tool_shapes.push_back(made.tool);
     ToolPart &part = touch.tool.parts[static_cast<std::size_t>(touch.tool.count++)];
     part = ToolPart();

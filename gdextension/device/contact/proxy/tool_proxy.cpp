@@ -142,6 +142,16 @@ Displacement ToolProxy::unscaled(const Move &move) const noexcept {
     return of_lanes<Displacement>(row);
 }
 
+ToolProxy::Move ToolProxy::unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
+                                     const Vec3 &direction) const noexcept {
+    const DofLanes along = lanes(moves_along(part, jaws, pose_, point_m, direction));
+    Move move{};
+    for (std::size_t dof = 0; dof < along.size(); ++dof) {
+        move[dof] = along[dof] / root_[dof];
+    }
+    return move;
+}
+
 ToolProxy::Move ToolProxy::nearest_to(const Move &target, const Rows &rows,
                                       const RowPushes<kMaxRows> &pushes) const noexcept {
     Move move = target;
@@ -206,14 +216,11 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         const auto k = static_cast<std::size_t>(i);
         const ProxyContact &contact = contacts_[k];
         const ScenePart &other = scene.parts[contact.scene_part];
-        const DofLanes along = lanes(moves_along(tool.parts[contact.tool_part], tool.jaws, pose_,
-                                                 contact.point_m, contact.normal));
         const double comes_m =
             dt_s * glm::dot(contact.normal, surface_velocity(other, contact.point_m));
         rows_[k] = ConstraintRow();
-        for (std::size_t dof = 0; dof < along.size(); ++dof) {
-            rows_[k].row[dof] = along[dof] / root_[dof];
-        }
+        rows_[k].row =
+            unit_move(tool.parts[contact.tool_part], tool.jaws, contact.point_m, contact.normal);
         least[k] = comes_m - contact.gap_m;
         rows_[k].depth = least[k] - dot(rows_[k].row, target);
     }
@@ -274,19 +281,17 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         const Vec3 speed_m_s = point_velocity(tool.parts[contact.tool_part], tool.jaws, pose_,
                                               velocity, contact.point_m) -
                                surface_velocity(other, contact.point_m);
-        const double damping_n_s_m = settings_.damping_n_s_m + other.damping_n_s_m;
+        const double damping_s = settings_.damping_s + other.damping_n_s_m * softness_m_n;
         // The damper acts as a deeper spring: so the push stays one-sided, and shared.
-        rows[k].depth = std::max(0.0, rows[k].depth - damping_n_s_m * softness_m_n *
-                                                          glm::dot(contact.normal, speed_m_s));
+        rows[k].depth =
+            std::max(0.0, rows[k].depth - damping_s * glm::dot(contact.normal, speed_m_s));
         alone[k] = own_push(rows[k]);
         deepest_n = std::max(deepest_n, alone[k]);
     }
     const auto stop = static_cast<std::size_t>(count_);
     if (rows[stop].depth > 0.0) {
-        const double closing_rad_s = velocity.grasp_rate_rad_s;
-        const double softness_rad_nm = dot(rows[stop].row, rows[stop].row);
-        rows[stop].depth = std::max(0.0, rows[stop].depth + settings_.stop_damping_nm_s_rad *
-                                                                softness_rad_nm * closing_rad_s);
+        rows[stop].depth =
+            std::max(0.0, rows[stop].depth + settings_.damping_s * velocity.grasp_rate_rad_s);
         alone[stop] = own_push(rows[stop]);
         deepest_n = std::max(deepest_n, alone[stop]);
     }

@@ -44,9 +44,9 @@ struct PartForce {
 struct ProxySettings {
     // Between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
     DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
-    // Of each contact, along its normal and along its surface.
-    double damping_n_s_m = 2.0;
-    double stop_damping_nm_s_rad = 0.001; // of the jaws' stop
+    // Damping of each contact and of the jaws' stop, in parts of its own stiffness (unit: s), along its normal and along
+    // its surface: 2 N s/m where it gives way by 1000 N/m.
+    double damping_s = 0.002;
     // Surfaces nearer than this are looked at in a cycle.
     double margin_m = 0.002;
 };
@@ -88,6 +88,11 @@ private:
 
     // Nothing is in reach: the proxy is where the device is.
     void follow(const ToolPose &device) noexcept;
+    [[nodiscard]] double part_at_levers(const Tool &tool, const ContactScene &scene,
+                                        double all_n) const noexcept;
+    // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.
+    [[nodiscard]] Move unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
+                                 const Vec3 &direction) const noexcept;
     void find_contacts(const Tool &tool, const ContactScene &scene, ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
     [[nodiscard]] Move scaled(const Displacement &by) const noexcept;

@@ -1,6 +1,8 @@
 // Friction of the proxy's contacts.
 #include "device/contact/proxy/tool_proxy.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 #include "device/contract/dof_lanes.h"
@@ -11,6 +13,7 @@ namespace {
 
 // A friction spring goes over to a contact whose surface is turned by less than this.
 constexpr double kSameSurface = 0.7;
+constexpr std::size_t kGrasp = 6;
 
 Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
     return v - glm::dot(normal, v) * normal;
@@ -35,11 +38,42 @@ const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact) const
     return nearest;
 }
 
-// Coulomb friction: at each contact a spring between tool and surface, which slips beyond the cone.
+// Springs along surfaces turn the tool by their levers. They are softened where they would turn it harder than the springs
+// of its turns and grasp: the part that is left.
+double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
+                                 double all_n) const noexcept {
+    const DofGains &k = settings_.stiffness;
+    const double turn_nm_rad = std::min({k[3], k[4], k[5]});
+    double turns = 0.0;
+    for (int i = 0; i < count_; ++i) {
+        const ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
+        if (!(contact.push_n > 0.0) || !(scene.parts[contact.scene_part].friction > 0.0)) {
+            continue;
+        }
+        const Vec3 lever_m = contact.point_m - pose_.position_m;
+        const Vec3 slides = along_surface(pose_.rotation[0], contact.normal);
+        const double jaw_m_rad =
+            moves_along(tool.parts[contact.tool_part], tool.jaws, pose_, contact.point_m, slides)
+                .grasp_rad;
+        turns += contact.push_n / all_n *
+                 (glm::dot(lever_m, lever_m) / turn_nm_rad + jaw_m_rad * jaw_m_rad / k[kGrasp]);
+    }
+    return 1.0 / std::max(1.0, k[0] * turns);
+}
+
+// Coulomb friction: at each contact a spring between tool and surface, which slips beyond the cone. All springs together
+// are as stiff as one: each has the share of its push.
 void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                     const Twist &velocity, double dt_s) noexcept {
     const Displacement by = between(device_, device);
     const Twist step{by.linear_m, by.angular_rad, by.grasp_rad}; // of the device in this cycle
+    double all_n = 0.0;
+    for (int i = 0; i < count_; ++i) {
+        const ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
+        all_n += scene.parts[contact.scene_part].friction > 0.0 ? contact.push_n : 0.0;
+    }
+    const double all_n_m =
+        all_n > 0.0 ? settings_.stiffness[0] * part_at_levers(tool, scene, all_n) : 0.0;
     DofLanes sum = lanes(wrench_);
     for (int i = 0; i < count_; ++i) {
         ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
@@ -50,15 +84,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
         const ToolPart &part = tool.parts[contact.tool_part];
         const Vec3 surface_m_s = surface_velocity(other, contact.point_m);
         if (other.friction > 0.0) {
-            double all_n = 0.0; // of this pair
-            for (int j = 0; j < count_; ++j) {
-                const ProxyContact &beside = contacts_[static_cast<std::size_t>(j)];
-                const bool pair = beside.tool_part == contact.tool_part &&
-                                  beside.scene_part == contact.scene_part;
-                all_n += pair ? beside.push_n : 0.0;
-            }
-            const double share = contact.push_n / all_n;
-            const double stiffness_n_m = share * settings_.stiffness[0];
+            const double stiffness_n_m = all_n_m * contact.push_n / all_n;
             const double limit_n = other.friction * contact.push_n;
             const Vec3 slid_m =
                 point_velocity(part, tool.jaws, device, step, contact.point_m) - dt_s * surface_m_s;
@@ -72,8 +98,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
             const Vec3 slides_m_s = along_surface(
                 point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,
                 contact.normal);
-            Vec3 rub_n =
-                -stiffness_n_m * stretch_m - (share * settings_.damping_n_s_m) * slides_m_s;
+            Vec3 rub_n = -stiffness_n_m * (stretch_m + settings_.damping_s * slides_m_s);
             const double size_n = glm::length(rub_n);
             if (size_n > limit_n) {
                 rub_n *= limit_n / size_n;

@@ -18,6 +18,8 @@ constexpr double kJump_rad = 0.5;
 constexpr double kMaxFriction = 10.0;
 // As ContactRenderer's.
 constexpr double kMaxPartSpeed_m_s = 10.0;
+// Of a soft contact: the velocity is measured over some milliseconds.
+constexpr double kMostDamping_s = 0.01;
 
 bool same(const ToolPose &a, const ToolPose &b) noexcept {
     return a.position_m == b.position_m && a.rotation == b.rotation && a.grasp_rad == b.grasp_rad;
@@ -72,10 +74,18 @@ void TouchRenderer::tune(GainClamp &clamp) noexcept {
                               : kAutomaticShare * cap.most;
         settings_.stiffness[dof] = std::max(wanted, kSoftest);
     }
-    settings_.damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
-                                     GainClamp::Gain::damping, 0, false, clamp);
-    settings_.stop_damping_nm_s_rad =
-        std::min(ProxySettings().stop_damping_nm_s_rad, caps_.grasp_damping_nm_s_rad);
+    // The same time for all DOF, so that none is damped more than its cap.
+    const double damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
+                                        GainClamp::Gain::damping, 0, false, clamp);
+    double stiffest_n_m = 0.0;
+    settings_.damping_s = kMostDamping_s;
+    for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
+        const double stiffness = settings_.stiffness[dof];
+        stiffest_n_m = std::max(stiffest_n_m, dof < 3 ? stiffness : 0.0);
+        settings_.damping_s =
+            std::min(settings_.damping_s, damping_cap(caps_, dof).most / stiffness);
+    }
+    settings_.damping_s = std::min(settings_.damping_s, damping_n_s_m / stiffest_n_m);
     proxy_.configure(settings_);
     settled_ = false;
 }

@@ -48,7 +48,7 @@ struct Rig {
     std::vector<std::shared_ptr<const void>> keep;
 
     Rig() {
-        settings.damping_n_s_m = 0.0;
+        settings.damping_s = 0.0;
         proxy.configure(settings);
     }
     void add_tool(const ToolResult &made, ToolMount mount = ToolMount::grip,
