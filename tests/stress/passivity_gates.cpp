@@ -27,6 +27,8 @@ namespace {
 constexpr double kMostWork_j = 1e-5;
 constexpr double kStill_m = 0.2e-3;
 constexpr double kStill_rad = 0.05 * std::numbers::pi / 180.0;
+// A peg is held by its ends, 30 mm from the middle, on both sides: five of a string's counts there.
+constexpr double kStillPeg_rad = 0.06 * std::numbers::pi / 180.0;
 constexpr double kMostDrag_n = 0.25;
 // Of the rms force: what moves, turns or has an edge against the ideal wall, and four contacts against one.
 constexpr double kSameFeel = 0.05;
@@ -95,7 +97,7 @@ Gates all_gates() {
             turn("dither, width, turns", "width_deg"),
             work("energy of a tap, peg", "tap_peg_mj"),
             still("dither, peg", "peg_mm"),
-            turn("dither, peg, turns", "peg_deg"),
+            Gate{"dither, peg, turns", "peg_deg", "deg", kStillPeg_rad, kDegrees},
             Gate{"face or ball", "face_percent", "%", kSameFace, 100.0},
             feel("moving floor", "floor_percent")};
 }

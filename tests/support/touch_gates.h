@@ -126,9 +126,9 @@ inline PressResult touch_press(const RigSettings &settings, const TouchScene &to
     return {dither.worst_m(), dither.worst_rad(), rig.active()};
 }
 
-// Force that the hand feels on a face of four corners against a ball of the same stiffness.
+// Force for the depth that the encoders tell, on a face of four corners against that on a ball.
 inline double touch_face_difference(const Case &one) {
-    double felt_n[2] = {0.0, 0.0};
+    double felt_n_m[2] = {0.0, 0.0};
     for (int round = 0; round < 2; ++round) {
         HapticRig rig(rig_for(one));
         TouchScene touch = scene_of(TouchWall::face);
@@ -143,15 +143,16 @@ inline double touch_face_difference(const Case &one) {
         rig.hand_to(touch_target(TouchWall::face, 1.0));
         rig.run(1.5);
         double sum_n = 0.0;
-        int count = 0;
-        rig.watch = [&](const ServoSnapshot &, const PlantTruth &truth) {
-            sum_n += truth.strings.force_n.y;
-            ++count;
+        double depth_m = 0.0;
+        rig.watch = [&](const ServoSnapshot &now, const PlantTruth &) {
+            sum_n += now.requested.force_n.y;
+            depth_m -= now.grip.pose.position_m.y;
         };
         rig.run(0.5);
-        felt_n[round] = rig.active() && count > 0 ? sum_n / count : 0.0;
+        felt_n_m[round] = rig.active() && depth_m > 0.0 ? sum_n / depth_m : 0.0;
     }
-    return felt_n[0] > 0.0 && felt_n[1] > 0.0 ? std::abs(felt_n[0] / felt_n[1] - 1.0) : kLost;
+    return felt_n_m[0] > 0.0 && felt_n_m[1] > 0.0 ? std::abs(felt_n_m[0] / felt_n_m[1] - 1.0)
+                                                  : kLost;
 }
 
 // A floor that swings to and fro under a hand that leans on it; the ideal is the floor itself.
@@ -161,6 +162,8 @@ inline double touch_moving_error(const Case &one) {
     constexpr double kSwing_m = 0.004;
     constexpr double kStiffness_n_m = kPlane_n_m;
     TouchScene touch = scene_of(TouchWall::face);
+    touch.tool.count = 0;
+    add_tool(touch, make_sphere(-kFloor_m));
     for (std::size_t dof = 0; dof < 3; ++dof) {
         touch.stiffness[dof] = kStiffness_n_m;
     }

@@ -98,7 +98,7 @@ private:
     std::array<std::uint64_t, kMaxToolParts> tool_numbers_{};
     std::array<Track, kMaxSceneParts> tracks_{};
     DofGains asked_{}; // TouchScene::stiffness
-    double asked_damping_n_s_m_ = 2.0;
+    double asked_damping_n_s_m_ = 0.0;
     ProxySettings settings_;
     ToolProxy proxy_;
     std::uint8_t felt_ = kAllDof;
