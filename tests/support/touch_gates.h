@@ -140,7 +140,7 @@ inline double touch_face_difference(const Case &one) {
         rig.game = [&scene](const ServoSnapshot &seen, HapticCommand &command) {
             scene.publish(seen, command);
         };
-        rig.hand_to(touch_target(TouchWall::face, 1.0));
+        rig.hand_to(touch_target(TouchWall::face, 3.0));
         rig.run(1.5);
         double sum_n = 0.0;
         double depth_m = 0.0;

@@ -1,6 +1,7 @@
 #include "device/contact/touch/touch_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -43,6 +44,17 @@ Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp
     const double given_m_s =
         capped(speed_m_s, kMaxPartSpeed_m_s, GainClamp::Gain::speed, index, false, clamp);
     return given_m_s < speed_m_s ? (given_m_s / speed_m_s) * velocity_m_s : velocity_m_s;
+}
+
+// What two motions have in common, axis by axis: the smaller of two of the same sign. A blow is seen once.
+Vec3 shared(const Vec3 &a, const Vec3 &b) noexcept {
+    Vec3 both(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a[axis] * b[axis] > 0.0) {
+            both[axis] = std::abs(a[axis]) < std::abs(b[axis]) ? a[axis] : b[axis];
+        }
+    }
+    return both;
 }
 
 } // namespace
@@ -108,7 +120,9 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     load_from_ = load_now_;
     load_ = touch.load;
     loaded_ = !same(load_, Wrench()) || !same(load_from_, Wrench());
-    renew(touch, clamp);
+    const bool stamped = touch.state_time_s >= 0.0 && state_time_s_ >= 0.0;
+    renew(touch, stamped ? std::max(0.0, touch.state_time_s - state_time_s_) : 0.0, clamp);
+    state_time_s_ = touch.state_time_s;
     if (empty()) {
         strength_.set(1.0); // the game goes on and touches nothing: nothing to recover from
     }
@@ -136,7 +150,7 @@ bool TouchRenderer::empty() const noexcept {
     return scene_.count == 0 && !loaded_ && !(tool_.stop_rad < tool_.jaws.closed_rad);
 }
 
-void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
+void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &clamp) noexcept {
     const ContactScene old = scene_;
     const std::array<Track, kMaxSceneParts> old_tracks = tracks_;
     scene_.count = touch.scene.count;
@@ -152,7 +166,6 @@ void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
         Track track;
         track.velocity_m_s = part.velocity_m_s;
         track.angular_rad_s = part.angular_rad_s;
-        part.at.origin_m += later_s * part.velocity_m_s;
         if (part.angular_rad_s != Vec3(0.0)) {
             part.at.rotation = rotation_exp(later_s * part.angular_rad_s) * part.at.rotation;
         }
@@ -163,6 +176,13 @@ void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
             const Track &was = old_tracks[static_cast<std::size_t>(before - old.parts.data())];
             track.impulse_ns = was.impulse_ns;
             track.angular_impulse_nms = was.angular_impulse_nms;
+            if (apart_s > 0.0) {
+                track.seen_acceleration_m_s2 = (track.velocity_m_s - was.velocity_m_s) / apart_s;
+                track.acceleration_m_s2 =
+                    shared(was.seen_acceleration_m_s2, track.seen_acceleration_m_s2);
+            }
+            part.at.origin_m +=
+                later_s * track.velocity_m_s + 0.5 * later_s * later_s * track.acceleration_m_s2;
             const Vec3 by_m = part.at.origin_m - before->at.origin_m;
             const bool turned = part.at.rotation != before->at.rotation;
             const Vec3 by_rad =
@@ -173,6 +193,8 @@ void TouchRenderer::renew(const TouchScene &touch, GainClamp &clamp) noexcept {
                 track.correction_m = by_m;
                 track.correction_rad = by_rad;
             }
+        } else {
+            part.at.origin_m += later_s * track.velocity_m_s;
         }
         scene_.parts[k] = part;
         tracks_[k] = track;
@@ -196,6 +218,8 @@ void TouchRenderer::carry(double dt_s) noexcept {
     const bool carries = clock_.carries();
     const double left_s = std::clamp(kCrossFade_s - clock_.age_s(), 0.0, dt_s);
     const double corrects = left_s / (kCrossFade_s * dt_s);
+    // The middle of this cycle, from the moment of the scene on, and seen as far ahead as the grip is.
+    const double middle_s = clock_.carried_s() + lead_s_ - 0.5 * dt_s;
     moving_ = false;
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
@@ -204,7 +228,7 @@ void TouchRenderer::carry(double dt_s) noexcept {
         part.velocity_m_s = corrects * track.correction_m;
         part.angular_rad_s = corrects * track.correction_rad;
         if (carries) {
-            part.velocity_m_s += track.velocity_m_s;
+            part.velocity_m_s += track.velocity_m_s + middle_s * track.acceleration_m_s2;
             part.angular_rad_s += track.angular_rad_s;
         }
         moving_ = moving_ || part.velocity_m_s != Vec3(0.0) || part.angular_rad_s != Vec3(0.0);

@@ -76,13 +76,17 @@ private:
     struct Track {
         Vec3 velocity_m_s{0.0}; // its own, as given
         Vec3 angular_rad_s{0.0};
+        // Between the last two scenes, and what the last three agree on.
+        Vec3 seen_acceleration_m_s2{0.0};
+        Vec3 acceleration_m_s2{0.0};
         Vec3 correction_m{0.0}; // spread over kCrossFade_s
         Vec3 correction_rad{0.0};
         Vec3 impulse_ns{0.0}; // on the part, since its id appeared
         Vec3 angular_impulse_nms{0.0};
     };
 
-    void renew(const TouchScene &touch, GainClamp &clamp) noexcept;
+    // apart_s: of the game's time since the scene before; 0: unknown.
+    void renew(const TouchScene &touch, double apart_s, GainClamp &clamp) noexcept;
     void drop() noexcept;
     [[nodiscard]] bool empty() const noexcept;
     // The velocities of this cycle.
@@ -119,6 +123,7 @@ private:
     Wrench wrench_;
     double rendered_strength_ = 1.0;
     GameClock clock_;
+    double state_time_s_ = -1.0; // of the last scene
     RefreshedStrength strength_{1.0};
 };
 
