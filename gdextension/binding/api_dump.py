@@ -5,7 +5,9 @@ import re
 from pathlib import Path
 
 # Structs that the binding defines in C++, and the engine's opaque types that it wraps.
-MATH_TYPES = ["Vector2", "Vector3", "Quaternion", "Basis", "Transform3D", "Color"]
+MATH_TYPES = [
+    "Vector2", "Vector3", "Quaternion", "Basis", "Transform3D", "Color", "Plane", "RID",
+]
 OPAQUE_TYPES = [
     "String", "StringName", "NodePath", "Callable", "Dictionary", "Array",
     "PackedByteArray", "PackedInt32Array", "PackedInt64Array", "PackedFloat32Array",
@@ -99,6 +101,10 @@ class Api:
             return META_TYPES.get(meta, "int64_t" if api_type == "int" else "double")
         if api_type in ("bool", "Variant") or api_type in MATH_TYPES + OPAQUE_TYPES:
             return api_type
+        if api_type.startswith("typedarray::"):
+            element = api_type[len("typedarray::"):]
+            if element in self.builtins or element in self.wanted["class"]:
+                return f"TypedArray<{element}>"
         if api_type.startswith("enum::"):
             name = api_type[len("enum::"):].replace(".", "::")
             if "::" in name and name.split("::")[0] not in self.wanted["class"]:
@@ -120,7 +126,7 @@ class Api:
             return f"static_cast<{cpp}>({text})"
         if re.fullmatch(r'&?"[^"\\]*"', text) and cpp in ("String", "StringName"):
             return f"{cpp}({text.lstrip('&')})"
-        if text in ("[]", "{}", 'NodePath("")', f"{cpp}()"):
+        if text in ("[]", "{}", 'NodePath("")', f"{cpp}()", f"{cpp}(0, 0, 0)"):
             return f"{cpp}()"
         if re.fullmatch(r"-?[\d.]+|true|false", text):
             return f"Variant({text})"

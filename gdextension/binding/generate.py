@@ -179,8 +179,8 @@ def class_header(api, name, methods):
     if name in api.singletons:
         text += f"    static {name} *get_singleton();\n"
     text += "".join(m.declaration() for m in methods)
-    if name == "Object":
-        text += "#include <godot_cpp/internal/object_members.inc>\n"
+    if name in ("Object", "WorkerThreadPool"):
+        text += f"#include <godot_cpp/internal/{snake(name)}_members.inc>\n"
     text += "};\n\nnamespace internal {\n\n"
     text += "".join(enum_name_text(e, name) for e in description.get("enums", []))
     text += f"template <>\nstruct IsEngineClass<{name}> : std::true_type {{}};\n\n"

@@ -23,7 +23,7 @@
 #include "device/simulation/simulated_transport.h"
 #include "godot/base/strict.h"
 #include "godot/base/world_frame.h"
-#include "godot/device/node_motion.h"
+#include "godot/base/node_motion.h"
 #include "godot/device/recording_places.h"
 #include "godot/device/replay_contacts.h"
 #include "godot/device/request_owners.h"

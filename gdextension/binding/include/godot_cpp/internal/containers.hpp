@@ -26,6 +26,14 @@ public:
 #include <godot_cpp/internal/array.methods.gen.inc>
 };
 
+// What the engine takes and gives for arrays of one type: an Array whose elements the engine checks.
+template <typename T>
+class TypedArray : public Array {
+public:
+    TypedArray() = default;
+    TypedArray(const Array &array) : Array(array) {}
+};
+
 class Dictionary
     : public internal::Opaque<GDEXTENSION_VARIANT_TYPE_DICTIONARY, internal::kDictionarySize> {
 public:

@@ -66,6 +66,7 @@
     X(ref_get_object, RefGetObject)                                                                \
     X(ref_set_object, RefSetObject)                                                                \
     X(callable_custom_create2, CallableCustomCreate2)                                              \
+    X(worker_thread_pool_add_native_task, WorkerThreadPoolAddNativeTask)                           \
     X(classdb_construct_object2, ClassdbConstructObject2)                                          \
     X(classdb_get_method_bind, ClassdbGetMethodBind)                                               \
     X(classdb_get_class_tag, ClassdbGetClassTag)                                                   \

@@ -15,12 +15,16 @@ struct Quaternion;
 struct Basis;
 struct Transform3D;
 struct Color;
+struct Plane;
+class RID;
 class String;
 class StringName;
 class NodePath;
 class Callable;
 class Dictionary;
 class Array;
+template <typename T>
+class TypedArray;
 class PackedByteArray;
 class PackedInt32Array;
 class PackedInt64Array;
@@ -50,6 +54,8 @@ GODOT_BINDING_PLAIN(Quaternion, QUATERNION);
 GODOT_BINDING_PLAIN(Basis, BASIS);
 GODOT_BINDING_PLAIN(Transform3D, TRANSFORM3D);
 GODOT_BINDING_PLAIN(Color, COLOR);
+GODOT_BINDING_PLAIN(Plane, PLANE);
+GODOT_BINDING_PLAIN(RID, RID);
 GODOT_BINDING_PLAIN(String, STRING);
 GODOT_BINDING_PLAIN(StringName, STRING_NAME);
 GODOT_BINDING_PLAIN(NodePath, NODE_PATH);
@@ -65,6 +71,9 @@ GODOT_BINDING_PLAIN(PackedStringArray, PACKED_STRING_ARRAY);
 GODOT_BINDING_PLAIN(PackedVector2Array, PACKED_VECTOR2_ARRAY);
 GODOT_BINDING_PLAIN(PackedVector3Array, PACKED_VECTOR3_ARRAY);
 #undef GODOT_BINDING_PLAIN
+
+template <typename T>
+struct PlainType<TypedArray<T>> : PlainType<Array> {};
 
 template <class T>
 concept Plain = requires {

@@ -4,6 +4,8 @@
 
 #include <godot_cpp/internal/packed_arrays.hpp>
 #include <godot_cpp/variant/color.hpp>
+#include <godot_cpp/variant/plane.hpp>
+#include <godot_cpp/variant/rid.hpp>
 #include <godot_cpp/variant/transform3d.hpp>
 
 namespace godot {
@@ -161,6 +163,8 @@ static_assert(sizeof(Vector3) == internal::kVector3Size);
 static_assert(sizeof(Quaternion) == internal::kQuaternionSize);
 static_assert(sizeof(Transform3D) == internal::kTransform3DSize);
 static_assert(sizeof(Color) == internal::kColorSize);
+static_assert(sizeof(Plane) == internal::kPlaneSize);
+static_assert(sizeof(RID) == internal::kRIDSize);
 static_assert(sizeof(Dictionary) == internal::kDictionarySize);
 
 namespace internal {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <godot_cpp/variant/vector3.hpp>
+
+namespace godot {
+
+// The points x with normal.dot(x) == d.
+struct Plane {
+    Vector3 normal;
+    real_t d = 0;
+
+    constexpr Plane() = default;
+    constexpr Plane(const Vector3 &p_normal, real_t p_d) : normal(p_normal), d(p_d) {}
+
+    constexpr bool operator==(const Plane &o) const { return normal == o.normal && d == o.d; }
+    constexpr bool operator!=(const Plane &o) const { return !(*this == o); }
+};
+
+} // namespace godot

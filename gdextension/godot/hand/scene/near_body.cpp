@@ -1,0 +1,267 @@
+#include "godot/hand/scene/near_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/physics_body3d.hpp>
+#include <godot_cpp/classes/physics_direct_body_state3d.hpp>
+#include <godot_cpp/classes/physics_material.hpp>
+#include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/classes/static_body3d.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/string.hpp>
+
+#include "godot/base/type_conversions.h"
+
+namespace spidar {
+
+namespace {
+
+using godot::CollisionObject3D;
+using godot::Node3D;
+using godot::Object;
+using godot::ObjectDB;
+using godot::PhysicsServer3D;
+
+// Shapes beyond those near that are looked at in a tick.
+constexpr std::size_t kShapesPerTick = 8;
+
+double positive_meta(const Object &object, const godot::StringName &name) {
+    if (!object.has_meta(name)) {
+        return 0.0;
+    }
+    const godot::Variant value = object.get_meta(name);
+    if (value.get_type() != godot::Variant::FLOAT && value.get_type() != godot::Variant::INT) {
+        return 0.0;
+    }
+    const auto number = static_cast<double>(value);
+    return std::isfinite(number) && number > 0.0 ? number : 0.0;
+}
+
+bool has_material(const Object *object) {
+    if (const auto *still = Object::cast_to<godot::StaticBody3D>(object)) {
+        return still->get_physics_material_override().is_valid();
+    }
+    const auto *rigid = Object::cast_to<godot::RigidBody3D>(object);
+    return rigid != nullptr && rigid->get_physics_material_override().is_valid();
+}
+
+Placement in_frame(const WorldFrame &frame, const Mat3 &axes, const Vec3 &origin) {
+    return {frame.point_to_device(origin), glm::transpose(frame.rotation) * take_apart(axes).turn};
+}
+
+} // namespace
+
+TurnAndScale take_apart(const Mat3 &axes) noexcept {
+    constexpr double kRightAngle = 1e-3;
+    TurnAndScale result;
+    const Vec3 lengths(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+    const double least = std::min({lengths.x, lengths.y, lengths.z});
+    if (!(least > 0.0) || !std::isfinite(lengths.x + lengths.y + lengths.z)) {
+        result.sheared = true;
+        return result;
+    }
+    const bool mirrored = glm::dot(glm::cross(axes[0], axes[1]), axes[2]) < 0.0;
+    result.scale = {mirrored ? -lengths.x : lengths.x, lengths.y, lengths.z};
+    const Vec3 x = axes[0] / result.scale.x;
+    const Vec3 along_y = axes[1] / lengths.y;
+    const Vec3 along_z = axes[2] / lengths.z;
+    const double off =
+        std::max({std::abs(glm::dot(x, along_y)), std::abs(glm::dot(along_y, along_z)),
+                  std::abs(glm::dot(along_z, x))});
+    result.sheared = off > kRightAngle;
+    const Vec3 y = glm::normalize(along_y - glm::dot(x, along_y) * x);
+    result.turn = Mat3(x, y, glm::cross(x, y));
+    return result;
+}
+
+NearBody::NearBody(const godot::RID &rid, std::uint64_t object) : rid_(rid), object_(object) {
+    const auto *node = Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(object));
+    is_node_ = node != nullptr && node->get_rid() == rid;
+}
+
+bool NearBody::is_there(const godot::RID &space) const {
+    return ObjectDB::get_instance(object_) != nullptr &&
+           PhysicsServer3D::get_singleton()->body_get_space(rid_) == space;
+}
+
+void NearBody::set_place(const godot::Transform3D &place) {
+    basis_ = to_core(place.basis);
+    origin_ = to_core(place.origin);
+}
+
+void NearBody::read_place(const Moment &moment) {
+    auto *server = PhysicsServer3D::get_singleton();
+    mode_ = server->body_get_mode(rid_);
+    if (moved_by_physics()) {
+        const godot::PhysicsDirectBodyState3D *state = server->body_get_direct_state(rid_);
+        if (state != nullptr) {
+            frame_ = moment.in_space;
+            set_place(state->get_transform());
+            const double inverse_mass = state->get_inverse_mass();
+            mass_kg_ = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
+            const Vec3 center = origin_ + to_core(state->get_center_of_mass());
+            center_m_ = frame_.point_to_device(center);
+            const Vec3 velocity = moment.time_scale * to_core(state->get_linear_velocity()) -
+                                  moment.node->velocity_at(center - frame_.origin);
+            velocity_m_s_ = frame_.velocity_to_device(velocity);
+            angular_rad_s_ =
+                frame_.turn_to_device(moment.time_scale * to_core(state->get_angular_velocity()) -
+                                      moment.node->angular_rad_s());
+            return;
+        }
+    }
+    const bool is_static = mode_ == PhysicsServer3D::BODY_MODE_STATIC;
+    frame_ = is_static ? moment.now : moment.in_space;
+    if (is_static) {
+        // The server learns of a node's move only at the end of a tick.
+        if (auto *node = Object::cast_to<Node3D>(ObjectDB::get_instance(object_));
+            node != nullptr && node->is_inside_tree()) {
+            node->force_update_transform();
+        }
+    }
+    set_place(
+        godot::Transform3D(server->body_get_state(rid_, PhysicsServer3D::BODY_STATE_TRANSFORM)));
+    mass_kg_ = 0.0;
+    const Placement at = in_frame(frame_, basis_, origin_);
+    center_m_ = at.origin_m;
+    // What is carried along with the node rests for the device. A place that a script sets is a jump: NodeMotion leaves it out.
+    motion_.note({at.rotation, at.origin_m, 1.0}, moment.tick_s);
+    velocity_m_s_ = motion_.velocity_at(Vec3(0.0));
+    angular_rad_s_ = motion_.angular_rad_s();
+}
+
+void NearBody::read_list(ShapeShelf &shelf, std::int32_t &next_id, int count) {
+    auto *server = PhysicsServer3D::get_singleton();
+    const std::size_t before = shapes_.size();
+    shapes_.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = before; i < shapes_.size(); ++i) {
+        shapes_[i].id = next_id;
+        next_id = next_id == 0x7fffffff ? 1 : next_id + 1;
+    }
+    for (int i = 0; i < count; ++i) {
+        BodyShape &shape = shapes_[static_cast<std::size_t>(i)];
+        shape.shape = server->body_get_shape(rid_, i);
+        shape.local = server->body_get_shape_transform(rid_, i);
+        shape.source = shelf.find(shape.shape);
+    }
+    read_owners();
+}
+
+void NearBody::read_owners() {
+    auto *node =
+        is_node_ ? Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(object_)) : nullptr;
+    if (node == nullptr) {
+        return;
+    }
+    for (BodyShape &shape : shapes_) {
+        shape.owner = -1;
+        shape.disabled = false;
+    }
+    const godot::PackedInt32Array owners = node->get_shape_owners();
+    for (std::int64_t i = 0; i < owners.size(); ++i) {
+        const auto owner = static_cast<std::uint32_t>(owners[i]);
+        const int count = node->shape_owner_get_shape_count(owner);
+        const bool disabled = node->is_shape_owner_disabled(owner);
+        for (int k = 0; k < count; ++k) {
+            const int index = node->shape_owner_get_shape_index(owner, k);
+            if (index >= 0 && index < static_cast<int>(shapes_.size())) {
+                shapes_[static_cast<std::size_t>(index)].owner = owner;
+                shapes_[static_cast<std::size_t>(index)].disabled = disabled;
+            }
+        }
+    }
+}
+
+void NearBody::read_shape(ShapeShelf &shelf, int index) {
+    auto *server = PhysicsServer3D::get_singleton();
+    BodyShape &shape = shapes_[static_cast<std::size_t>(index)];
+    const godot::RID rid = server->body_get_shape(rid_, index);
+    shape.local = server->body_get_shape_transform(rid_, index);
+    if (rid != shape.shape) {
+        shape.shape = rid;
+        shape.source = shelf.find(rid);
+        read_owners();
+    } else if (shape.owner >= 0) {
+        const auto *node = Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(object_));
+        shape.disabled = node != nullptr &&
+                         node->is_shape_owner_disabled(static_cast<std::uint32_t>(shape.owner));
+    }
+    if (shape.near) {
+        shelf.look_again(*shape.source);
+    } else {
+        shape.source->used_tick = shelf.tick();
+    }
+}
+
+void NearBody::read_shapes(ShapeShelf &shelf, std::int32_t &next_id) {
+    const int count = PhysicsServer3D::get_singleton()->body_get_shape_count(rid_);
+    if (count != static_cast<int>(shapes_.size())) {
+        read_list(shelf, next_id, count);
+        return;
+    }
+    if (shapes_.size() <= kShapesPerTick) {
+        for (int i = 0; i < count; ++i) {
+            read_shape(shelf, i);
+        }
+        return;
+    }
+    for (int i = 0; i < count; ++i) {
+        if (shapes_[static_cast<std::size_t>(i)].near) {
+            read_shape(shelf, i);
+        }
+    }
+    for (std::size_t i = 0; i < kShapesPerTick; ++i) {
+        rolling_ = rolling_ + 1 < shapes_.size() ? rolling_ + 1 : 0;
+        read_shape(shelf, static_cast<int>(rolling_));
+    }
+}
+
+void NearBody::read_facts(const Names &names) {
+    auto *server = PhysicsServer3D::get_singleton();
+    // The server keeps both flags as a minus sign.
+    const auto friction =
+        static_cast<double>(server->body_get_param(rid_, PhysicsServer3D::BODY_PARAM_FRICTION));
+    const auto bounce =
+        static_cast<double>(server->body_get_param(rid_, PhysicsServer3D::BODY_PARAM_BOUNCE));
+    facts_.friction = std::abs(friction);
+    facts_.rough = std::signbit(friction);
+    facts_.bounce = std::abs(bounce);
+    facts_.absorbent = std::signbit(bounce);
+    const Object *object = ObjectDB::get_instance(object_);
+    facts_.has_material =
+        is_node_ ? has_material(object) : friction != 1.0 || bounce != 0.0 || std::signbit(bounce);
+    facts_.stiffness_n_m = object != nullptr ? positive_meta(*object, names.stiffness) : 0.0;
+    facts_.hand_friction = object != nullptr ? positive_meta(*object, names.friction) : 0.0;
+    facts_.squeeze_nm_rad = object != nullptr ? positive_meta(*object, names.squeeze) : 0.0;
+}
+
+bool NearBody::spares(std::uint64_t other) const {
+    auto *body = Object::cast_to<godot::PhysicsBody3D>(ObjectDB::get_instance(object_));
+    const Object *wanted = ObjectDB::get_instance(other);
+    if (body == nullptr || wanted == nullptr) {
+        return false;
+    }
+    const godot::Array spared = body->get_collision_exceptions();
+    for (std::int64_t i = 0; i < spared.size(); ++i) {
+        if (static_cast<Object *>(spared[i]) == wanted) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string NearBody::name() const {
+    const auto *node = Object::cast_to<godot::Node>(ObjectDB::get_instance(object_));
+    if (node == nullptr) {
+        return "A body without a node";
+    }
+    return godot::String(node->get_name()).utf8().get_data();
+}
+
+} // namespace spidar

@@ -1,0 +1,138 @@
+// One body of the physics server that stands near the hand: its shapes, its place, its motion and how it feels. Main thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/variant/rid.hpp>
+#include <godot_cpp/variant/string_name.hpp>
+#include <godot_cpp/variant/transform3d.hpp>
+
+#include "device/contact/shapes/placement.h"
+#include "godot/base/node_motion.h"
+#include "godot/base/world_frame.h"
+#include "godot/hand/scene/shape_shelf.h"
+
+namespace spidar {
+
+// What a game says of a body. 0 in the last three: it does not say.
+struct BodyFacts {
+    // Of its PhysicsMaterial; has_material is false for a node without one, and for a server body as the server made it.
+    bool has_material = false;
+    double friction = 1.0;
+    double bounce = 0.0;
+    bool rough = false;     // of two frictions the larger one counts
+    bool absorbent = false; // takes bounce away from what it touches
+    // Metadata spidar_stiffness_n_m, spidar_friction, spidar_squeeze_nm_rad of the collider.
+    double stiffness_n_m = 0.0;
+    double hand_friction = 0.0;
+    double squeeze_nm_rad = 0.0;
+};
+
+struct BodyShape {
+    godot::RID shape;
+    godot::Transform3D local;
+    std::int32_t id = 0;
+    std::int64_t owner = -1; // shape owner of a CollisionObject3D; below 0: none
+    bool disabled = false;
+    bool near = false; // in this tick
+    std::shared_ptr<ShapeShelf::Source> source;
+};
+
+// How the device and its frame stand in the scene in this tick.
+struct Moment {
+    WorldFrame now;                   // where the node is
+    WorldFrame in_space;              // where it was at the last physics step
+    const NodeMotion *node = nullptr; // its motion through the scene, until that step
+    double tick_s = 0.0;
+    double time_scale = 1.0; // 0 while physics stands still
+};
+
+class NearBody {
+public:
+    // Names of metadata, made once.
+    struct Names {
+        godot::StringName stiffness{"spidar_stiffness_n_m"};
+        godot::StringName friction{"spidar_friction"};
+        godot::StringName squeeze{"spidar_squeeze_nm_rad"};
+    };
+
+    NearBody(const godot::RID &rid, std::uint64_t object);
+
+    [[nodiscard]] const godot::RID &rid() const noexcept { return rid_; }
+    [[nodiscard]] std::uint64_t object() const noexcept { return object_; }
+    // Its node is a CollisionObject3D, which has the body as long as it lives: it needs no query to be found again.
+    [[nodiscard]] bool is_node() const noexcept { return is_node_; }
+    // Of a node: it lives, and its body is in that space.
+    [[nodiscard]] bool is_there(const godot::RID &space) const;
+
+    // Reads mode, place and motion. Call it in each tick that the body is there.
+    void read_place(const Moment &moment);
+    // Sees to the list of shapes. next_id: the first id that is free.
+    void read_shapes(ShapeShelf &shelf, std::int32_t &next_id);
+    void read_facts(const Names &names);
+    // It has that body among its collision exceptions. Unknown, so false, of a body without a node.
+    [[nodiscard]] bool spares(std::uint64_t other) const;
+
+    [[nodiscard]] std::string name() const;
+    [[nodiscard]] godot::PhysicsServer3D::BodyMode mode() const noexcept { return mode_; }
+    [[nodiscard]] bool moved_by_physics() const noexcept {
+        return mode_ >= godot::PhysicsServer3D::BODY_MODE_RIGID;
+    }
+    [[nodiscard]] double mass_kg() const noexcept { return mass_kg_; } // 0 unless physics moves it
+    [[nodiscard]] const BodyFacts &facts() const noexcept { return facts_; }
+    [[nodiscard]] std::vector<BodyShape> &shapes() noexcept { return shapes_; }
+
+    // Scene: axes with their scale, and origin.
+    [[nodiscard]] const Mat3 &basis() const noexcept { return basis_; }
+    [[nodiscard]] const Vec3 &origin() const noexcept { return origin_; }
+    // The frame that its place belongs to.
+    [[nodiscard]] const WorldFrame &frame() const noexcept { return frame_; }
+    // Device frame, for a second of device time, beside the node's own motion.
+    [[nodiscard]] Vec3 velocity_at(const Vec3 &point_m) const noexcept {
+        return velocity_m_s_ + glm::cross(angular_rad_s_, point_m - center_m_);
+    }
+    [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_rad_s_; }
+    // Center of mass of what physics moves, else the body's origin; device frame.
+    [[nodiscard]] const Vec3 &center_m() const noexcept { return center_m_; }
+
+    std::int64_t found_tick = 0; // last query that met it
+    std::int64_t near_tick = 0;  // last time that one of its shapes was near
+    std::int64_t facts_tick = 0; // when its facts are to be read again
+    bool spares_held = false;    // it has the held body among its collision exceptions
+
+private:
+    void read_list(ShapeShelf &shelf, std::int32_t &next_id, int count);
+    void read_shape(ShapeShelf &shelf, int index);
+    void read_owners();
+    void set_place(const godot::Transform3D &place);
+
+    godot::RID rid_;
+    std::uint64_t object_;
+    bool is_node_ = false;
+    std::vector<BodyShape> shapes_;
+    std::size_t rolling_ = 0;
+    godot::PhysicsServer3D::BodyMode mode_ = godot::PhysicsServer3D::BODY_MODE_STATIC;
+    double mass_kg_ = 0.0;
+    BodyFacts facts_;
+    Mat3 basis_{1.0};
+    Vec3 origin_{0.0};
+    WorldFrame frame_;
+    NodeMotion motion_; // of what physics does not move, in the device frame
+    Vec3 center_m_{0.0};
+    Vec3 velocity_m_s_{0.0};
+    Vec3 angular_rad_s_{0.0};
+};
+
+// Axes of one length each and at right angles, taken apart.
+struct TurnAndScale {
+    Mat3 turn{1.0};
+    Vec3 scale{1.0};      // x below zero: mirrored
+    bool sheared = false; // axes that are not at right angles, or that have no length
+};
+[[nodiscard]] TurnAndScale take_apart(const Mat3 &axes) noexcept;
+
+} // namespace spidar

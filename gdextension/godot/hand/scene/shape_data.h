@@ -1,0 +1,77 @@
+// What the physics server knows of one shape: its kind and its sizes, in the shape's own frame and the scene's units.
+#pragma once
+
+#include <cstdint>
+
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/variant/packed_float32_array.hpp>
+#include <godot_cpp/variant/packed_vector3_array.hpp>
+#include <godot_cpp/variant/rid.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "core/base/types.h"
+#include "device/contact/shapes/cooked_shape.h"
+
+namespace spidar {
+
+// Plain numbers that any thread may read. The points and heights belong to the ShapeData that holds them.
+struct ShapeNumbers {
+    godot::PhysicsServer3D::ShapeType type = godot::PhysicsServer3D::SHAPE_CUSTOM;
+    double radius = 0.0;
+    double height = 0.0;    // whole, with the caps of a capsule
+    Vec3 half_extents{0.0}; // of a box
+    Vec3 normal{0.0};       // of a world boundary
+    double offset = 0.0;    // of a world boundary: solid below normal . x = offset
+    bool two_sided = false;
+    const godot::Vector3 *points = nullptr; // of a hull; of a mesh three a triangle, clockwise
+    std::int64_t point_count = 0;
+    const float *heights = nullptr; // of a height map: width times depth of them
+    std::int64_t height_count = 0;
+    int width = 0;
+    int depth = 0;
+};
+
+// The numbers with what they point to. Main thread only.
+struct ShapeData {
+    ShapeNumbers numbers;
+    godot::PackedVector3Array points;
+    godot::PackedFloat32Array heights;
+    Vec3 lower{0.0}; // bounding box; infinite of a world boundary
+    Vec3 upper{0.0};
+    bool readable = false; // the server gave what its kind should have
+};
+
+// How new data differ from old ones.
+enum class DataChange : std::uint8_t {
+    none,
+    copied, // equal, but the server made a copy to tell so: looking is as dear as the data are many
+    changed
+};
+
+// Reads shapes from the physics server. Holds the names of the data's parts, so that no text is made at each look.
+class ShapeReader {
+public:
+    ShapeReader();
+    [[nodiscard]] ShapeData read(const godot::RID &shape) const;
+    // Reads again, into `data`.
+    [[nodiscard]] DataChange read_again(const godot::RID &shape, ShapeData &data) const;
+
+private:
+    [[nodiscard]] ShapeData take(const godot::RID &shape) const;
+    godot::Variant radius_;
+    godot::Variant height_;
+    godot::Variant faces_;
+    godot::Variant backface_collision_;
+    godot::Variant heights_;
+    godot::Variant width_;
+    godot::Variant depth_;
+};
+
+// What to cook: the shape after `scale` (device metres for a unit of the shape, by axis; x below zero: mirrored). Spheres and
+// capsules take the mean of the three sizes, cylinders that of x and z, as Jolt does. Any thread.
+[[nodiscard]] ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale);
+
+// More than is cooked between two frames without being noticed.
+[[nodiscard]] bool is_large(const ShapeNumbers &shape) noexcept;
+
+} // namespace spidar
