@@ -126,7 +126,8 @@ class Api:
             return f"static_cast<{cpp}>({text})"
         if re.fullmatch(r'&?"[^"\\]*"', text) and cpp in ("String", "StringName"):
             return f"{cpp}({text.lstrip('&')})"
-        if text in ("[]", "{}", 'NodePath("")', f"{cpp}()", f"{cpp}(0, 0, 0)"):
+        identity = "Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0)"
+        if text in ("[]", "{}", 'NodePath("")', f"{cpp}()", "Vector3(0, 0, 0)", identity):
             return f"{cpp}()"
         if re.fullmatch(r"-?[\d.]+|true|false", text):
             return f"Variant({text})"

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
-#include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
@@ -85,9 +85,11 @@ NearBody::NearBody(const godot::RID &rid, std::uint64_t object) : rid_(rid), obj
     is_node_ = node != nullptr && node->get_rid() == rid;
 }
 
-bool NearBody::is_there(const godot::RID &space) const {
-    return ObjectDB::get_instance(object_) != nullptr &&
-           PhysicsServer3D::get_singleton()->body_get_space(rid_) == space;
+// Of all questions to the server this one alone may be asked of a body that was freed. It is null of soft bodies too.
+bool NearBody::is_there(const godot::RID &space) {
+    auto *server = PhysicsServer3D::get_singleton();
+    state_ = server->body_get_direct_state(rid_);
+    return state_ != nullptr && server->body_get_space(rid_) == space;
 }
 
 void NearBody::set_place(const godot::Transform3D &place) {
@@ -95,26 +97,25 @@ void NearBody::set_place(const godot::Transform3D &place) {
     origin_ = to_core(place.origin);
 }
 
+void NearBody::read_moved(const Moment &moment) {
+    frame_ = moment.in_space;
+    set_place(state_->get_transform());
+    const double inverse_mass = static_cast<double>(state_->get_inverse_mass());
+    mass_kg_ = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
+    const Vec3 center = origin_ + to_core(state_->get_center_of_mass());
+    center_m_ = frame_.point_to_device(center);
+    const Vec3 velocity = moment.time_scale * to_core(state_->get_linear_velocity()) -
+                          moment.node->velocity_at(center - frame_.origin);
+    velocity_m_s_ = frame_.velocity_to_device(velocity);
+    angular_rad_s_ = frame_.turn_to_device(
+        moment.time_scale * to_core(state_->get_angular_velocity()) - moment.node->angular_rad_s());
+}
+
 void NearBody::read_place(const Moment &moment) {
-    auto *server = PhysicsServer3D::get_singleton();
-    mode_ = server->body_get_mode(rid_);
+    mode_ = PhysicsServer3D::get_singleton()->body_get_mode(rid_);
     if (moved_by_physics()) {
-        const godot::PhysicsDirectBodyState3D *state = server->body_get_direct_state(rid_);
-        if (state != nullptr) {
-            frame_ = moment.in_space;
-            set_place(state->get_transform());
-            const double inverse_mass = state->get_inverse_mass();
-            mass_kg_ = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
-            const Vec3 center = origin_ + to_core(state->get_center_of_mass());
-            center_m_ = frame_.point_to_device(center);
-            const Vec3 velocity = moment.time_scale * to_core(state->get_linear_velocity()) -
-                                  moment.node->velocity_at(center - frame_.origin);
-            velocity_m_s_ = frame_.velocity_to_device(velocity);
-            angular_rad_s_ =
-                frame_.turn_to_device(moment.time_scale * to_core(state->get_angular_velocity()) -
-                                      moment.node->angular_rad_s());
-            return;
-        }
+        read_moved(moment);
+        return;
     }
     const bool is_static = mode_ == PhysicsServer3D::BODY_MODE_STATIC;
     frame_ = is_static ? moment.now : moment.in_space;
@@ -125,8 +126,7 @@ void NearBody::read_place(const Moment &moment) {
             node->force_update_transform();
         }
     }
-    set_place(
-        godot::Transform3D(server->body_get_state(rid_, PhysicsServer3D::BODY_STATE_TRANSFORM)));
+    set_place(state_->get_transform());
     mass_kg_ = 0.0;
     const Placement at = in_frame(frame_, basis_, origin_);
     center_m_ = at.origin_m;
@@ -149,8 +149,23 @@ void NearBody::read_list(ShapeShelf &shelf, std::int32_t &next_id, int count) {
         shape.shape = server->body_get_shape(rid_, i);
         shape.local = server->body_get_shape_transform(rid_, i);
         shape.source = shelf.find(shape.shape);
+        bound(shape);
     }
     read_owners();
+}
+
+void NearBody::bound(BodyShape &shape) {
+    const ShapeData &data = shape.source->data;
+    const Mat3 axes = to_core(shape.local.basis);
+    const Vec3 half = 0.5 * (data.upper - data.lower);
+    shape.bounded = shape.source->version;
+    shape.radius = std::numeric_limits<double>::infinity();
+    if (std::isfinite(half.x + half.y + half.z)) {
+        const Vec3 middle = 0.5 * (data.upper + data.lower);
+        shape.middle = to_core(shape.local.origin) + axes * middle;
+        shape.radius = glm::length(half.x * glm::abs(axes[0]) + half.y * glm::abs(axes[1]) +
+                                   half.z * glm::abs(axes[2]));
+    }
 }
 
 void NearBody::read_owners() {
@@ -182,9 +197,14 @@ void NearBody::read_shape(ShapeShelf &shelf, int index) {
     auto *server = PhysicsServer3D::get_singleton();
     BodyShape &shape = shapes_[static_cast<std::size_t>(index)];
     const godot::RID rid = server->body_get_shape(rid_, index);
-    shape.local = server->body_get_shape_transform(rid_, index);
+    const godot::Transform3D local = server->body_get_shape_transform(rid_, index);
+    if (local != shape.local) {
+        shape.local = local;
+        shape.bounded = 0;
+    }
     if (rid != shape.shape) {
         shape.shape = rid;
+        shape.bounded = 0;
         shape.source = shelf.find(rid);
         read_owners();
     } else if (shape.owner >= 0) {
@@ -192,10 +212,13 @@ void NearBody::read_shape(ShapeShelf &shelf, int index) {
         shape.disabled = node != nullptr &&
                          node->is_shape_owner_disabled(static_cast<std::uint32_t>(shape.owner));
     }
-    if (shape.near) {
+    if (shape.listed) {
         shelf.look_again(*shape.source);
     } else {
         shape.source->used_tick = shelf.tick();
+    }
+    if (shape.bounded != shape.source->version) {
+        bound(shape);
     }
 }
 
@@ -212,7 +235,7 @@ void NearBody::read_shapes(ShapeShelf &shelf, std::int32_t &next_id) {
         return;
     }
     for (int i = 0; i < count; ++i) {
-        if (shapes_[static_cast<std::size_t>(i)].near) {
+        if (shapes_[static_cast<std::size_t>(i)].listed) {
             read_shape(shelf, i);
         }
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/variant/rid.hpp>
 #include <godot_cpp/variant/string_name.hpp>
@@ -38,7 +39,11 @@ struct BodyShape {
     std::int32_t id = 0;
     std::int64_t owner = -1; // shape owner of a CollisionObject3D; below 0: none
     bool disabled = false;
-    bool near = false; // in this tick
+    bool listed = false; // in the last tick
+    // A ball round it in the body's frame (scene units; the body's own scale left out). Infinite: a world boundary.
+    Vec3 middle{0.0};
+    double radius = 0.0;
+    std::uint64_t bounded = 0; // version of the data that the ball is of; 0: none yet
     std::shared_ptr<ShapeShelf::Source> source;
 };
 
@@ -64,12 +69,10 @@ public:
 
     [[nodiscard]] const godot::RID &rid() const noexcept { return rid_; }
     [[nodiscard]] std::uint64_t object() const noexcept { return object_; }
-    // Its node is a CollisionObject3D, which has the body as long as it lives: it needs no query to be found again.
-    [[nodiscard]] bool is_node() const noexcept { return is_node_; }
-    // Of a node: it lives, and its body is in that space.
-    [[nodiscard]] bool is_there(const godot::RID &space) const;
+    // Whether the server still has the body, in that space. Call it in each tick, before all that reads.
+    [[nodiscard]] bool is_there(const godot::RID &space);
 
-    // Reads mode, place and motion. Call it in each tick that the body is there.
+    // Reads mode, place and motion.
     void read_place(const Moment &moment);
     // Sees to the list of shapes. next_id: the first id that is free.
     void read_shapes(ShapeShelf &shelf, std::int32_t &next_id);
@@ -99,7 +102,6 @@ public:
     // Center of mass of what physics moves, else the body's origin; device frame.
     [[nodiscard]] const Vec3 &center_m() const noexcept { return center_m_; }
 
-    std::int64_t found_tick = 0; // last query that met it
     std::int64_t near_tick = 0;  // last time that one of its shapes was near
     std::int64_t facts_tick = 0; // when its facts are to be read again
     bool spares_held = false;    // it has the held body among its collision exceptions
@@ -108,11 +110,15 @@ private:
     void read_list(ShapeShelf &shelf, std::int32_t &next_id, int count);
     void read_shape(ShapeShelf &shelf, int index);
     void read_owners();
+    static void bound(BodyShape &shape);
+    void read_moved(const Moment &moment);
     void set_place(const godot::Transform3D &place);
 
     godot::RID rid_;
     std::uint64_t object_;
-    bool is_node_ = false;
+    godot::PhysicsDirectBodyState3D *state_ = nullptr; // in this tick
+    bool is_node_ =
+        false; // its object is the CollisionObject3D that made it, so it has shape owners
     std::vector<BodyShape> shapes_;
     std::size_t rolling_ = 0;
     godot::PhysicsServer3D::BodyMode mode_ = godot::PhysicsServer3D::BODY_MODE_STATIC;

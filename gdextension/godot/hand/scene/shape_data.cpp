@@ -12,6 +12,8 @@
 #include <godot_cpp/variant/string.hpp>
 
 #include "godot/base/type_conversions.h"
+#include "godot/hand/scene/engine_habits.h"
+#include "godot/hand/scene/hull_points.h"
 
 namespace spidar {
 
@@ -168,6 +170,37 @@ ShapeDescription describe_points(const ShapeNumbers &shape, const Vec3 &scale) {
     return result;
 }
 
+bool is_uneven(const ShapeNumbers &shape, const Vec3 &scale) noexcept {
+    constexpr double kEven = 1e-3;
+    const Vec3 size = glm::abs(scale);
+    const double across = std::abs(size.x - size.z);
+    const double along = std::max(std::abs(size.y - size.x), std::abs(size.y - size.z));
+    switch (shape.type) {
+    case PhysicsServer3D::SHAPE_SPHERE:
+    case PhysicsServer3D::SHAPE_CAPSULE:
+        return std::max(across, along) > kEven * size.y;
+    case PhysicsServer3D::SHAPE_CYLINDER:
+        return across > kEven * size.x;
+    default:
+        return false;
+    }
+}
+
+// A round shape that is no longer round.
+ShapeDescription stretched(const ShapeNumbers &shape, const Vec3 &scale) {
+    ShapeDescription hull;
+    hull.kind = ShapeKind::hull;
+    const double straight =
+        shape.type == PhysicsServer3D::SHAPE_CAPSULE ? 0.5 * shape.height - shape.radius : 0.0;
+    hull.points_m = shape.type == PhysicsServer3D::SHAPE_CYLINDER
+                        ? rim_points(shape.radius, 0.5 * shape.height)
+                        : round_points(shape.radius, std::max(straight, 0.0));
+    for (Vec3 &point : hull.points_m) {
+        point *= scale;
+    }
+    return hull;
+}
+
 } // namespace
 
 ShapeReader::ShapeReader()
@@ -180,6 +213,7 @@ ShapeData ShapeReader::take(const godot::RID &shape) const {
     ShapeData data;
     ShapeNumbers &numbers = data.numbers;
     numbers.type = server->shape_get_type(shape);
+    numbers.evened = engine_habits().evens_round_shapes;
     const Variant value = server->shape_get_data(shape);
     const bool parts = value.get_type() == Variant::DICTIONARY;
     switch (numbers.type) {
@@ -227,7 +261,7 @@ ShapeData ShapeReader::take(const godot::RID &shape) const {
     case PhysicsServer3D::SHAPE_WORLD_BOUNDARY: {
         const godot::Plane plane(value);
         numbers.normal = to_core(plane.normal);
-        numbers.offset = static_cast<double>(plane.d);
+        numbers.offset = static_cast<double>(engine_habits().turns_boundaries ? -plane.d : plane.d);
         data.readable = true;
         break;
     }
@@ -264,6 +298,9 @@ DataChange ShapeReader::read_again(const godot::RID &shape, ShapeData &data) con
 
 ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale) {
     ShapeDescription result;
+    if (!shape.evened && is_uneven(shape, scale)) {
+        return stretched(shape, scale);
+    }
     const Vec3 size = glm::abs(scale);
     const double mean = (size.x + size.y + size.z) / 3.0;
     switch (shape.type) {
@@ -297,6 +334,19 @@ ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale) {
         break;
     }
     return result;
+}
+
+CookResult cook_shape(const ShapeNumbers &shape, const Vec3 &scale) {
+    ShapeDescription description = describe(shape, scale);
+    if (description.kind != ShapeKind::hull) {
+        return cook(std::move(description));
+    }
+    CookResult hull = cook(description);
+    if (hull.status != Status::invalid_shape) {
+        return hull;
+    }
+    CookResult flat = cook(flat_mesh(description.points_m));
+    return usable(flat.status) ? flat : hull;
 }
 
 bool is_large(const ShapeNumbers &shape) noexcept {

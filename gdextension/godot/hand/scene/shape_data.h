@@ -23,6 +23,7 @@ struct ShapeNumbers {
     Vec3 normal{0.0};       // of a world boundary
     double offset = 0.0;    // of a world boundary: solid below normal . x = offset
     bool two_sided = false;
+    bool evened = true; // round shapes of uneven scale take the mean of their scales
     const godot::Vector3 *points = nullptr; // of a hull; of a mesh three a triangle, clockwise
     std::int64_t point_count = 0;
     const float *heights = nullptr; // of a height map: width times depth of them
@@ -67,9 +68,11 @@ private:
     godot::Variant depth_;
 };
 
-// What to cook: the shape after `scale` (device metres for a unit of the shape, by axis; x below zero: mirrored). Spheres and
-// capsules take the mean of the three sizes, cylinders that of x and z, as Jolt does. Any thread.
+// What to cook: the shape after `scale` (device metres for a unit of the shape, by axis; x below zero: mirrored). Any thread.
 [[nodiscard]] ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale);
+
+// Cooks it; a hull whose points lie in one plane becomes a mesh of two sides. Any thread.
+[[nodiscard]] CookResult cook_shape(const ShapeNumbers &shape, const Vec3 &scale);
 
 // More than is cooked between two frames without being noticed.
 [[nodiscard]] bool is_large(const ShapeNumbers &shape) noexcept;

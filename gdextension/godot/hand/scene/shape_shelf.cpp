@@ -124,7 +124,7 @@ void ShapeShelf::start(Source &source, Piece &piece) {
         return;
     }
     if (!is_large(source.data.numbers)) {
-        put(piece, source.version, cook(describe(source.data.numbers, piece.scale)));
+        put(piece, source.version, cook_shape(source.data.numbers, piece.scale));
         return;
     }
     if (source.jobs >= kMostJobsOfOne) {
@@ -146,7 +146,7 @@ void ShapeShelf::start(Source &source, Piece &piece) {
 void ShapeShelf::run(void *job) {
     Job &mine = *static_cast<Job *>(job);
     try {
-        mine.result = cook(describe(mine.data.numbers, mine.scale));
+        mine.result = cook_shape(mine.data.numbers, mine.scale);
     } catch (const std::exception &error) {
         mine.result.status = Status::invalid_shape;
         mine.result.sentence = std::string("it could not be prepared: ") + error.what();

@@ -22,22 +22,13 @@ using godot::Object;
 using godot::ObjectDB;
 using godot::PhysicsServer3D;
 
-constexpr int kMostHits = 16;    // of one query; it is asked again without the bodies that it met
-constexpr int kMostQueries = 64; // of one volume in one tick
-constexpr double kBoxStep_m = 0.005; // the query's box is made anew when it grows by this
 // A body that was met and has no shape near any more is found by queries again after so many ticks.
 constexpr std::int64_t kGraceTicks = 30;
 constexpr std::int64_t kFactsTicks = 8;
+constexpr std::size_t kMostExamined = 3 * kMostNearShapes;
+constexpr double kNever_m = 1e9;
 // Physics engines cannot move a body much faster, m/s: a device that goes farther was put elsewhere.
 constexpr double kFastest_m_s = 200.0;
-
-bool holds(const std::vector<godot::RID> &list, const godot::RID &rid) {
-    return std::find(list.begin(), list.end(), rid) != list.end();
-}
-
-Vec3 rounded_up(const Vec3 &half_m) noexcept {
-    return kBoxStep_m * glm::ceil(half_m / kBoxStep_m);
-}
 
 } // namespace
 
@@ -95,10 +86,13 @@ void Surroundings::update(const SearchSpace &space, const SearchVolume &pads,
         search(searchers_[1], *held, space);
     }
     read_exceptions(held_object);
+    possible_.clear();
     for (auto &[id, body] : bodies_) {
-        if (body->is_node() || body->found_tick == tick_) {
-            gather(*body, seen_by(*body));
-        }
+        gather(*body, seen_by(*body));
+    }
+    keep_most_possible();
+    for (const Possible &one : possible_) {
+        add_candidate(*one.body, one.index, one.seen);
     }
     list_nearest();
     counts_.soft_bodies = static_cast<int>(soft_.size());
@@ -106,107 +100,14 @@ void Surroundings::update(const SearchSpace &space, const SearchVolume &pads,
 
 void Surroundings::drop_gone(const SearchSpace &space) {
     for (auto place = bodies_.begin(); place != bodies_.end();) {
-        const NearBody &body = *place->second;
-        const bool gone = body.is_node()
-                              ? !body.is_there(space.space) || tick_ - body.near_tick > kGraceTicks
-                              : tick_ - body.found_tick > kGraceTicks;
+        NearBody &body = *place->second;
+        const bool gone = tick_ - body.near_tick > kGraceTicks || !body.is_there(space.space);
         place = gone ? bodies_.erase(place) : std::next(place);
     }
     const auto freed = [](const auto &soft) {
-        return ObjectDB::get_instance(soft.second) == nullptr;
+        return soft.second != 0 && ObjectDB::get_instance(soft.second) == nullptr;
     };
     soft_.erase(std::remove_if(soft_.begin(), soft_.end(), freed), soft_.end());
-}
-
-void Surroundings::search(Searcher &searcher, const SearchVolume &volume,
-                          const SearchSpace &space) {
-    auto *server = PhysicsServer3D::get_singleton();
-    if (searcher.query.is_null()) {
-        searcher.query.instantiate();
-        searcher.box = server->box_shape_create();
-        searcher.query->set_shape_rid(searcher.box);
-    }
-    const Vec3 half = rounded_up(volume.half_extents_m + Vec3(volume.margin_m)) * space.now.scale;
-    if (half != searcher.box_half) {
-        server->shape_set_data(searcher.box, to_godot(half));
-        searcher.box_half = half;
-    }
-    if (searcher.mask != volume.mask) {
-        searcher.query->set_collision_mask(volume.mask);
-        searcher.mask = volume.mask;
-    }
-    std::vector<godot::RID> excluded = volume.excluded;
-    for (const auto &[id, body] : bodies_) {
-        if (body->is_node()) {
-            excluded.push_back(body->rid());
-        }
-    }
-    for (const auto &[rid, object] : soft_) {
-        excluded.push_back(rid);
-    }
-    searcher.query->set_transform(
-        moment_.in_space.pose_to_world(volume.at.origin_m, volume.at.rotation));
-    ask(searcher, space, excluded);
-    const WorldFrame &a = moment_.now;
-    const WorldFrame &b = moment_.in_space;
-    if (a.origin != b.origin || a.rotation != b.rotation) {
-        // Bodies that rest in the scene while the node moves on.
-        searcher.query->set_transform(a.pose_to_world(volume.at.origin_m, volume.at.rotation));
-        ask(searcher, space, excluded);
-    }
-}
-
-void Surroundings::exclude(Searcher &searcher, const std::vector<godot::RID> &excluded) {
-    if (excluded == searcher.excluded) {
-        return;
-    }
-    godot::TypedArray<godot::RID> list;
-    for (const godot::RID &rid : excluded) {
-        list.push_back(rid);
-    }
-    searcher.query->set_exclude(list);
-    searcher.excluded = excluded;
-}
-
-// An engine gives a hit for each shape or triangle, so a list that is full hides bodies: they are met in the next query, which
-// leaves out those of the last.
-void Surroundings::ask(Searcher &searcher, const SearchSpace &space,
-                       std::vector<godot::RID> &excluded) {
-    for (int i = 0; i < kMostQueries; ++i) {
-        exclude(searcher, excluded);
-        const godot::Array hits = space.state->intersect_shape(searcher.query, kMostHits);
-        ++counts_.queries;
-        const std::int64_t count = hits.size();
-        for (std::int64_t k = 0; k < count; ++k) {
-            const godot::Dictionary hit(hits[k]);
-            const godot::RID rid(hit[rid_key_]);
-            if (!holds(excluded, rid)) {
-                meet(rid, static_cast<std::uint64_t>(hit[collider_key_]), excluded);
-            }
-        }
-        if (count < kMostHits) {
-            return;
-        }
-    }
-}
-
-void Surroundings::meet(const godot::RID &rid, std::uint64_t object,
-                        std::vector<godot::RID> &excluded) {
-    excluded.push_back(rid);
-    if (const auto known = bodies_.find(rid.get_id()); known != bodies_.end()) {
-        known->second->found_tick = tick_;
-        return;
-    }
-    const Object *collider = ObjectDB::get_instance(object);
-    if (collider != nullptr && collider->is_class("SoftBody3D")) {
-        soft_.emplace_back(rid, object);
-        tell("A soft body is in reach of the hand. It is not felt.");
-        return;
-    }
-    auto body = std::make_unique<NearBody>(rid, object);
-    body->found_tick = tick_;
-    body->near_tick = tick_;
-    bodies_.emplace(rid.get_id(), std::move(body));
 }
 
 // The server does not tell the exceptions of a body without a node.
@@ -232,11 +133,11 @@ std::uint8_t Surroundings::seen_by(const NearBody &body) const {
     for (unsigned i = 0; i < volumes_.size(); ++i) {
         const SearchVolume *volume = volumes_[i];
         if (volume != nullptr && (volume->mask & layer) != 0 &&
-            !holds(volume->excluded, body.rid())) {
+            !holds_rid(volume->excluded, body.rid())) {
             seen |= 1U << i;
         }
     }
-    if ((seen & kSeenByHeld) != 0 && (body.spares_held || holds(spared_by_held_, body.rid()))) {
+    if ((seen & kSeenByHeld) != 0 && (body.spares_held || holds_rid(spared_by_held_, body.rid()))) {
         seen &= ~static_cast<unsigned>(kSeenByHeld);
     }
     return static_cast<std::uint8_t>(seen);
@@ -255,17 +156,59 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
     }
     body.read_place(moment_);
     body.read_shapes(shelf_, next_id_);
+    const WorldFrame &frame = body.frame();
+    const Mat3 axes = glm::transpose(frame.rotation) * body.basis() / frame.scale;
+    const Vec3 origin_m = frame.point_to_device(body.origin());
+    const double stretch = std::sqrt(std::max(
+        {glm::dot(axes[0], axes[0]), glm::dot(axes[1], axes[1]), glm::dot(axes[2], axes[2])}));
     for (std::size_t i = 0; i < body.shapes().size(); ++i) {
-        add_candidate(body, i, seen);
+        BodyShape &shape = body.shapes()[i];
+        shape.listed = false;
+        if (shape.disabled) {
+            continue;
+        }
+        const double bound_m =
+            least_clearance(origin_m + axes * shape.middle, stretch * shape.radius, seen);
+        if (bound_m > 0.0) {
+            ++counts_.far;
+        } else {
+            possible_.push_back({&body, i, bound_m, seen});
+        }
+    }
+}
+
+// Quick: of a ball and the volumes that see it, beyond their margins; m.
+double Surroundings::least_clearance(const Vec3 &middle_m, double radius_m,
+                                     std::uint8_t seen) const {
+    double least = kNever_m;
+    for (unsigned i = 0; i < volumes_.size(); ++i) {
+        if ((seen & (1U << i)) != 0) {
+            const SearchVolume &volume = *volumes_[i];
+            const Vec3 apart =
+                glm::abs(glm::transpose(volume.at.rotation) * (middle_m - volume.at.origin_m)) -
+                volume.half_extents_m;
+            const double outside = glm::length(glm::max(apart, Vec3(0.0)));
+            const double inside = std::min(std::max({apart.x, apart.y, apart.z}), 0.0);
+            least = std::min(least, outside + inside - radius_m - volume.margin_m);
+        }
+    }
+    return least;
+}
+
+// Where hundreds are possible, those that are nearest by their balls are looked at.
+void Surroundings::keep_most_possible() {
+    if (possible_.size() > kMostExamined) {
+        const auto end = possible_.begin() + static_cast<std::ptrdiff_t>(kMostExamined);
+        std::nth_element(
+            possible_.begin(), end, possible_.end(),
+            [](const Possible &a, const Possible &b) { return a.bound_m < b.bound_m; });
+        counts_.left_out += static_cast<int>(possible_.size() - kMostExamined);
+        possible_.resize(kMostExamined);
     }
 }
 
 void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t seen) {
     BodyShape &shape = body.shapes()[index];
-    shape.near = false;
-    if (shape.disabled) {
-        return;
-    }
     const TurnAndScale apart = take_apart(body.basis() * to_core(shape.local.basis));
     if (apart.sheared) {
         if (std::find(told_sheared_.begin(), told_sheared_.end(), shape.id) ==
@@ -321,7 +264,6 @@ void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t
         ++counts_.far;
         return;
     }
-    shape.near = true;
     body.near_tick = tick_;
     candidates_.push_back(candidate);
 }
@@ -338,7 +280,8 @@ void Surroundings::list_nearest() {
             continue;
         }
         NearBody &body = *candidate.body;
-        const BodyShape &shape = body.shapes()[candidate.index];
+        BodyShape &shape = body.shapes()[candidate.index];
+        shape.listed = true;
         Piece &piece = shelf_.cooked(*shape.source, candidate.scale);
         if (piece.state == PieceState::refused && !std::exchange(piece.told, true)) {
             tell(body.name() + ": shape " + std::to_string(candidate.index) +

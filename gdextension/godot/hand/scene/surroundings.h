@@ -2,6 +2,7 @@
 // device frame. Main thread only; call update() in a physics tick.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -73,8 +74,13 @@ struct SurroundingsCounts {
     int left_out = 0;    // near, beyond the nearest kMostNearShapes
     int cooking = 0;     // near, but not ready yet
     int refused = 0;     // near, and never felt: take_messages() tells why
-    int soft_bodies = 0; // known to be in reach; not felt
+    int soft_bodies = 0; // met so far; not felt
 };
+
+// Whether `rid` is in the list.
+[[nodiscard]] inline bool holds_rid(const std::vector<godot::RID> &list, const godot::RID &rid) {
+    return std::find(list.begin(), list.end(), rid) != list.end();
+}
 
 class Surroundings {
 public:
@@ -104,6 +110,12 @@ private:
         std::vector<godot::RID> excluded; // as the query has it
         std::uint32_t mask = 0;
     };
+    struct Possible {
+        NearBody *body = nullptr;
+        std::size_t index = 0;
+        double bound_m = 0.0;
+        std::uint8_t seen = 0;
+    };
     struct Candidate {
         NearBody *body = nullptr;
         std::size_t index = 0;
@@ -116,11 +128,14 @@ private:
     void search(Searcher &searcher, const SearchVolume &volume, const SearchSpace &space);
     void ask(Searcher &searcher, const SearchSpace &space, std::vector<godot::RID> &excluded);
     void exclude(Searcher &searcher, const std::vector<godot::RID> &excluded);
-    void meet(const godot::RID &body, std::uint64_t object, std::vector<godot::RID> &excluded);
+    void meet(const godot::RID &rid, std::uint64_t object, const godot::RID &space);
     void drop_gone(const SearchSpace &space);
     void read_exceptions(std::uint64_t held_object);
     [[nodiscard]] std::uint8_t seen_by(const NearBody &body) const;
     void gather(NearBody &body, std::uint8_t seen);
+    [[nodiscard]] double least_clearance(const Vec3 &middle_m, double radius_m,
+                                         std::uint8_t seen) const;
+    void keep_most_possible();
     void add_candidate(NearBody &body, std::size_t index, std::uint8_t seen);
     void list_nearest();
     void tell(const std::string &message) { messages_.push_back(message); }
@@ -139,11 +154,12 @@ private:
     Moment moment_;
     std::int64_t tick_ = 0;
     std::int32_t next_id_ = 1;
+    std::vector<Possible> possible_;
     std::vector<Candidate> candidates_;
     std::vector<NearShape> shapes_;
     SurroundingsCounts counts_;
     std::vector<std::string> messages_;
-    std::vector<std::int64_t> told_sheared_; // ids of shapes
+    std::vector<std::int32_t> told_sheared_; // ids of shapes
 };
 
 } // namespace spidar
