@@ -43,14 +43,14 @@ Placement placement_of(const ToolPart &part, const Jaws &jaws, const ToolPose &p
 
 Displacement moves_along(const ToolPart &part, const Jaws &jaws, const ToolPose &pose,
                          const Vec3 &point_m, const Vec3 &direction) noexcept {
-    const double slide_m_rad = part_of_gap(part.mount) * jaws.slope_m_rad(pose.grasp_rad);
+    const double slide_m_rad = part_of_gap(part.mount) * jaws.slope_m_rad();
     return {direction, glm::cross(point_m - pose.position_m, direction),
             slide_m_rad * glm::dot(pose.rotation[0], direction)};
 }
 
 Vec3 point_velocity(const ToolPart &part, const Jaws &jaws, const ToolPose &pose,
                     const Twist &twist, const Vec3 &point_m) noexcept {
-    const double slide_m_rad = part_of_gap(part.mount) * jaws.slope_m_rad(pose.grasp_rad);
+    const double slide_m_rad = part_of_gap(part.mount) * jaws.slope_m_rad();
     return twist.linear_m_s + glm::cross(twist.angular_rad_s, point_m - pose.position_m) +
            (slide_m_rad * twist.grasp_rate_rad_s) * pose.rotation[0];
 }

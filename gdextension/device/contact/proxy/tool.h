@@ -25,19 +25,17 @@ struct ToolPose {
 // grip: turns with the grip. The jaws slide along the grip's x axis as the grasp angle closes them.
 enum class ToolMount : std::uint8_t { grip = 0, jaw_minus = 1, jaw_plus = 2 };
 
-// The gap between the jaws' inner faces: open_m at a grasp angle of 0, nothing at closed_rad, linear between, and further
-// open than that below 0.
+// The gap between the jaws' inner faces: open_m at a grasp angle of 0, nothing at closed_rad, and linear everywhere. The
+// tool's stop keeps a proxy from closing further (Tool::closes_to_rad).
 struct Jaws {
     double open_m = 0.08;
     double closed_rad = 0.87;
 
     [[nodiscard]] double gap_m(double grasp_rad) const noexcept {
-        return grasp_rad < closed_rad ? open_m * (1.0 - grasp_rad / closed_rad) : 0.0;
+        return open_m * (1.0 - grasp_rad / closed_rad);
     }
-    // d(gap) / d(grasp angle); at and beyond closed_rad the jaws stand.
-    [[nodiscard]] double slope_m_rad(double grasp_rad) const noexcept {
-        return grasp_rad < closed_rad ? -open_m / closed_rad : 0.0;
-    }
+    // d(gap) / d(grasp angle). The same at the stop: there the jaws may still open.
+    [[nodiscard]] double slope_m_rad() const noexcept { return -open_m / closed_rad; }
 };
 
 // Parts of a tool and of a scene touch when they share a bit: pads and a held body may collide with different things.

@@ -174,7 +174,7 @@ double ToolProxy::length_of(const Move &move, const Tool &tool) const noexcept {
     }
     const Displacement by = unscaled(move);
     return glm::length(by.linear_m) + reach_m * glm::length(by.angular_rad) +
-           0.5 * std::abs(tool.jaws.slope_m_rad(pose_.grasp_rad) * by.grasp_rad);
+           0.5 * std::abs(tool.jaws.slope_m_rad() * by.grasp_rad);
 }
 
 // Two steps that break no row have none between them that does: what gets out of the way, and a part of the rest.
