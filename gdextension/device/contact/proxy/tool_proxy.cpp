@@ -257,7 +257,9 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
 }
 
 // The pushes that the hand feels: with damping, and with what gives way behind a surface.
-void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &velocity) noexcept {
+void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
+                     const Twist &velocity) noexcept {
+    const Move pull = scaled(between(device, pose_));
     std::array<int, kMaxSceneParts> touching{};
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -266,6 +268,12 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
     Rows rows = rows_;
     std::array<double, kMaxRows> alone{};
     double deepest_n = 0.0;
+    double deepest = 0.0; // in units of a move
+    const auto note_own = [&](std::size_t k) {
+        alone[k] = own_push(rows[k]);
+        deepest_n = std::max(deepest_n, alone[k]);
+        deepest = std::max(deepest, alone[k] * std::sqrt(dot(rows[k].row, rows[k].row)));
+    };
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         ProxyContact &contact = contacts_[k];
@@ -285,28 +293,34 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const Twist &v
         // The damper acts as a deeper spring: so the push stays one-sided, and shared.
         rows[k].depth =
             std::max(0.0, rows[k].depth - damping_s * glm::dot(contact.normal, speed_m_s));
-        alone[k] = own_push(rows[k]);
-        deepest_n = std::max(deepest_n, alone[k]);
+        note_own(k);
     }
     const auto stop = static_cast<std::size_t>(count_);
     if (rows[stop].depth > 0.0) {
         rows[stop].depth =
             std::max(0.0, rows[stop].depth + settings_.damping_s * velocity.grasp_rate_rad_s);
-        alone[stop] = own_push(rows[stop]);
-        deepest_n = std::max(deepest_n, alone[stop]);
+        note_own(stop);
     }
     const RowPushes<kMaxRows> solved =
         solve_rows<kMaxRows>(rows, row_count_, pushing_mask_, kRowSoftness);
     pushing_mask_ = solved.active_mask;
+    // Where no place satisfies all rows, their pushes have no bound; what they do together is bounded by what pulls.
+    const Move pushed = nearest_to(Move{}, rows, solved);
+    const double pushed_by = std::sqrt(dot(pushed, pushed));
+    const double most = kMostPush * (std::sqrt(dot(pull, pull)) + deepest);
+    const double part = pushed_by > most ? most / pushed_by : 1.0;
     DofLanes sum{};
-    stop_push_nm_ = std::min(solved.push[stop], kMostPush * (alone[stop] + deepest_n));
-    sum[kGrasp] -= stop_push_nm_;
+    for (std::size_t dof = 0; dof < sum.size(); ++dof) {
+        sum[dof] = part * pushed[dof] * root_[dof];
+    }
+    // And each by itself, in a wedge of less than some 20 degrees or between two walls that are too near.
+    const auto alone_too = [&](std::size_t k) {
+        return std::min(part * solved.push[k], kMostPush * (alone[k] + deepest_n));
+    };
+    stop_push_nm_ = alone_too(stop);
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        contacts_[k].push_n = std::min(solved.push[k], kMostPush * (alone[k] + deepest_n));
-        for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-            sum[dof] += contacts_[k].push_n * rows[k].row[dof] * root_[dof];
-        }
+        contacts_[k].push_n = alone_too(k);
     }
     wrench_ = of_lanes<Wrench>(sum);
 }
@@ -362,7 +376,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
         }
         left_s = 0.0;
     }
-    push(tool, scene, velocity);
+    push(tool, scene, device, velocity);
     rub(tool, scene, device, velocity, dt_s);
     device_ = device;
 }

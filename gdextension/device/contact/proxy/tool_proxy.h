@@ -109,7 +109,8 @@ private:
     // True: another look from where the proxy is now may bring it nearer to the device.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                       double dt_s) noexcept;
-    void push(const Tool &tool, const ContactScene &scene, const Twist &velocity) noexcept;
+    void push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
+              const Twist &velocity) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact) const noexcept;

