@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "support/touch_gates.h"
 #include "support/wall_rig.h"
 
 using namespace spidar;
@@ -29,7 +30,7 @@ struct Variant {
     double damping_time_s; // and this times its stiffness
 };
 
-RigSettings rig_for(const Variant &variant, HandFirmness hand, double latency_s) {
+RigSettings rig_of(const Variant &variant, HandFirmness hand, double latency_s) {
     RigSettings settings;
     settings.plant.firmness = hand;
     settings.plant.coulomb_friction_n = 0.0;
@@ -46,7 +47,7 @@ bool holds_still(const Variant &variant, HandFirmness hand, double latency_s, in
     const double part =
         dof == kAllWalls ? 0.5 : 1.0; // seven at once stay within the strings' force
     const PressResult result =
-        press(rig_for(variant, hand, latency_s), walls_at_rest(dof, stiffness_n_m, damping_n_s_m),
+        press(rig_of(variant, hand, latency_s), walls_at_rest(dof, stiffness_n_m, damping_n_s_m),
               press_target(dof, part));
     return result.active && result.dither_m < kStill_m && result.dither_rad < kStill_rad;
 }
@@ -107,6 +108,40 @@ void print_bounds(double latency_s) {
                 2.0 * 0.1 * kRotorsOfOneDof / plant.metres_per_count);
 }
 
+// Real shapes, in parts of the automatic stiffness: the caps are 1 / 0.6 of it.
+constexpr double kCap = 1.0 / kAutomaticShare;
+constexpr double kSoftestPart = 0.5;
+constexpr double kStiffestPart = 8.0;
+constexpr const char *kWallNames[kTouchWalls] = {"face", "bar's end", "width", "peg"};
+
+bool holds_still(const Variant &variant, HandFirmness hand, double latency_s, TouchWall wall,
+                 double part) {
+    const GainCaps caps = gain_caps(RenderSettings(), ServoSettings().rate_hz);
+    TouchScene touch = scene_of(wall);
+    for (std::size_t dof = 0; dof < touch.stiffness.size(); ++dof) {
+        touch.stiffness[dof] = part * kAutomaticShare * stiffness_cap(caps, dof).most;
+    }
+    touch.damping_n_s_m = variant.damping_n_s_m + variant.damping_time_s * touch.stiffness[0];
+    const PressResult result =
+        touch_press(rig_of(variant, hand, latency_s), touch, touch_target(wall, 1.0));
+    return result.active && result.dither_m < kStill_m && result.dither_rad < kStill_rad;
+}
+
+double limit(const Variant &variant, double latency_s, TouchWall wall) {
+    double least = kStiffestPart;
+    for (const HandFirmness hand : kHands) {
+        double last = 0.0;
+        for (double part = kSoftestPart; part <= least; part *= kStep) {
+            if (!holds_still(variant, hand, latency_s, wall, part)) {
+                break;
+            }
+            last = part;
+        }
+        least = std::min(least, last);
+    }
+    return least;
+}
+
 // How many of the targets are missed.
 int print_limits(const Variant &variant, double latency_s) {
     int missed = 0;
@@ -119,6 +154,13 @@ int print_limits(const Variant &variant, double latency_s) {
         missed += most >= target.wanted ? 0 : 1;
         std::printf("%-14s %12.3g %10g  %d  %s\n", target.name, most, target.wanted,
                     static_cast<int>(worst), target.unit);
+        std::fflush(stdout);
+    }
+    for (int i = 0; i < kTouchWalls; ++i) {
+        const double most = limit(variant, latency_s, static_cast<TouchWall>(i));
+        missed += most >= kCap ? 0 : 1;
+        std::printf("%-14s %12.3g %10.3g     times the automatic stiffness\n", kWallNames[i], most,
+                    kCap);
         std::fflush(stdout);
     }
     return missed;
@@ -163,6 +205,16 @@ int main(int argc, char **argv) {
                 failures += still ? 0 : 1;
                 std::printf("%-14s %6g %-8s hand %d: %s\n", target.name, target.wanted, target.unit,
                             static_cast<int>(hand), still ? "still" : "NOT STILL");
+            }
+        }
+        for (int i = 0; i < kTouchWalls; ++i) {
+            for (const HandFirmness hand : kHands) {
+                const bool still =
+                    holds_still(shipped, hand, kLatency_s, static_cast<TouchWall>(i), kCap);
+                failures += still ? 0 : 1;
+                std::printf("%-14s %6.3g times the automatic stiffness, hand %d: %s\n",
+                            kWallNames[i], kCap, static_cast<int>(hand),
+                            still ? "still" : "NOT STILL");
             }
         }
         std::printf("%d not still\n", failures);
