@@ -17,6 +17,10 @@ namespace spidar {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+// Points on a ball take a time that grows with their square: 0.2 s for so many.
+constexpr std::size_t kMostHullPoints = 4096;
+// Hulls and trees are built in float32, which must hold every square of a distance.
+constexpr double kMost_m = 1e6;
 
 struct Refusal {
     Status status = Status::ok;
@@ -46,6 +50,9 @@ Refusal check_points(const ShapeDescription &shape) {
     for (const Vec3 &point : shape.points_m) {
         if (!all_finite(point)) {
             return not_finite("A point of points_m");
+        }
+        if (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) > kMost_m) {
+            return wrong("A point of points_m is more than 1000 km away.");
         }
     }
     return {};
@@ -110,8 +117,9 @@ Refusal cook_hull(CookedShape::Data &data) {
     if (refused(refusal)) {
         return refusal;
     }
-    if (data.description.points_m.size() < 4) {
-        return wrong("A hull needs at least 4 points_m.");
+    const std::size_t count = data.description.points_m.size();
+    if (count < 4 || count > kMostHullPoints) {
+        return wrong("A hull needs 4 to 4096 points_m; give more as a mesh, or leave some out.");
     }
     if (!build_hull(data.description.points_m, data.core)) {
         return wrong("The points_m of the hull lie in one plane; give a flat shape as a mesh.");
@@ -187,10 +195,14 @@ Refusal cook_half_space(CookedShape::Data &data) {
         return not_finite("normal or offset_m of a half space");
     }
     const double length = glm::length(wall.normal);
-    if (!(length > 0.0)) {
-        return wrong("normal of a half space has no length.");
+    if (!(length > 0.0) || !std::isfinite(length)) {
+        return wrong("normal of a half space has no length, or too much.");
     }
-    wall.normal /= length;
+    // One that has been brought to this length before stays as it is, to the bit.
+    constexpr double kRoundings = 1e-14;
+    if (std::abs(length - 1.0) > kRoundings) {
+        wall.normal /= length;
+    }
     data.lower_m = Vec3(-kInfinite);
     data.upper_m = Vec3(kInfinite);
     return {};
@@ -238,6 +250,10 @@ ShapeKind CookedShape::kind() const noexcept {
 
 bool CookedShape::convex() const noexcept {
     return kind() != ShapeKind::mesh && kind() != ShapeKind::height_map;
+}
+
+const ShapeDescription &CookedShape::description() const noexcept {
+    return data_->description;
 }
 
 Vec3 CookedShape::lower_m() const noexcept {

@@ -71,6 +71,8 @@ public:
     [[nodiscard]] Vec3 upper_m() const noexcept;
     [[nodiscard]] std::size_t bytes() const noexcept;
     [[nodiscard]] const Data &data() const noexcept { return *data_; }
+    // As it was cooked, a mesh welded: cooking this again gives the same shape, bit for bit, with another number.
+    [[nodiscard]] const ShapeDescription &description() const noexcept;
 
     // No other cooked or tool shape of this process has it, now or later: what was remembered of a shape is not taken for
     // another's.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 #include <limits>
 
 #include <Jolt/Jolt.h>
@@ -53,7 +54,7 @@ bool build_hull(std::span<const Vec3> points, ConvexCore &core) {
     for (const Vec3 &point : points) {
         size = std::max(size, glm::length(point - middle));
     }
-    if (!(size > 0.0)) {
+    if (!(size > 0.0) || !std::isfinite(size)) {
         return false;
     }
     const double scale = kBuildSize / size;

@@ -20,6 +20,7 @@ struct CookedShape::Data {
 };
 
 struct ToolShape::Data {
+    ToolDescription description;
     ConvexCore core;
     double skin_m = 0.0;
     double reach_m = 0.0; // skin included

@@ -35,6 +35,10 @@ ToolShape::ToolShape(std::unique_ptr<const Data> data)
     : data_(std::move(data)), number_(new_shape_number()) {}
 ToolShape::~ToolShape() = default;
 
+const ToolDescription &ToolShape::description() const noexcept {
+    return data_->description;
+}
+
 double ToolShape::skin_m() const noexcept {
     return data_->skin_m;
 }
@@ -53,6 +57,7 @@ ToolResult make_pad(double radius_m, double half_thickness_m, double skin_m) {
                       "half_thickness_m, and less than radius_m.");
     }
     auto data = std::make_unique<ToolShape::Data>();
+    data->description = {ToolKind::pad, radius_m, half_thickness_m, skin_m, {}};
     const double half_height = half_thickness_m - skin_m;
     data->core.kind = half_height > 0.0 ? CoreKind::cylinder : CoreKind::disc;
     data->core.radius_m = radius_m - skin_m;
@@ -66,6 +71,8 @@ ToolResult make_sphere(double radius_m) {
         return refuse("A sphere needs a radius above 0.");
     }
     auto data = std::make_unique<ToolShape::Data>();
+    data->description.kind = ToolKind::sphere;
+    data->description.radius_m = radius_m;
     data->skin_m = radius_m;
     return finish(std::move(data));
 }
@@ -79,6 +86,9 @@ ToolResult make_tool(const CookedShape &shape, double skin_m) {
     }
     const CookedShape::Data &from = shape.data();
     auto data = std::make_unique<ToolShape::Data>();
+    data->description.kind = ToolKind::shape;
+    data->description.skin_m = skin_m;
+    data->description.shape = from.description;
     data->core = from.core;
     switch (from.core.kind) {
     case CoreKind::point:
@@ -105,6 +115,26 @@ ToolResult make_tool(const CookedShape &shape, double skin_m) {
         break;
     }
     return finish(std::move(data));
+}
+
+ToolResult make_tool(const ToolDescription &description) {
+    switch (description.kind) {
+    case ToolKind::pad:
+        return make_pad(description.radius_m, description.half_thickness_m, description.skin_m);
+    case ToolKind::sphere:
+        return make_sphere(description.radius_m);
+    case ToolKind::shape: {
+        CookResult cooked = cook(description.shape);
+        if (usable(cooked.status)) {
+            return make_tool(*cooked.shape, description.skin_m);
+        }
+        ToolResult result;
+        result.status = cooked.status;
+        result.sentence = std::move(cooked.sentence);
+        return result;
+    }
+    }
+    return refuse("This kind of tool is not known.");
 }
 
 } // namespace spidar

@@ -14,6 +14,23 @@ namespace spidar {
 // Used when nothing else is asked for (m): a tenth of a pad, and 40 encoder counts.
 inline constexpr double kDefaultSkin_m = 1e-3;
 
+// The numbers are part of recordings: new kinds go to the end.
+enum class ToolKind : std::uint8_t {
+    pad = 0,    // radius_m, half_thickness_m, skin_m
+    sphere = 1, // radius_m
+    shape = 2,  // shape, skin_m
+};
+
+// What to make a tool of. Only the fields named at its kind are read. A recording keeps this, and making it again gives the
+// same tool.
+struct ToolDescription {
+    ToolKind kind = ToolKind::sphere;
+    double radius_m = 0.0;
+    double half_thickness_m = 0.0;
+    double skin_m = kDefaultSkin_m;
+    ShapeDescription shape;
+};
+
 class ToolShape {
 public:
     struct Data;
@@ -27,6 +44,8 @@ public:
     // Radius about the tool's origin that holds the tool, skin included (m).
     [[nodiscard]] double reach_m() const noexcept;
     [[nodiscard]] const Data &data() const noexcept { return *data_; }
+    // As it was asked for: making this again gives the same tool, bit for bit, with another number.
+    [[nodiscard]] const ToolDescription &description() const noexcept;
 
     // As CookedShape::number().
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
@@ -49,5 +68,7 @@ struct ToolResult {
 // The convex shape itself with its edges rounded by skin_m: its faces stay where they are. A shape thinner than twice
 // skin_m gets a thinner skin. Not for meshes, height maps and half spaces: give their hull.
 [[nodiscard]] ToolResult make_tool(const CookedShape &shape, double skin_m = kDefaultSkin_m);
+// Any of these.
+[[nodiscard]] ToolResult make_tool(const ToolDescription &description);
 
 } // namespace spidar

@@ -1,5 +1,8 @@
 #include "device/contact/shapes/shape_test_support.h"
 
+#include <cmath>
+#include <cstring>
+
 #include "support/allocation_trap.h"
 
 using namespace spidar;
@@ -212,4 +215,107 @@ TEST_CASE("closest points: nothing is allocated, whatever is asked") {
     }
     CHECK(found > 1000);
     CHECK(inside > 100); // ways out of an overlap too
+}
+
+namespace {
+
+// Of every kind, with values that rounding touches.
+std::vector<ShapeDescription> descriptions() {
+    CaseRandom random(77, 0);
+    std::vector<ShapeDescription> all;
+    for (const ShapeKind kind : {ShapeKind::box, ShapeKind::sphere, ShapeKind::capsule,
+                                 ShapeKind::cylinder, ShapeKind::hull, ShapeKind::half_space}) {
+        ShapeDescription shape;
+        shape.kind = kind;
+        shape.half_extents_m = Vec3(0.011, 0.0123, 0.017);
+        shape.radius_m = 0.0131;
+        shape.half_height_m = 0.0177;
+        shape.points_m = kind == ShapeKind::hull ? random_points(random, 40, 0.02) : shape.points_m;
+        shape.normal = Vec3(0.3, 1.1, -0.7);
+        shape.offset_m = 0.004;
+        all.push_back(shape);
+    }
+    ShapeDescription mesh = field(9, 0.004, [](double x, double z) {
+        return 0.003 * std::sin(300.0 * x) * std::cos(200.0 * z);
+    });
+    mesh.points_m.push_back(mesh.points_m[7]); // welded
+    mesh.indices.insert(mesh.indices.end(), {3, 3, 4, 100, 8, 17});
+    all.push_back(mesh);
+    mesh.two_sided = true;
+    all.push_back(mesh);
+    mesh.points_m.resize(100);
+    ShapeDescription map = as_height_map(mesh, 9, 0.004);
+    map.heights_m[14] = std::numeric_limits<float>::quiet_NaN();
+    all.push_back(map);
+    return all;
+}
+
+bool same_bits(const Vec3 &a, const Vec3 &b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+} // namespace
+
+TEST_CASE("cooking: what a shape or a tool was made of gives the same one, to the bit") {
+    CaseRandom random(78, 0);
+    int points = 0;
+    for (const ShapeDescription &description : descriptions()) {
+        const ShapePtr shape = cooked(description);
+        const ShapePtr again = cooked(shape->description());
+        CHECK(again->number() != shape->number());
+        std::vector<ToolPtr> tools = {tool(make_pad(0.0101, 0.003, 0.0007)),
+                                      tool(make_sphere(0.0123))};
+        if (shape->convex() && shape->kind() != ShapeKind::half_space) {
+            tools.push_back(tool(make_tool(*shape)));
+            tools.push_back(tool(make_tool(*shape, 0.1))); // thinner than asked for
+        }
+        for (const ToolPtr &one : tools) {
+            const ToolPtr other = tool(make_tool(one->description()));
+            CHECK(other->reach_m() == one->reach_m());
+            CHECK(other->skin_m() == one->skin_m());
+            for (int i = 0; i < 40; ++i) {
+                const Placement at{random.vector(0.04), random.rotation(3.0)};
+                const ClosestPoints a = ask(*one, at, *shape, {}, 0.02);
+                const ClosestPoints b = ask(*other, at, *again, {}, 0.02);
+                REQUIRE(a.count == b.count);
+                points += a.count;
+                for (std::size_t k = 0; k < static_cast<std::size_t>(a.count); ++k) {
+                    const ContactPoint &p = a.points[k];
+                    const ContactPoint &q = b.points[k];
+                    CHECK(same_bits(p.on_tool_m, q.on_tool_m));
+                    CHECK(same_bits(p.on_shape_m, q.on_shape_m));
+                    CHECK(same_bits(p.normal, q.normal));
+                    CHECK(p.gap_m == q.gap_m);
+                    CHECK(p.face == q.face);
+                    CHECK(p.core_inside == q.core_inside);
+                }
+            }
+        }
+    }
+    CHECK(points > 1000);
+    ToolDescription wrong;
+    wrong.kind = static_cast<ToolKind>(9);
+    CHECK(make_tool(wrong).sentence.find("not known") != std::string::npos);
+    wrong.kind = ToolKind::shape;
+    CHECK(make_tool(wrong).sentence.find("half_extents_m") != std::string::npos);
+}
+
+TEST_CASE("cooking: sizes at the ends of what a number holds are refused or cooked, and end") {
+    for (const double size : {1e-300, 1e-40, 1e-9, 1.0, 1e5, 1e6, 1e7, 1e39, 1e300}) {
+        for (ShapeDescription description : descriptions()) {
+            description.half_extents_m *= size / 0.02;
+            description.radius_m *= size / 0.02;
+            description.half_height_m *= size / 0.02;
+            description.normal *= size;
+            for (Vec3 &point : description.points_m) {
+                point *= size / 0.02;
+            }
+            const CookResult made = cook(description);
+            const bool told = made.sentence.size() > 10;
+            CHECK(told == (made.shape == nullptr || made.dropped_triangles > 0));
+            if (made.shape != nullptr && made.shape->kind() != ShapeKind::mesh) {
+                (void)make_tool(*made.shape);
+            }
+        }
+    }
 }
