@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/touch/touch_scene.h"
 #include "device/loop/servo_loop.h"
 #include "device/recording/replay.h"
 #include "device/simulation/simulated_transport.h"
@@ -69,7 +71,55 @@ private:
     std::mt19937_64 engine_;
 };
 
-// A play with everything in it: contacts, a coupling, effects, wrenches, faults. One recording begins with the device,
+// What the tool stands on: a floor, a box that moves and a mesh; in the second half it holds something.
+std::shared_ptr<const TouchScene> scene_of(int frame) {
+    static const auto floor = [] {
+        ShapeDescription description;
+        description.kind = ShapeKind::half_space;
+        return cook(description).shape;
+    }();
+    static const auto box = [] {
+        ShapeDescription description;
+        description.half_extents_m = Vec3(0.01, 0.005, 0.01);
+        return cook(description).shape;
+    }();
+    static const auto mesh = [] {
+        ShapeDescription description;
+        description.kind = ShapeKind::mesh;
+        description.points_m = {Vec3(-0.03, 0.0, -0.03), Vec3(-0.03, 0.0, 0.03),
+                                Vec3(0.03, 0.001, -0.03), Vec3(0.03, 0.0, 0.03)};
+        description.indices = {0, 1, 2, 2, 1, 3};
+        return cook(description).shape;
+    }();
+    static const auto hull = [] {
+        ShapeDescription description;
+        description.kind = ShapeKind::hull;
+        description.points_m = {Vec3(0.0), Vec3(0.02, 0.0, 0.0), Vec3(0.0, 0.02, 0.0),
+                                Vec3(0.0, 0.0, 0.02), Vec3(0.02, 0.02, 0.015)};
+        return make_tool(*cook(description).shape).tool;
+    }();
+    static const auto ball = make_sphere(0.012).tool;
+    auto touch = std::make_shared<TouchScene>();
+    touch->shapes = {floor, box, mesh};
+    touch->tool_shapes = {ball, hull};
+    touch->scene.count = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        touch->scene.parts[i].shape = touch->shapes[i].get();
+        touch->scene.parts[i].id = static_cast<std::int32_t>(i);
+        touch->scene.parts[i].friction = 0.4;
+        touch->scene.parts[i].at.origin_m.y = -0.012;
+    }
+    touch->scene.parts[1].at.origin_m.x = 0.002 * frame;
+    touch->scene.parts[1].velocity_m_s.x = 0.1;
+    touch->tool.count = frame < 10 ? 1 : 2;
+    for (std::size_t i = 0; i < 2; ++i) {
+        touch->tool.parts[i].shape = touch->tool_shapes[i].get();
+        touch->tool.parts[i].id = static_cast<std::int32_t>(i);
+    }
+    return frame % 8 == 7 ? nullptr : touch;
+}
+
+// A play with everything in it: shapes, contacts, a coupling, effects, wrenches, faults. One recording begins with the device,
 // the other in the middle of a touch.
 void record(const std::string &whole, const std::string &middle) {
     PlantSettings plant;
@@ -109,7 +159,7 @@ void record(const std::string &whole, const std::string &middle) {
         if (frame == 17) {
             device.inject({SimulatedFault::count_jump, 3, 0.0, 0.1});
         }
-        loop.publish(command);
+        loop.publish(command, scene_of(frame));
         HandTarget target;
         target.position_m = Vec3(0.0, frame % 8 < 4 ? -0.02 : 0.01, 0.0);
         device.set_hand_target(target);

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -77,7 +78,11 @@ public:
             command.wrench_duration_s = 0.05;
             ++command.wrench_sequence;
         }
-        loop->publish(command);
+        if (scene) {
+            loop->publish(command, scene(frames));
+        } else {
+            loop->publish(command);
+        }
         HandTarget target;
         target.position_m = Vec3(0.0, frames % 20 < 10 ? -0.03 : 0.02, 0.001 * (frames % 11));
         target.grasp_angle_rad = 0.02 * (frames % 30);
@@ -107,6 +112,8 @@ public:
     ServoSettings settings;
     std::unique_ptr<ServoLoop> loop;
     HapticCommand command;
+    std::function<std::shared_ptr<const TouchScene>(int)>
+        scene; // of a frame; unset: none is published
     int frames = 0;
     std::vector<std::uint64_t> bits;
     ServoSnapshot last;

@@ -6,16 +6,9 @@
 #include <utility>
 
 #include "device/contact/touch/touch_scene.h"
+#include "support/shape_samples.h"
 
 namespace spidar::test {
-
-inline std::shared_ptr<const CookedShape> cooked(ShapeDescription description) {
-    CookResult result = cook(std::move(description));
-    if (!usable(result.status)) {
-        throw std::runtime_error(result.sentence);
-    }
-    return result.shape;
-}
 
 inline std::shared_ptr<const CookedShape> cooked_half_space() {
     ShapeDescription description;

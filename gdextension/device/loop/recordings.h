@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,9 +14,10 @@ namespace spidar {
 
 class Recordings {
 public:
-    // From the controlling thread. in_time: the loop runs in a thread of its own. Empty: recording. Else one sentence.
+    // From the controlling thread. in_time: the loop runs in a thread of its own. touches: scenes that the loop may still
+    // look at. Empty: recording. Else one sentence.
     [[nodiscard]] std::string start(const std::string &path, const ServoSettings &settings,
-                                    bool in_time) {
+                                    bool in_time, const std::deque<NumberedTouch> &touches) {
         if (recording()) {
             return "A recording runs already. Stop it before the next one starts.";
         }
@@ -26,6 +28,9 @@ public:
         auto recorder = std::make_unique<Recorder>(settings, in_time);
         std::string problem = recorder->open(path);
         if (problem.empty()) {
+            for (const NumberedTouch &touch : touches) {
+                recorder->note(touch);
+            }
             owned_.push_back({std::move(recorder)});
             current_.store(owned_.back().recorder.get(), std::memory_order_release);
         }
@@ -60,6 +65,13 @@ public:
     void note(const GameRead &read) noexcept {
         if (Recorder *const recorder = current_.load(std::memory_order_relaxed)) {
             recorder->note(read);
+        }
+    }
+
+    // The same: a scene, before its command is published.
+    void note(const NumberedTouch &touch) {
+        if (Recorder *const recorder = current_.load(std::memory_order_relaxed)) {
+            recorder->note(touch);
         }
     }
 

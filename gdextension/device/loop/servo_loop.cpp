@@ -92,6 +92,7 @@ void ServoLoop::publish(HapticCommand &command, std::shared_ptr<const TouchScene
     command.touch = touch.get();
     ++command.touch_sequence;
     touches_.push_back({command.touch_sequence, std::move(touch)});
+    cycle_.recordings().note(touches_.back());
     publish(command);
 }
 

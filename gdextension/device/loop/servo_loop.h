@@ -75,7 +75,7 @@ public:
     // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
     // a recording that runs goes on. stop() ends a recording too.
     [[nodiscard]] std::string start_recording(const std::string &path) {
-        return running() ? cycle_.recordings().start(path, settings_, threaded())
+        return running() ? cycle_.recordings().start(path, settings_, threaded(), touches_)
                          : "No device is open: there is nothing to record. Open one first.";
     }
     void stop_recording() noexcept { cycle_.recordings().stop(); }
@@ -96,11 +96,7 @@ private:
     ServoThread thread_{cycle_, timing_};
     TickAccumulator ticks_; // stepped
     ServoSettings settings_;
-    struct Kept {
-        std::uint64_t sequence = 0;
-        std::shared_ptr<const TouchScene> touch;
-    };
-    std::deque<Kept> touches_; // that the loop's thread may still look at
+    std::deque<NumberedTouch> touches_; // that the loop's thread may still look at
     bool is_running_ = false;
 };
 

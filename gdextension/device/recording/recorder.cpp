@@ -1,5 +1,6 @@
 #include "device/recording/recorder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -87,6 +88,8 @@ void Recorder::close() noexcept {
         thread_.join();
     }
     drain();
+    take_touches(); // and lets go of them
+    touches_.clear();
     mark_lost(lost_.load(std::memory_order_relaxed));
     file_.close();
     bytes_.store(file_.bytes(), std::memory_order_relaxed);
@@ -103,6 +106,7 @@ void Recorder::begin(const ServoStep &step) noexcept {
                        commands_.size() * kRestartPart <= commands_.capacity();
     if (segment_started_) {
         std::memcpy(memory_.data(), &step, sizeof step);
+        step.touch().forget_pairs();
     }
 }
 
@@ -148,6 +152,54 @@ void Recorder::note(const GameRead &read) noexcept {
     (void)reads_.offer(read);
 }
 
+void Recorder::note(NumberedTouch touch) {
+    const std::lock_guard lock(mutex_);
+    noted_.push_back(std::move(touch));
+}
+
+// A memory or a cycle that needs a scene comes to the ring after the scene was noted: who has seen it there finds the scene.
+void Recorder::take_touches() {
+    std::deque<NumberedTouch> noted;
+    {
+        const std::lock_guard lock(mutex_);
+        noted.swap(noted_);
+    }
+    const auto keep = [this](const auto *shape) {
+        if (shape != nullptr && shapes_kept_.insert(shape->number()).second) {
+            file_.shape(*shape);
+        }
+    };
+    for (NumberedTouch &one : noted) {
+        if (one.touch != nullptr) {
+            const TouchScene &touch = *one.touch;
+            for (int i = 0; i < std::clamp(touch.scene.count, 0, kMaxSceneParts); ++i) {
+                keep(touch.scene.parts[static_cast<std::size_t>(i)].shape);
+            }
+            for (int i = 0; i < std::clamp(touch.tool.count, 0, kMaxToolParts); ++i) {
+                keep(touch.tool.parts[static_cast<std::size_t>(i)].shape);
+            }
+        }
+        touches_.push_back(std::move(one));
+    }
+}
+
+// Null: there is none, or nobody noted it. Older ones are let go.
+const TouchScene *Recorder::touch_of(std::uint64_t sequence) {
+    const auto find = [this, sequence] {
+        return std::ranges::find(touches_, sequence, &NumberedTouch::sequence);
+    };
+    auto found = find();
+    if (found == touches_.end()) {
+        take_touches();
+        found = find();
+    }
+    if (found == touches_.end()) {
+        return nullptr;
+    }
+    touches_.erase(touches_.begin(), found);
+    return touches_.front().touch.get();
+}
+
 void Recorder::mark_lost(std::uint64_t lost) {
     if (lost != lost_marked_) {
         file_.gap(lost - lost_marked_);
@@ -158,6 +210,7 @@ void Recorder::mark_lost(std::uint64_t lost) {
 void Recorder::drain() {
     while (const CycleRecord *record = cycles_.oldest()) {
         if (record->segment_start) {
+            take_touches();
             mark_lost(record->lost_before);
             file_.memory(memory_);
             memory_full_.store(false, std::memory_order_release);
@@ -169,6 +222,7 @@ void Recorder::drain() {
             }
             command_ = *command;
             commands_.pop();
+            command_.touch = touch_of(command_.touch_sequence);
         }
         file_.cycle(*record, command_);
         cycles_.pop();

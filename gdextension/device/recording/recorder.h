@@ -5,11 +5,15 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "device/contact/touch/touch_scene.h"
 #include "device/recording/recording_file.h"
 #include "device/threads/spsc_ring.h"
 
@@ -28,6 +32,12 @@ struct RecorderStatistics {
     bool failed = false;      // the file could not be written any further
 };
 
+// A scene that a game published, or null for none, and the touch_sequence of its command.
+struct NumberedTouch {
+    std::uint64_t sequence = 0;
+    std::shared_ptr<const TouchScene> touch;
+};
+
 class Recorder {
 public:
     // in_time: the loop has a thread of its own. Then a writing thread drains the ring; else the loop's caller does, and
@@ -43,17 +53,24 @@ public:
     // begin() and end(); they then do nothing that lasts.
     void close() noexcept;
 
-    // From the loop's thread, around each step, without waiting or allocating. step: before it takes this cycle.
+    // From the loop's thread, around each step, without waiting or allocating. step: before it takes this cycle. Where a
+    // segment starts it forgets what it remembers of pairs of shapes, as a replay does there.
     void begin(const ServoStep &step) noexcept;
     void end(CycleInput input, const DriveCommand &drive, const ServoSnapshot &snapshot,
              const HapticCommand &command, bool command_is_new) noexcept;
     // From the controlling thread, without waiting: what the game has just read.
     void note(const GameRead &read) noexcept;
+    // From the controlling thread: a scene, before its command is published; when a recording starts, all that the loop may
+    // still look at, oldest first, before the loop is told of the recorder. Its shapes are kept in the file, and alive until
+    // they are there.
+    void note(NumberedTouch touch);
 
     [[nodiscard]] RecorderStatistics statistics() const noexcept;
 
 private:
     void drain();
+    void take_touches();
+    const TouchScene *touch_of(std::uint64_t sequence);
     void mark_lost(std::uint64_t lost);
     void write_in_time();
 
@@ -77,15 +94,18 @@ private:
     // The writer's.
     RecordingWriter file_;
     HapticCommand command_;
+    std::deque<NumberedTouch> touches_;   // from the newest on that a recorded command had
+    std::set<std::uint64_t> shapes_kept_; // their numbers: the shapes are in the file
     std::uint64_t lost_marked_ = 0;
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<bool> failed_{false};
 
     bool is_open_ = false; // the controlling thread's
     std::thread thread_;
-    std::mutex mutex_; // of stop_asked_; the loop has no part in it
+    std::mutex mutex_; // of what follows; the loop has no part in it
     std::condition_variable wake_;
     bool stop_asked_ = false;
+    std::deque<NumberedTouch> noted_; // the writer has not taken them yet
 };
 
 } // namespace spidar

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "device/recording/codec/cycle_codec.h"
+#include "device/recording/codec/recorded_shapes.h"
 #include "device/recording/recording_info.h"
 
 namespace spidar {
@@ -26,6 +27,9 @@ enum class ChunkKind : std::uint8_t {
     // GameReads, two varints each: cycles since the read before, times 2, plus 1 for a physics tick; sets of contacts
     // since the read before.
     reads = 6,
+    // A piece of a shape: a byte that is 1 when more pieces of it follow, then bytes of encode_shape(). The pieces of a shape
+    // stand together, before the first cycle or memory that has it.
+    shape = 7,
 };
 inline constexpr std::array<std::uint8_t, 8> kRecordingMagic = {'S', 'P', 'I', 'D',
                                                                 'A', 'R', 'G', '\n'};
@@ -39,6 +43,9 @@ public:
     [[nodiscard]] std::string open(const std::string &path, const RecordingInfo &info);
 
     void memory(std::span<const std::uint8_t> bytes);
+    void shape(const CookedShape &shape);
+    void shape(const ToolShape &tool);
+    // As CycleEncoder::encode().
     void cycle(const CycleRecord &record, const HapticCommand &command);
     void read(const GameRead &read);
     void gap(std::uint64_t cycles_lost);
@@ -54,6 +61,7 @@ public:
 
 private:
     void chunk(ChunkKind kind, std::span<const std::uint8_t> contents);
+    void shape_chunks(std::span<const std::uint8_t> bytes);
 
     std::ofstream file_;
     CycleEncoder encoder_;
@@ -75,6 +83,9 @@ public:
     // The same for bytes from anywhere; `name` stands in messages.
     [[nodiscard]] std::string open(std::unique_ptr<std::istream> stream, const std::string &name);
 
+    // Once open: the shapes of the file go there as they are read. Without it they are passed over.
+    void keep_shapes(RecordedShapes *shapes) noexcept { shapes_ = shapes; }
+
     // A reader gives either the cycles of a file or the game's reads: the two passes have a reader each.
     // Reads the next cycle. False at the end of the recording, or where the file is damaged: closed() is true only when
     // the recording was ended properly.
@@ -85,6 +96,10 @@ public:
     [[nodiscard]] const RecordingInfo &info() const noexcept { return info_; }
     // The memory of the servo step just before the segment that the last cycle read belongs to.
     [[nodiscard]] std::span<const std::uint8_t> memory() const noexcept { return memory_; }
+    // The scene of the last cycle's command, as codec/touch_words.h has it.
+    [[nodiscard]] std::span<const std::uint64_t> touch_words() const noexcept {
+        return decoder_.touch_words();
+    }
     [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_; }
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
     [[nodiscard]] bool closed() const noexcept { return closed_; }
@@ -95,6 +110,7 @@ private:
     // False: no whole chunk is left, and damage_ says why.
     bool read_chunk(ChunkKind &kind);
     bool take(ChunkKind kind);
+    bool take_shape();
     void give_up(const std::string &what);
 
     std::unique_ptr<std::istream> file_;
@@ -107,7 +123,9 @@ private:
     ByteReader cycles_left_;
     ByteReader reads_left_;
     GameRead last_read_;
-    CycleDecoder decoder_{0, 0};
+    CycleDecoder decoder_{0, 0, 0};
+    RecordedShapes *shapes_ = nullptr;
+    std::vector<std::uint8_t> shape_; // pieces of one that is not whole yet
     std::uint64_t cycles_ = 0;
     std::uint64_t lost_ = 0;
     bool closed_ = false;

@@ -12,6 +12,7 @@
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/reading_fields.h"
 #include "device/recording/codec/settings_fields.h"
+#include "device/recording/codec/touch_words.h"
 #include "device/step/servo_step.h"
 
 namespace spidar {
@@ -106,6 +107,8 @@ bool read_field(std::string_view name, std::string_view value, RecordingInfo &in
         return value_of(value, info.command_words) && info.command_words <= kMostWords;
     } else if (name == "reading_words") {
         return value_of(value, info.reading_words) && info.reading_words <= kMostWords;
+    } else if (name == "touch_words") {
+        return value_of(value, info.touch_words) && info.touch_words <= kMostWords;
     } else if (name == "state_bytes") {
         return value_of(value, info.state_bytes) && info.state_bytes <= kMostStateBytes;
     } else if (name.substr(0, kSettings.size()) == kSettings) {
@@ -124,6 +127,7 @@ RecordingInfo describe_recording(const ServoSettings &settings) {
     info.command_schema = schema_of(HapticCommand{});
     info.command_words = count_fields(HapticCommand{});
     info.reading_words = count_fields(DeviceReading{});
+    info.touch_words = count_touch_words();
     info.state_bytes = sizeof(ServoStep);
     info.settings = settings;
     return info;
@@ -139,6 +143,7 @@ std::string to_text(const RecordingInfo &info) {
     line(text, "command_schema", hex(info.command_schema));
     line(text, "command_words", text_of(info.command_words));
     line(text, "reading_words", text_of(info.reading_words));
+    line(text, "touch_words", text_of(info.touch_words));
     line(text, "state_bytes", text_of(info.state_bytes));
     for_each_field(info.settings, [&text](std::string_view name, int index, auto value) {
         line(text, std::string(kSettings).append(name) + "." + std::to_string(index),
@@ -189,7 +194,7 @@ std::string why_no_replay(const RecordingInfo &info) {
     }
     if (info.command_schema != schema_of(HapticCommand{}) ||
         info.command_words != count_fields(HapticCommand{}) ||
-        info.state_bytes != sizeof(ServoStep)) {
+        info.touch_words != count_touch_words() || info.state_bytes != sizeof(ServoStep)) {
         return "The recording holds another form of commands or memory than this build has: it "
                "plays as poses, not to the bit. Replay it with the build that made it.";
     }

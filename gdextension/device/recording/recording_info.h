@@ -11,7 +11,7 @@
 namespace spidar {
 
 // Of the file's chunks and of the cycles in them. A file of a later format is refused.
-inline constexpr std::uint32_t kRecordingFormat = 2;
+inline constexpr std::uint32_t kRecordingFormat = 3;
 
 struct RecordingInfo {
     std::string version;     // of spidar_g
@@ -20,6 +20,7 @@ struct RecordingInfo {
     std::uint64_t command_schema = 0;
     std::uint64_t command_words = 0;
     std::uint64_t reading_words = 0; // reading_fields.h
+    std::uint64_t touch_words = 0;   // touch_words.h
     std::uint64_t state_bytes = 0;   // of the step's memory
     ServoSettings settings;
 };

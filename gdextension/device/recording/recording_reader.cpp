@@ -43,7 +43,8 @@ std::string RecordingReader::open(std::unique_ptr<std::istream> stream, const st
     std::string problem = read_text(text, info_);
     if (problem.empty()) {
         decoder_ = CycleDecoder(static_cast<std::size_t>(info_.command_words),
-                                static_cast<std::size_t>(info_.reading_words));
+                                static_cast<std::size_t>(info_.reading_words),
+                                static_cast<std::size_t>(info_.touch_words));
     }
     return problem;
 }
@@ -69,7 +70,7 @@ bool RecordingReader::read_chunk(ChunkKind &kind) {
     const std::uint64_t number = from.fixed(kNumberBytes);
     const std::uint64_t size = from.fixed(kNumberBytes);
     if (number != number_ || size > kMostChunkBytes || kind < ChunkKind::info ||
-        kind > ChunkKind::reads) {
+        kind > ChunkKind::shape) {
         give_up("is damaged");
         return false;
     }
@@ -92,8 +93,31 @@ bool RecordingReader::read_chunk(ChunkKind &kind) {
     return true;
 }
 
+bool RecordingReader::take_shape() {
+    if (shapes_ == nullptr) {
+        return true;
+    }
+    ByteReader from(chunk_);
+    const bool more = from.fixed(1) != 0;
+    const std::span<const std::uint8_t> piece = from.rest();
+    shape_.insert(shape_.end(), piece.begin(), piece.end());
+    if (more) {
+        return true;
+    }
+    const bool good = shapes_->take(shape_);
+    std::vector<std::uint8_t>().swap(shape_);
+    if (!good) {
+        give_up("holds a shape that cannot be made");
+    }
+    return good;
+}
+
 bool RecordingReader::take(ChunkKind kind) {
     ByteReader from(chunk_);
+    if (kind != ChunkKind::shape && !shape_.empty()) {
+        give_up("lacks a piece of a shape");
+        return false;
+    }
     switch (kind) {
     case ChunkKind::memory:
         memory_ = chunk_;
@@ -113,6 +137,8 @@ bool RecordingReader::take(ChunkKind kind) {
     case ChunkKind::reads:
         reads_left_ = from;
         return true;
+    case ChunkKind::shape:
+        return take_shape();
     case ChunkKind::info: // only the first chunk is one
         break;
     }

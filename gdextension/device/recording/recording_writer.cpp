@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -63,6 +64,34 @@ void RecordingWriter::chunk(ChunkKind kind, std::span<const std::uint8_t> conten
 void RecordingWriter::memory(std::span<const std::uint8_t> bytes) {
     flush();
     chunk(ChunkKind::memory, bytes);
+}
+
+void RecordingWriter::shape_chunks(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kPiece_bytes = kMostChunkBytes - 1;
+    std::vector<std::uint8_t> contents;
+    do {
+        const std::size_t size = std::min(bytes.size(), kPiece_bytes);
+        contents.clear();
+        ByteWriter to(contents);
+        to.fixed(size < bytes.size() ? 1 : 0, 1);
+        to.raw(bytes.first(size));
+        chunk(ChunkKind::shape, contents);
+        bytes = bytes.subspan(size);
+    } while (!bytes.empty());
+}
+
+void RecordingWriter::shape(const CookedShape &shape) {
+    std::vector<std::uint8_t> bytes;
+    ByteWriter to(bytes);
+    encode_shape(shape, to);
+    shape_chunks(bytes);
+}
+
+void RecordingWriter::shape(const ToolShape &tool) {
+    std::vector<std::uint8_t> bytes;
+    ByteWriter to(bytes);
+    encode_shape(tool, to);
+    shape_chunks(bytes);
 }
 
 void RecordingWriter::cycle(const CycleRecord &record, const HapticCommand &command) {

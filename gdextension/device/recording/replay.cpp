@@ -7,6 +7,7 @@
 #include "core/base/simd_level.h"
 #include "core/base/sound_state.h"
 #include "device/recording/codec/command_fields.h"
+#include "device/recording/codec/touch_words.h"
 #include "device/step/servo_step.h"
 
 namespace spidar {
@@ -29,6 +30,8 @@ std::string Replay::load(const std::string &bytes, const std::string &name) {
 
 std::string Replay::prepare() {
     why_poses_only_ = why_no_replay(reader_.info());
+    shapes_.clear();
+    reader_.keep_shapes(why_poses_only_.empty() ? &shapes_ : nullptr);
     settings_ = reader_.info().settings;
     if (!supports(settings_.tension.simd)) {
         settings_.tension.simd = best_simd_level();
@@ -67,9 +70,14 @@ bool Replay::restore(ServoStep &step) noexcept {
         ServoStep found; // of this build (why_no_replay), trivially copyable (recorder.cpp)
         std::memcpy(static_cast<void *>(&found), memory.data(), sizeof found);
         // It counts the cycles as the file does.
-        sound = found.is_sound() && found.snapshot().counters.ticks + 1 == cycle_.tick;
+        sound = found.is_sound() && found.snapshot().counters.ticks + 1 == cycle_.tick &&
+                found.touch().relink(
+                    step.touch().memory(),
+                    [this](std::uint64_t number) { return shapes_.shape(number); },
+                    [this](std::uint64_t number) { return shapes_.tool(number); });
         if (sound) {
             step = found;
+            step.touch().forget_pairs();
         }
     }
     unsound_.store(!sound, std::memory_order_relaxed);
@@ -97,6 +105,10 @@ bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noe
     if (exact && cycle_.command_is_new) {
         load_words(cycle_.command_words, given.command);
         contacts_sequence_ = given.command.contacts_sequence;
+        if (cycle_.touch_is_new) {
+            given.command.touch =
+                load_touch(reader_.touch_words(), shapes_, touch_) ? &touch_ : nullptr;
+        }
     }
     given.command_is_new = true; // for who records the replay
     given.input = cycle_.input;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "device/contact/touch/touch_scene.h"
 #include "device/recording/recording_file.h"
 #include "device/step/cycle_source.h"
 
@@ -74,6 +75,8 @@ private:
     // Of the segment that cycle_ starts. False: there is no memory that a step can use.
     bool restore(ServoStep &step) noexcept;
 
+    RecordedShapes shapes_; // that the step may point to
+    TouchScene touch_;      // of the newest command
     RecordingReader reader_;
     RecordingReader reads_;
     std::string why_poses_only_;

@@ -6,14 +6,16 @@
 
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/reading_fields.h"
+#include "device/recording/codec/touch_words.h"
 #include "support/recording_fixture.h"
+#include "support/touch_scenes.h"
 
 using namespace spidar;
 using namespace spidar::test;
 
 namespace {
 
-// A recording of `cycles` cycles that hold all kinds of values, in chunks of a few.
+// A recording of `cycles` cycles that hold all kinds of values, in chunks of a few, with a scene of shapes.
 std::string small_recording(int cycles, const TemporaryFile &file) {
     RecordingWriter writer;
     RecordingInfo info = describe_recording(ideal_settings());
@@ -21,7 +23,15 @@ std::string small_recording(int cycles, const TemporaryFile &file) {
     const std::vector<std::uint8_t> memory = {1, 2, 3, 4, 5};
     std::mt19937_64 random(11);
     HapticCommand command;
+    TouchScene touch;
+    add_tool(touch, make_sphere(kBall_m));
+    add(touch, cooked(box_mesh(Vec3(0.01))));
+    writer.shape(*touch.shapes.front());
+    writer.shape(*touch.tool_shapes.front());
     for (int i = 0; i < cycles; ++i) {
+        command.touch = i % 15 == 0 ? nullptr : &touch;
+        command.touch_sequence += i % 5 == 0 ? 1U : 0U;
+        touch.scene.parts[0].at.origin_m.x = i;
         CycleRecord record;
         record.segment_start = i % 20 == 0;
         record.command_is_new = i % 5 == 0;
@@ -55,6 +65,8 @@ struct Contents {
     bool closed = false;
     std::vector<std::uint32_t> digests;
     std::vector<CountArray> counts;
+    std::vector<double>
+        scenes; // where the mesh is; -1 without a scene, -2 with one that is not valid
     std::vector<std::uint64_t> reads; // the ticks
 };
 
@@ -63,7 +75,14 @@ Contents read(const std::string &bytes) {
     RecordingReader reader;
     contents.problem = reader.open(std::make_unique<std::istringstream>(bytes), "test");
     RecordedCycle cycle;
+    RecordedShapes shapes;
+    TouchScene touch;
+    reader.keep_shapes(&shapes);
     while (contents.problem.empty() && reader.next(cycle)) {
+        const bool is_there = load_touch(reader.touch_words(), shapes, touch);
+        contents.scenes.push_back(!is_there                  ? -1.0
+                                  : !usable(validate(touch)) ? -2.0
+                                                             : touch.scene.parts[0].at.origin_m.x);
         contents.digests.push_back(cycle.digest);
         contents.counts.push_back(cycle.input.reading.counts);
     }
@@ -96,6 +115,9 @@ TEST_CASE("recording: cut at every byte, it opens up to there and says where") {
     REQUIRE(all.closed);
     REQUIRE(all.digests.size() == 60);
     REQUIRE(all.reads.size() == 60);
+    for (int i = 0; i < 60; ++i) {
+        CHECK(all.scenes[static_cast<std::size_t>(i)] == (i / 5 % 3 == 0 ? -1.0 : i / 5 * 5.0));
+    }
     std::size_t most = 0;
     bool once_opened = false;
     for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -103,6 +125,7 @@ TEST_CASE("recording: cut at every byte, it opens up to there and says where") {
         const bool told = !cut.problem.empty() || !cut.damage.empty();
         const bool right = begins_with(all.digests, cut.digests) &&
                            begins_with(all.counts, cut.counts) &&
+                           begins_with(all.scenes, cut.scenes) &&
                            begins_with(all.reads, cut.reads) && !cut.closed && told &&
                            cut.digests.size() >= most && (cut.problem.empty() || !once_opened);
         if (!right) {
@@ -127,7 +150,8 @@ TEST_CASE("recording: a flipped bit in any byte is noticed, and what came before
         const Contents left = read(damaged);
         const bool told = !left.problem.empty() || !left.damage.empty();
         const bool right = told && !left.closed && begins_with(all.digests, left.digests) &&
-                           begins_with(all.counts, left.counts);
+                           begins_with(all.counts, left.counts) &&
+                           begins_with(all.scenes, left.scenes);
         if (!right) {
             CAPTURE(place);
             CAPTURE(left.damage);
@@ -253,7 +277,7 @@ TEST_CASE(
     encoder.encode(record, HapticCommand(), to); // as expected: nothing of the reading is told
     CHECK(bytes.size() > end_of_first);
 
-    CycleDecoder decoder(count_fields(HapticCommand{}), own + 1);
+    CycleDecoder decoder(count_fields(HapticCommand{}), own + 1, count_touch_words());
     ByteReader from(bytes);
     RecordedCycle cycle;
     REQUIRE(decoder.decode(from, cycle));
@@ -290,7 +314,7 @@ TEST_CASE("recording: the head gives the settings back, to the bit, in any local
     CHECK(read_text(text + "settings.safety.invented.0=0x1p+0\n", back) == "");
     CHECK(read_text(text + "command_words=-3\n", back).find("cannot be") != std::string::npos);
     CHECK(read_text("spidar_g recording\nformat=1\n", back) == "");
-    CHECK(read_text("spidar_g recording\nformat=3\n", back).find("format 3") != std::string::npos);
+    CHECK(read_text("spidar_g recording\nformat=4\n", back).find("format 4") != std::string::npos);
     CHECK(read_text("spidar_g recording\nformat=0\n", back).find("format 0") != std::string::npos);
     CHECK(read_text("spidar_g recording\n", back).find("no format") != std::string::npos);
 }

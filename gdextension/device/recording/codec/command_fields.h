@@ -59,7 +59,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         ++i;
     }
     visit("contacts_state_time_s", 0, command.contacts_state_time_s);
-    visit("touch_sequence", 0, command.touch_sequence); // the scene itself: ChunkKind::touch
+    visit("touch_sequence", 0, command.touch_sequence); // the scene itself: touch_words.h
     visit("coupling_sequence", 0, command.coupling_sequence);
     auto &coupling = command.coupling;
     visit_vector("coupling.position_m", 0, coupling.position_m, visit);

@@ -6,6 +6,7 @@
 
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/reading_fields.h"
+#include "device/recording/codec/touch_words.h"
 
 namespace spidar {
 
@@ -22,7 +23,8 @@ constexpr std::uint64_t kReadStatus = 64;
 constexpr std::uint64_t kWriteStatus = 128;
 constexpr std::uint64_t kMayArm = 256; // the flag itself, not a change of it
 constexpr std::uint64_t kSegment = 512;
-constexpr std::uint64_t kAllFlags = 1023;
+constexpr std::uint64_t kTouch = 1024; // the scene is another one than that of the last command
+constexpr std::uint64_t kAllFlags = 2047;
 
 // Where clock and sequence number stand in the list of a reading.
 constexpr std::size_t kClockWord = 0;
@@ -73,26 +75,39 @@ DeviceReading expected_after(const DeviceReading &before, std::uint64_t clock_st
     return expected;
 }
 
+// What changed in a row of words: pairs (words skipped, change), ended by a skip to the end.
+void encode_changes(std::span<const std::uint64_t> words, std::span<const std::uint64_t> before,
+                    ByteWriter &to) {
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] != before[i]) {
+            to.varint(i - done);
+            to.sparse_word(words[i] ^ before[i]);
+            done = i + 1;
+        }
+    }
+    to.varint(words.size() - done);
+}
+
+void decode_changes(ByteReader &from, std::span<std::uint64_t> words) noexcept {
+    std::size_t next = 0;
+    while (from.good()) {
+        const std::uint64_t skipped = from.varint();
+        if (skipped >= words.size() - next) {
+            return;
+        }
+        next += static_cast<std::size_t>(skipped);
+        words[next] ^= from.sparse_word();
+        ++next;
+    }
+}
+
 } // namespace
 
 CycleEncoder::CycleEncoder()
     : last_command_(count_fields(HapticCommand{})), command_(last_command_.size()),
+      last_touch_(count_touch_words()), touch_(last_touch_.size()),
       reading_(count_fields(DeviceReading{})), expected_(reading_.size()) {}
-
-void CycleEncoder::encode_command(const HapticCommand &command, ByteWriter &to) {
-    // Pairs (words skipped, change), ended by a skip to the end.
-    store_words(command, command_);
-    std::size_t done = 0;
-    for (std::size_t i = 0; i < command_.size(); ++i) {
-        if (command_[i] != last_command_[i]) {
-            to.varint(i - done);
-            to.sparse_word(command_[i] ^ last_command_[i]);
-            done = i + 1;
-        }
-    }
-    to.varint(command_.size() - done);
-    last_command_ = command_;
-}
 
 void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &command, ByteWriter &to) {
     if (record.segment_start) { // readable without what came before
@@ -100,6 +115,8 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
         last_tensions_mn_ = {};
         last_clock_step_us_ = 0;
         last_command_.assign(last_command_.size(), 0);
+        last_touch_.assign(last_touch_.size(), 0);
+        touch_ = last_touch_;
     }
     const CycleInput &now = record.input;
     const CycleInput &before = last_.input;
@@ -108,6 +125,10 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
     store_words(now.reading, reading_);
     const MillinewtonArray tensions_mn = millinewtons_of(record.output);
     const bool whole_command = record.segment_start || record.command_is_new;
+    if (record.segment_start || (whole_command && command.touch_sequence != last_touch_sequence_)) {
+        store_touch(command.touch, touch_);
+        last_touch_sequence_ = command.touch_sequence;
+    }
 
     std::uint64_t flags = 0;
     flags |= now.reading.counts != before.reading.counts ? kCounts : 0;
@@ -122,6 +143,7 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
     flags |= now.write_status != before.write_status ? kWriteStatus : 0;
     flags |= now.may_arm_itself ? kMayArm : 0;
     flags |= record.segment_start ? kSegment : 0;
+    flags |= whole_command && touch_ != last_touch_ ? kTouch : 0;
 
     to.varint(flags);
     if ((flags & kSegment) != 0) {
@@ -147,7 +169,13 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
         to.signed_varint(static_cast<std::int32_t>(now.write_status));
     }
     if ((flags & kCommand) != 0) {
-        encode_command(command, to);
+        store_words(command, command_);
+        encode_changes(command_, last_command_, to);
+        last_command_ = command_;
+    }
+    if ((flags & kTouch) != 0) {
+        encode_changes(touch_, last_touch_, to);
+        last_touch_ = touch_;
     }
     if ((flags & kTensions) != 0) {
         for (std::size_t i = 0; i < kStringCount; ++i) {
@@ -168,8 +196,9 @@ void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &comman
     last_tensions_mn_ = tensions_mn;
 }
 
-CycleDecoder::CycleDecoder(std::size_t command_words, std::size_t reading_words)
-    : reading_(std::max(reading_words, kLeastReadingWords)) {
+CycleDecoder::CycleDecoder(std::size_t command_words, std::size_t reading_words,
+                           std::size_t touch_words)
+    : reading_(std::max(reading_words, kLeastReadingWords)), touch_(touch_words) {
     last_.command_words.resize(command_words);
 }
 
@@ -197,6 +226,7 @@ void CycleDecoder::start_segment(ByteReader &from) {
     fresh.command_words.assign(last_.command_words.size(), 0);
     fresh.segment_start = true;
     fresh.command_is_new = true;
+    fresh.touch_is_new = true;
     fresh.tick = from.varint();
     last_ = fresh;
     last_clock_step_us_ = 0;
@@ -204,6 +234,7 @@ void CycleDecoder::start_segment(ByteReader &from) {
     store_words(DeviceReading{}, words);
     words.resize(reading_.size());
     reading_ = words;
+    touch_.assign(touch_.size(), 0);
 }
 
 void CycleDecoder::decode_inputs(std::uint64_t flags, ByteReader &from) {
@@ -226,20 +257,6 @@ void CycleDecoder::decode_inputs(std::uint64_t flags, ByteReader &from) {
     input.may_arm_itself = (flags & kMayArm) != 0;
 }
 
-void CycleDecoder::decode_command(ByteReader &from) {
-    std::size_t next = 0;
-    const std::size_t size = last_.command_words.size();
-    while (from.good()) {
-        const std::uint64_t skipped = from.varint();
-        if (skipped >= size - next) {
-            return;
-        }
-        next += static_cast<std::size_t>(skipped);
-        last_.command_words[next] ^= from.sparse_word();
-        ++next;
-    }
-}
-
 bool CycleDecoder::decode(ByteReader &from, RecordedCycle &cycle) {
     const std::uint64_t flags = from.varint();
     if (flags > kAllFlags) {
@@ -247,6 +264,7 @@ bool CycleDecoder::decode(ByteReader &from, RecordedCycle &cycle) {
     }
     last_.segment_start = (flags & kSegment) != 0;
     last_.command_is_new = (flags & kCommand) != 0;
+    last_.touch_is_new = (flags & (kSegment | kTouch)) != 0;
     if (last_.segment_start) {
         start_segment(from);
     } else {
@@ -254,7 +272,10 @@ bool CycleDecoder::decode(ByteReader &from, RecordedCycle &cycle) {
     }
     decode_inputs(flags, from);
     if ((flags & kCommand) != 0) {
-        decode_command(from);
+        decode_changes(from, last_.command_words);
+    }
+    if ((flags & kTouch) != 0) {
+        decode_changes(from, touch_);
     }
     if ((flags & kTensions) != 0) {
         for (std::int32_t &tension_mn : last_.tensions_mn) {

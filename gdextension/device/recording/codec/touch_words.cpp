@@ -1,0 +1,163 @@
+#include "device/recording/codec/touch_words.h"
+
+#include <algorithm>
+
+#include "device/recording/codec/field_words.h"
+
+namespace spidar {
+
+// A field added to one of these structs: add it to the lists below, then correct the number.
+static_assert(count_members<TouchScene>() == 9, "TouchScene changed: list its fields here");
+static_assert(count_members<Tool>() == 4, "Tool changed: list its fields here");
+static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
+static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
+static_assert(count_members<ScenePart>() == 9, "ScenePart changed: list its fields here");
+
+namespace {
+
+template <typename Place, typename Visit>
+void visit_placement(Place &at, Visit &&visit) {
+    visit_vector("origin_m", 0, at.origin_m, visit);
+    for (int column = 0; column < 3; ++column) {
+        visit_vector("rotation", column, at.rotation[column], visit);
+    }
+}
+
+// Beside the parts.
+template <typename Touch, typename Visit>
+void visit_head(Touch &touch, Visit &&visit) {
+    visit("tool.count", 0, touch.tool.count);
+    visit("jaws.open_m", 0, touch.tool.jaws.open_m);
+    visit("jaws.closed_rad", 0, touch.tool.jaws.closed_rad);
+    visit("stop_rad", 0, touch.tool.stop_rad);
+    visit("scene.count", 0, touch.scene.count);
+    visit_array("stiffness", touch.stiffness, visit);
+    visit("damping_n_s_m", 0, touch.damping_n_s_m);
+    visit_vector("load.force_n", 0, touch.load.force_n, visit);
+    visit_vector("load.moment_nm", 0, touch.load.moment_nm, visit);
+    visit("load.grasp_torque_nm", 0, touch.load.grasp_torque_nm);
+    visit("felt", 0, touch.felt);
+    visit("state_time_s", 0, touch.state_time_s);
+}
+
+template <typename Part, typename Visit>
+void visit_part(Part &part,
+                Visit &&visit) requires std::is_same_v<std::remove_const_t<Part>, ToolPart> {
+    visit("shape", 0, part.shape);
+    visit("mount", 0, part.mount);
+    visit_placement(part.at, visit);
+    visit("id", 0, part.id);
+    visit("groups", 0, part.groups);
+}
+
+template <typename Part, typename Visit>
+void visit_part(Part &part,
+                Visit &&visit) requires std::is_same_v<std::remove_const_t<Part>, ScenePart> {
+    visit("shape", 0, part.shape);
+    visit_placement(part.at, visit);
+    visit_vector("velocity_m_s", 0, part.velocity_m_s, visit);
+    visit_vector("angular_rad_s", 0, part.angular_rad_s, visit);
+    visit("stiffness_n_m", 0, part.stiffness_n_m);
+    visit("damping_n_s_m", 0, part.damping_n_s_m);
+    visit("friction", 0, part.friction);
+    visit("id", 0, part.id);
+    visit("groups", 0, part.groups);
+}
+
+template <typename VisitAll>
+std::size_t count_visits(VisitAll &&visit_all) noexcept {
+    std::size_t count = 0;
+    visit_all([&count](std::string_view, int, const auto &) { ++count; });
+    return count;
+}
+
+// How many words each part of a scene takes; the first word of all says whether there is one.
+struct Layout {
+    std::size_t head = 0;
+    std::size_t tool_part = 0;
+    std::size_t scene_part = 0;
+};
+const Layout &layout() noexcept {
+    static const Layout sizes = [] {
+        const TouchScene touch;
+        const ToolPart tool;
+        const ScenePart part;
+        return Layout{1 + count_visits([&](auto &&visit) { visit_head(touch, visit); }),
+                      count_visits([&](auto &&visit) { visit_part(tool, visit); }),
+                      count_visits([&](auto &&visit) { visit_part(part, visit); })};
+    }();
+    return sizes;
+}
+
+template <typename Shape>
+std::uint64_t word_of(const Shape *shape) noexcept {
+    return shape != nullptr ? shape->number() : 0;
+}
+template <typename T>
+std::uint64_t word_of(const T &value) noexcept {
+    return to_word(value);
+}
+
+// The first `count` parts, each from its own place on.
+template <typename Parts, typename Use>
+void for_parts(Parts &parts, int count, std::size_t first, std::size_t words_each, Use &&use) {
+    const int most = static_cast<int>(parts.size());
+    for (int i = 0; i < std::clamp(count, 0, most); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        use(parts[k], first + k * words_each);
+    }
+}
+
+// All fields of a scene's parts that are there, with the places of their words.
+template <typename Touch, typename Visit>
+void visit_parts(Touch &touch, Visit &&visit) noexcept {
+    const Layout &sizes = layout();
+    const auto visit_from = [&visit](auto &part, std::size_t place) {
+        visit_part(part, [&](std::string_view, int, auto &field) { visit(place++, field); });
+    };
+    for_parts(touch.tool.parts, touch.tool.count, sizes.head, sizes.tool_part, visit_from);
+    for_parts(touch.scene.parts, touch.scene.count, sizes.head + kMaxToolParts * sizes.tool_part,
+              sizes.scene_part, visit_from);
+}
+
+} // namespace
+
+std::size_t count_touch_words() noexcept {
+    const Layout &sizes = layout();
+    return sizes.head + kMaxToolParts * sizes.tool_part + kMaxSceneParts * sizes.scene_part;
+}
+
+void store_touch(const TouchScene *touch, std::span<std::uint64_t> words) noexcept {
+    words[0] = touch != nullptr ? 1 : 0;
+    if (touch == nullptr) {
+        return;
+    }
+    std::size_t next = 1;
+    visit_head(*touch,
+               [&](std::string_view, int, const auto &field) { words[next++] = to_word(field); });
+    visit_parts(*touch,
+                [&](std::size_t place, const auto &field) { words[place] = word_of(field); });
+}
+
+bool load_touch(std::span<const std::uint64_t> words, const RecordedShapes &shapes,
+                TouchScene &touch) noexcept {
+    touch = TouchScene();
+    if (words[0] == 0) {
+        return false;
+    }
+    std::size_t next = 1;
+    visit_head(touch, [&](std::string_view, int, auto &field) { from_word(words[next++], field); });
+    visit_parts(touch, [&](std::size_t place, auto &field) {
+        using Field = std::remove_cvref_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, const CookedShape *>) {
+            field = shapes.shape(words[place]);
+        } else if constexpr (std::is_same_v<Field, const ToolShape *>) {
+            field = shapes.tool(words[place]);
+        } else {
+            from_word(words[place], field);
+        }
+    });
+    return true;
+}
+
+} // namespace spidar
