@@ -155,12 +155,12 @@ void NearBody::read_list(ShapeShelf &shelf, std::int32_t &next_id, int count) {
 }
 
 void NearBody::bound(BodyShape &shape) {
-    const ShapeData &data = shape.source->data;
+    const ShapeBounds &data = shape.source->data.bounds;
     const Mat3 axes = to_core(shape.local.basis);
     const Vec3 half = 0.5 * (data.upper - data.lower);
-    shape.bounded = shape.source->version;
+    shape.bounded = shape.source->bounds;
     shape.radius = std::numeric_limits<double>::infinity();
-    if (std::isfinite(half.x + half.y + half.z)) {
+    if (data.known()) {
         const Vec3 middle = 0.5 * (data.upper + data.lower);
         shape.middle = to_core(shape.local.origin) + axes * middle;
         shape.radius = glm::length(half.x * glm::abs(axes[0]) + half.y * glm::abs(axes[1]) +
@@ -217,7 +217,7 @@ void NearBody::read_shape(ShapeShelf &shelf, int index) {
     } else {
         shape.source->used_tick = shelf.tick();
     }
-    if (shape.bounded != shape.source->version) {
+    if (shape.bounded != shape.source->bounds) {
         bound(shape);
     }
 }

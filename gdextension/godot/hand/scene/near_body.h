@@ -40,10 +40,10 @@ struct BodyShape {
     std::int64_t owner = -1; // shape owner of a CollisionObject3D; below 0: none
     bool disabled = false;
     bool listed = false; // in the last tick
-    // A ball round it in the body's frame (scene units; the body's own scale left out). Infinite: a world boundary.
+    // A ball round it in the body's frame (scene units; the body's own scale left out). Infinite: not known.
     Vec3 middle{0.0};
     double radius = 0.0;
-    std::uint64_t bounded = 0; // version of the data that the ball is of; 0: none yet
+    std::uint64_t bounded = 0; // Source::bounds that the ball is of; 0: none yet
     std::shared_ptr<ShapeShelf::Source> source;
 };
 

@@ -22,8 +22,8 @@ namespace {
 using godot::PhysicsServer3D;
 using godot::Variant;
 
-constexpr std::int64_t kMostPointsAtOnce = 6000; // 2000 triangles
-constexpr std::int64_t kMostHullPointsAtOnce = 2000;
+constexpr std::int64_t kMostPointsAtOnce = 1500; // 500 triangles, half a millisecond
+constexpr std::int64_t kMostHullPointsAtOnce = 300;
 constexpr std::int64_t kMostHeightsAtOnce = 65536;
 
 double number(const godot::Dictionary &data, const Variant &key) {
@@ -38,52 +38,6 @@ bool take_points(const Variant &value, ShapeData &data) {
     data.numbers.point_count = data.points.size();
     data.numbers.points = data.numbers.point_count > 0 ? data.points.ptr() : nullptr;
     return true;
-}
-
-void bound(ShapeData &data) {
-    const ShapeNumbers &shape = data.numbers;
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    switch (shape.type) {
-    case PhysicsServer3D::SHAPE_SPHERE:
-        data.upper = Vec3(shape.radius);
-        break;
-    case PhysicsServer3D::SHAPE_BOX:
-        data.upper = shape.half_extents;
-        break;
-    case PhysicsServer3D::SHAPE_CAPSULE:
-    case PhysicsServer3D::SHAPE_CYLINDER:
-        data.upper = {shape.radius, std::max(0.5 * shape.height, 0.0), shape.radius};
-        break;
-    case PhysicsServer3D::SHAPE_CONVEX_POLYGON:
-    case PhysicsServer3D::SHAPE_CONCAVE_POLYGON: {
-        Vec3 lower(kInfinite);
-        Vec3 upper(-kInfinite);
-        for (std::int64_t i = 0; i < shape.point_count; ++i) {
-            const Vec3 point = to_core(shape.points[i]);
-            lower = glm::min(lower, point);
-            upper = glm::max(upper, point);
-        }
-        data.lower = lower;
-        data.upper = upper;
-        return;
-    }
-    case PhysicsServer3D::SHAPE_HEIGHTMAP: {
-        double lowest = kInfinite;
-        double highest = -kInfinite;
-        for (std::int64_t i = 0; i < shape.height_count; ++i) {
-            const auto height = static_cast<double>(shape.heights[i]);
-            lowest = height < lowest ? height : lowest; // not where it is no number
-            highest = height > highest ? height : highest;
-        }
-        data.upper = {0.5 * (shape.width - 1), highest, 0.5 * (shape.depth - 1)};
-        data.lower = {-data.upper.x, lowest, -data.upper.z};
-        return;
-    }
-    default:
-        data.upper = Vec3(kInfinite);
-        break;
-    }
-    data.lower = -data.upper;
 }
 
 template <class T>
@@ -273,7 +227,9 @@ ShapeData ShapeReader::take(const godot::RID &shape) const {
 
 ShapeData ShapeReader::read(const godot::RID &shape) const {
     ShapeData data = take(shape);
-    bound(data);
+    if (!is_large(data.numbers)) {
+        data.bounds = bounds_of(data.numbers);
+    }
     return data;
 }
 
@@ -291,9 +247,53 @@ DataChange ShapeReader::read_again(const godot::RID &shape, ShapeData &data) con
         const bool copied = a.points != b.points || a.heights != b.heights;
         return copied ? DataChange::copied : DataChange::none;
     }
-    bound(newest);
+    if (!is_large(newest.numbers)) {
+        newest.bounds = bounds_of(newest.numbers);
+    }
     data = std::move(newest);
     return DataChange::changed;
+}
+
+ShapeBounds bounds_of(const ShapeNumbers &shape) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    ShapeBounds box;
+    switch (shape.type) {
+    case PhysicsServer3D::SHAPE_SPHERE:
+        box.upper = Vec3(shape.radius);
+        break;
+    case PhysicsServer3D::SHAPE_BOX:
+        box.upper = shape.half_extents;
+        break;
+    case PhysicsServer3D::SHAPE_CAPSULE:
+    case PhysicsServer3D::SHAPE_CYLINDER:
+        box.upper = {shape.radius, std::max(0.5 * shape.height, 0.0), shape.radius};
+        break;
+    case PhysicsServer3D::SHAPE_CONVEX_POLYGON:
+    case PhysicsServer3D::SHAPE_CONCAVE_POLYGON:
+        box = {Vec3(kInfinite), Vec3(-kInfinite)};
+        for (std::int64_t i = 0; i < shape.point_count; ++i) {
+            const Vec3 point = to_core(shape.points[i]);
+            box.lower = glm::min(box.lower, point);
+            box.upper = glm::max(box.upper, point);
+        }
+        return box;
+    case PhysicsServer3D::SHAPE_HEIGHTMAP: {
+        double lowest = kInfinite;
+        double highest = -kInfinite;
+        for (std::int64_t i = 0; i < shape.height_count; ++i) {
+            const auto height = static_cast<double>(shape.heights[i]);
+            lowest = height < lowest ? height : lowest; // not where it is no number
+            highest = height > highest ? height : highest;
+        }
+        box.upper = {0.5 * (shape.width - 1), highest, 0.5 * (shape.depth - 1)};
+        box.lower = {-box.upper.x, lowest, -box.upper.z};
+        return box;
+    }
+    default:
+        return box;
+    }
+    box.lower = -box.upper;
+    return box;
 }
 
 ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale) {

@@ -1,7 +1,9 @@
 // What the physics server knows of one shape: its kind and its sizes, in the shape's own frame and the scene's units.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/variant/packed_float32_array.hpp>
@@ -32,13 +34,19 @@ struct ShapeNumbers {
     int depth = 0;
 };
 
+// Infinite: of a world boundary, or not known yet.
+struct ShapeBounds {
+    Vec3 lower{-std::numeric_limits<double>::infinity()};
+    Vec3 upper{std::numeric_limits<double>::infinity()};
+    [[nodiscard]] bool known() const noexcept { return std::isfinite(upper.x); }
+};
+
 // The numbers with what they point to. Main thread only.
 struct ShapeData {
     ShapeNumbers numbers;
     godot::PackedVector3Array points;
     godot::PackedFloat32Array heights;
-    Vec3 lower{0.0}; // bounding box; infinite of a world boundary
-    Vec3 upper{0.0};
+    ShapeBounds bounds;
     bool readable = false; // the server gave what its kind should have
 };
 
@@ -53,6 +61,7 @@ enum class DataChange : std::uint8_t {
 class ShapeReader {
 public:
     ShapeReader();
+    // The bounds of a large shape are left open: bounds_of() takes long.
     [[nodiscard]] ShapeData read(const godot::RID &shape) const;
     // Reads again, into `data`.
     [[nodiscard]] DataChange read_again(const godot::RID &shape, ShapeData &data) const;
@@ -67,6 +76,9 @@ private:
     godot::Variant width_;
     godot::Variant depth_;
 };
+
+// Any thread.
+[[nodiscard]] ShapeBounds bounds_of(const ShapeNumbers &shape);
 
 // What to cook: the shape after `scale` (device metres for a unit of the shape, by axis; x below zero: mirrored). Any thread.
 [[nodiscard]] ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale);

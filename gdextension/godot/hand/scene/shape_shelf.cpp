@@ -16,6 +16,7 @@ using godot::PhysicsServer3D;
 
 // Two scales that differ by less give one cooked shape: bodies that turn have scales that tremble by rounding.
 constexpr double kSameScale = 1e-4;
+constexpr double kAboutSameScale = 0.05;
 constexpr std::int64_t kKeptTicks = 600;
 constexpr std::int64_t kKeptPieceTicks = 120;
 constexpr std::int64_t kSweepTicks = 64;
@@ -52,6 +53,9 @@ std::string refusal(const ShapeData &data) {
 
 ShapeShelf::~ShapeShelf() {
     for (const auto &job : jobs_) {
+        job->unwanted.store(true, std::memory_order_relaxed);
+    }
+    for (const auto &job : jobs_) {
         godot::WorkerThreadPool::get_singleton()->wait_for_task_completion(job->task);
     }
 }
@@ -87,6 +91,7 @@ void ShapeShelf::look_again(Source &source) {
     source.next_look = tick_ + 1;
     if (change == DataChange::changed) {
         ++source.version;
+        ++source.bounds;
     } else if (change == DataChange::copied) {
         const ShapeNumbers &numbers = source.data.numbers;
         const std::int64_t many = numbers.point_count + numbers.height_count;
@@ -106,12 +111,26 @@ Piece &ShapeShelf::cooked(Source &source, const Vec3 &scale) {
         }
         return piece;
     }
-    source.pieces.push_back(std::make_unique<Piece>());
-    Piece &piece = *source.pieces.back();
-    piece.scale = scale;
-    piece.used_tick = tick_;
-    start(source, piece);
-    return piece;
+    auto piece = std::make_unique<Piece>();
+    piece->scale = scale;
+    piece->used_tick = tick_;
+    stand_in(source, *piece);
+    source.pieces.push_back(std::move(piece));
+    start(source, *source.pieces.back());
+    return *source.pieces.back();
+}
+
+// A large shape whose scale moves is felt at a scale that was ready, while that is about the same.
+void ShapeShelf::stand_in(const Source &source, Piece &piece) {
+    double least = kAboutSameScale;
+    for (const auto &other : source.pieces) {
+        const Vec3 ratio = other->scale / piece.scale - Vec3(1.0);
+        const double off = std::max({std::abs(ratio.x), std::abs(ratio.y), std::abs(ratio.z)});
+        if (other->shape != nullptr && off < least) {
+            least = off;
+            piece.shape = other->shape;
+        }
+    }
 }
 
 void ShapeShelf::start(Source &source, Piece &piece) {
@@ -146,6 +165,10 @@ void ShapeShelf::start(Source &source, Piece &piece) {
 void ShapeShelf::run(void *job) {
     Job &mine = *static_cast<Job *>(job);
     try {
+        if (mine.unwanted.load(std::memory_order_relaxed)) {
+            return;
+        }
+        mine.bounds = bounds_of(mine.data.numbers);
         mine.result = cook_shape(mine.data.numbers, mine.scale);
     } catch (const std::exception &error) {
         mine.result.status = Status::invalid_shape;
@@ -173,6 +196,10 @@ void ShapeShelf::take_finished() {
         --counts_.cooking;
         if (const auto source = job->source.lock()) {
             --source->jobs;
+            if (source->version == job->version) {
+                source->data.bounds = job->bounds;
+                ++source->bounds;
+            }
             for (const auto &piece : source->pieces) {
                 if (job->version > piece->version && same_scale(job->scale, piece->scale)) {
                     put(*piece, job->version, std::move(job->result));

@@ -27,7 +27,8 @@ enum class PieceState : std::uint8_t {
 struct Piece {
     Vec3 scale{1.0}; // device metres for a unit of the shape; x below zero: mirrored
     PieceState state = PieceState::cooking;
-    std::shared_ptr<const CookedShape> shape; // while it is cooked anew: as it was
+    std::shared_ptr<const CookedShape>
+        shape; // while it is cooked anew: as it was; or of about this scale
     std::string why_not;
     bool told = false;         // for who tells it: once is enough
     std::uint64_t version = 0; // of the data that it was cooked from
@@ -41,6 +42,7 @@ public:
         godot::RID shape;
         ShapeData data;
         std::uint64_t version = 1; // of the data
+        std::uint64_t bounds = 1;  // of data.bounds
         std::vector<std::unique_ptr<Piece>> pieces;
         int jobs = 0;
         std::int64_t used_tick = 0;
@@ -78,9 +80,12 @@ private:
         std::weak_ptr<Source> source;
         std::int64_t task = 0;
         CookResult result;
+        ShapeBounds bounds;
         std::atomic<bool> done{false};
+        std::atomic<bool> unwanted{false};
     };
     static void run(void *job);
+    static void stand_in(const Source &source, Piece &piece);
     void start(Source &source, Piece &piece);
     void put(Piece &piece, std::uint64_t version, CookResult result);
     void take_finished();

@@ -7,9 +7,7 @@
 #include <godot_cpp/classes/object.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
-#include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/string.hpp>
-#include <godot_cpp/variant/typed_array.hpp>
 
 #include "godot/base/type_conversions.h"
 #include "godot/hand/scene/box_clearance.h"
@@ -29,6 +27,25 @@ constexpr std::size_t kMostExamined = 3 * kMostNearShapes;
 constexpr double kNever_m = 1e9;
 // Physics engines cannot move a body much faster, m/s: a device that goes farther was put elsewhere.
 constexpr double kFastest_m_s = 200.0;
+
+// Of a shape at that scale and place and what the volume is round; m. 0 while the shape's bounds are not known.
+double clearance_of(const ShapeData &data, const Vec3 &scale, const Placement &at,
+                    const SearchVolume &volume) {
+    const TurnedBox mine{volume.at, volume.half_extents_m};
+    if (data.numbers.type == PhysicsServer3D::SHAPE_WORLD_BOUNDARY) {
+        const Vec3 inside = data.numbers.normal / scale;
+        const Vec3 normal = at.rotation * glm::normalize(inside);
+        return clearance(mine, normal,
+                         data.numbers.offset / glm::length(inside) + glm::dot(normal, at.origin_m));
+    }
+    if (!data.bounds.known()) {
+        return 0.0;
+    }
+    const Vec3 a = scale * data.bounds.lower;
+    const Vec3 b = scale * data.bounds.upper;
+    const Placement middle{at.origin_m + at.rotation * (0.5 * (a + b)), at.rotation};
+    return clearance(mine, TurnedBox{middle, 0.5 * glm::abs(b - a)});
+}
 
 } // namespace
 
@@ -169,7 +186,7 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
         }
         const double bound_m =
             least_clearance(origin_m + axes * shape.middle, stretch * shape.radius, seen);
-        if (bound_m > 0.0) {
+        if (!(bound_m <= 0.0)) { // also where it is no number
             ++counts_.far;
         } else {
             possible_.push_back({&body, i, bound_m, seen});
@@ -229,31 +246,13 @@ void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t
         frame.point_to_device(body.origin() + body.basis() * to_core(shape.local.origin));
     candidate.at.rotation = glm::transpose(frame.rotation) * apart.turn;
 
-    const ShapeData &data = shape.source->data;
-    const bool wall = data.numbers.type == PhysicsServer3D::SHAPE_WORLD_BOUNDARY;
-    const Vec3 a = candidate.scale * data.lower;
-    const Vec3 b = candidate.scale * data.upper;
-    TurnedBox box;
-    Vec3 normal(0.0);
-    double offset_m = 0.0;
-    if (wall) {
-        const Vec3 inside = data.numbers.normal / candidate.scale;
-        normal = candidate.at.rotation * glm::normalize(inside);
-        offset_m =
-            data.numbers.offset / glm::length(inside) + glm::dot(normal, candidate.at.origin_m);
-    } else {
-        box.at.rotation = candidate.at.rotation;
-        box.at.origin_m = candidate.at.origin_m + candidate.at.rotation * (0.5 * (a + b));
-        box.half_extents_m = 0.5 * glm::abs(b - a);
-    }
     bool first = true;
     for (unsigned i = 0; i < volumes_.size(); ++i) {
         if ((seen & (1U << i)) == 0) {
             continue;
         }
         const SearchVolume &volume = *volumes_[i];
-        const TurnedBox mine{volume.at, volume.half_extents_m};
-        const double gap = wall ? clearance(mine, normal, offset_m) : clearance(mine, box);
+        const double gap = clearance_of(shape.source->data, candidate.scale, candidate.at, volume);
         if (gap <= volume.margin_m) {
             candidate.seen_by = static_cast<std::uint8_t>(candidate.seen_by | (1U << i));
             candidate.clearance_m = first ? gap : std::min(candidate.clearance_m, gap);
