@@ -7,6 +7,7 @@
 
 #include "bench/contact_peers.h"
 #include "bench/repeated_times.h"
+#include "bench/wavy_field.h"
 #include "device/contact/shapes/closest_points.h"
 #include "device/contact/shapes/shape_data.h"
 #include "support/case_random.h"
@@ -21,13 +22,9 @@ constexpr std::size_t kPairs = 4000;
 constexpr std::uint64_t kSeed = 5;
 constexpr double kSkin_m = 1e-3;
 constexpr double kMargin_m = 4e-3;
-constexpr double kFailure_m = 1e-4;     // farther off than this, an answer is wrong
-constexpr double kBoxHalf_m = 0.1;      // of the block that is touched
-constexpr double kFloorHalf_m = 20.0;   // of a floor, as a game may have it
-constexpr double kFieldSize_m = 0.5;    // of the wavy field
-constexpr double kFieldHeight_m = 0.01; // amplitude
-constexpr double kWaveX_m = 0.31;
-constexpr double kWaveZ_m = 0.37;
+constexpr double kFailure_m = 1e-4;   // farther off than this, an answer is wrong
+constexpr double kBoxHalf_m = 0.1;    // of the block that is touched
+constexpr double kFloorHalf_m = 20.0; // of a floor, as a game may have it
 
 // The tool and the shape as the peers know them, and the skin that is taken from their distances.
 struct PeerShape {
@@ -62,33 +59,6 @@ std::shared_ptr<const CookedShape> box(const Vec3 &half) {
     ShapeDescription shape;
     shape.half_extents_m = half;
     return cooked(shape);
-}
-
-double field_height(double x, double z) {
-    return kFieldHeight_m * std::sin(2.0 * std::numbers::pi * x / kWaveX_m) *
-           std::cos(2.0 * std::numbers::pi * z / kWaveZ_m);
-}
-
-ShapeDescription field(int cells) {
-    ShapeDescription shape;
-    shape.kind = ShapeKind::mesh;
-    const int side = cells + 1;
-    for (int i = 0; i < side * side; ++i) {
-        const double x = (i % side - 0.5 * cells) * kFieldSize_m / cells;
-        const double z = (i / side - 0.5 * cells) * kFieldSize_m / cells;
-        shape.points_m.emplace_back(x, field_height(x, z), z);
-    }
-    for (int i = 0; i < side * side; ++i) {
-        if (i % side == cells || i / side == cells) {
-            continue;
-        }
-        const auto here = static_cast<std::uint32_t>(i);
-        const auto below = here + static_cast<std::uint32_t>(side);
-        for (const std::uint32_t index : {here, below, here + 1, here + 1, below, below + 1}) {
-            shape.indices.push_back(index);
-        }
-    }
-    return shape;
 }
 
 // --- Pairs whose answer is known -------------------------------------------------------------------
@@ -353,23 +323,7 @@ long run_set(const Set &set, const std::vector<ContactPeer> &peers, std::vector<
 
 // --- A tool that slides over the field, its triangles remembered -----------------------------------
 
-constexpr double kPeriod_s = 1e-3;
 constexpr double kSpeed_m_s = 0.4;
-constexpr double kCircle_m = 0.15; // radius of the way
-
-// Half a millimetre over the field, flat on it.
-Placement on_field(double time_s, double half_thickness_m) {
-    const double angle = kSpeed_m_s * time_s / kCircle_m;
-    const double x = kCircle_m * std::cos(angle);
-    const double z = kCircle_m * std::sin(angle);
-    constexpr double kStep_m = 1e-6;
-    const Vec3 up = glm::normalize(
-        Vec3(field_height(x - kStep_m, z) - field_height(x + kStep_m, z), 2.0 * kStep_m,
-             field_height(x, z - kStep_m) - field_height(x, z + kStep_m)));
-    const Vec3 side = glm::normalize(glm::cross(up, Vec3(0.0, 0.0, 1.0)));
-    return {Vec3(x, field_height(x, z), z) + (half_thickness_m + 5e-4) * up,
-            Mat3(side, up, glm::cross(side, up))};
-}
 
 // Errors: against the same question with nothing remembered.
 long slide(const char *name, const ToolShape &tool, double half_thickness_m, int cells,
@@ -384,7 +338,8 @@ long slide(const char *name, const ToolShape &tool, double half_thickness_m, int
     for (int run = 0; run < kRuns; ++run) {
         memory->forget();
         for (std::size_t tick = 0; tick < ticks; ++tick) {
-            const Placement at = on_field(kPeriod_s * static_cast<double>(tick), half_thickness_m);
+            const Placement at = on_field(kSpeed_m_s, kPeriod_s * static_cast<double>(tick),
+                                          half_thickness_m + 5e-4);
             ClosestPoints found;
             entry.times.time(tick, [&] {
                 static_cast<void>(closest_points(tool, at, *mesh, {}, 1e-3, *memory, found));

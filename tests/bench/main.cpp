@@ -1,4 +1,4 @@
-// spidar_bench contacts|fk|recording|tension|step [--json FILE] [--rows N]: times against error, peers in the same process.
+// spidar_bench contacts|fk|recording|tension|step|touch [--json FILE] [--rows N]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include "bench/bench_report.h"
 #include "bench/bench_step.h"
 #include "bench/bench_tension.h"
+#include "bench/bench_touch.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ struct Problem {
 constexpr Problem kProblems[] = {
     {"contacts", spidar::bench::bench_contacts},   {"fk", spidar::bench::bench_fk},
     {"recording", spidar::bench::bench_recording}, {"step", spidar::bench::bench_step},
-    {"tension", spidar::bench::bench_tension},
+    {"tension", spidar::bench::bench_tension},     {"touch", spidar::bench::bench_touch},
 };
 
 int usage() {
