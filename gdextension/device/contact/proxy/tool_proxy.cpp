@@ -15,17 +15,14 @@ namespace spidar {
 
 namespace {
 
-// Of the margin, what tool and scene together may move before the closest points are looked for again.
+// Of the margin, what the tool may move before the closest points are looked for again.
 constexpr double kPartOfMargin = 0.75;
-// Of the margin, the least that the tool may move however fast the scene comes.
-constexpr double kLeastStep = 0.1;
-// A hand covers a quarter of this in a cycle.
 constexpr int kMostPasses = 3;
 // A row that stops the proxy from further off than this, or whose normal turns from cycle to cycle by more than that, is
 // looked at again from where it stopped: of an edge it is only the tangent, which a proxy that slides over a seam must not
 // feel.
 constexpr double kAnticipated_m = 1e-6;
-constexpr double kTurned = 1.0 - 5e-7; // 1e-3 rad
+constexpr double kTurned = 1.0 - 4.5e-6; // 3e-3 rad
 // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
 constexpr double kRowSoftness = 1e-7;
 // Two points of a pair closer than this, with normals that agree, say the same.
@@ -88,7 +85,7 @@ void ToolProxy::offer(const ProxyContact &contact) noexcept {
     }
 }
 
-void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
+void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene, double dt_s,
                               ProxyMemory &memory) noexcept {
     count_ = 0;
     ClosestPoints found;
@@ -102,12 +99,13 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene,
             }
             const Vec3 tool_m =
                 glm::transpose(other.at.rotation) * (at.origin_m - other.at.origin_m);
-            if (is_far(*part.shape, tool_m, *other.shape, settings_.margin_m)) {
+            const double margin_m = settings_.margin_m + dt_s * glm::length(other.velocity_m_s);
+            if (is_far(*part.shape, tool_m, *other.shape, margin_m)) {
                 continue;
             }
             ++queries_;
-            const Status status = closest_points(*part.shape, at, *other.shape, other.at,
-                                                 settings_.margin_m, memory.of(part, other), found);
+            const Status status = closest_points(*part.shape, at, *other.shape, other.at, margin_m,
+                                                 memory.of(part, other), found);
             for (int i = 0; usable(status) && i < found.count; ++i) {
                 const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
                 ProxyContact contact;
@@ -207,11 +205,6 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
                              double dt_s) noexcept {
     const Move target = scaled(between(pose_, device));
     std::array<double, kMaxRows> least{};
-    double fastest_m_s = 0.0;
-    for (int s = 0; s < scene.count; ++s) {
-        const ScenePart &part = scene.parts[static_cast<std::size_t>(s)];
-        fastest_m_s = std::max(fastest_m_s, glm::length(part.velocity_m_s));
-    }
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const ProxyContact &contact = contacts_[k];
@@ -234,8 +227,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         solve_rows<kMaxRows>(rows_, row_count_, active_mask_, kRowSoftness);
     active_mask_ = solved.active_mask;
     Move step = nearest_to(target, rows_, solved);
-    const double most_m = std::max(kPartOfMargin * (settings_.margin_m - fastest_m_s * dt_s),
-                                   kLeastStep * settings_.margin_m);
+    const double most_m = kPartOfMargin * settings_.margin_m;
     const bool cut = length_of(step, tool) > most_m;
     if (cut) {
         step = shortened(step, least, tool, most_m);
@@ -368,7 +360,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     double left_s = dt_s; // of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
-        find_contacts(tool, scene, memory);
+        find_contacts(tool, scene, left_s, memory);
         again = step_towards(tool, scene, device, left_s);
         ++passes_;
         for (int s = 0; s < scene.count && left_s > 0.0; ++s) {
