@@ -228,6 +228,7 @@ TEST_CASE("touch: jaws stop where they hold something, or on each other") {
         gain_caps(rig.settings.render, rig.settings.rate_hz).grasp_stiffness_nm_rad;
     CHECK(rig.tick().grasp_torque_nm == doctest::Approx(-0.2 * stiffness_nm_rad).epsilon(1e-4));
     CHECK(rig.report().stop_push_nm == doctest::Approx(0.2 * stiffness_nm_rad).epsilon(1e-4));
+    rig.tick();
     CHECK(rig.report().grasp_rad == doctest::Approx(0.3).epsilon(1e-6));
     TouchScene open;
     rig.give(open);
