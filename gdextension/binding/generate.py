@@ -162,6 +162,10 @@ def class_header(api, name, methods):
     base = parent or "Wrapped"
     includes = {f"godot_cpp/classes/{snake(parent)}.hpp" if parent
                 else "godot_cpp/classes/wrapped.hpp"}
+    # Known whole where a default value makes one.
+    includes |= {f"godot_cpp/classes/{snake(cpp[4:-1])}.hpp" for m in methods
+                 for cpp, _, default in m.arguments if default is not None and cpp.startswith("Ref<")}
+    includes |= {"godot_cpp/classes/ref.hpp"} if len(includes) > 1 else set()
     forward = {t.rstrip(" *") for m in methods for t in [m.result] + [a[0] for a in m.arguments]
                if t.endswith("*")}
     text = HEADER + "#pragma once\n\n"
