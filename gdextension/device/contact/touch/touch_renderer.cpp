@@ -117,8 +117,12 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
         tool_numbers_[k] = tool_.parts[k].shape->number();
     }
     felt_ = touch.felt;
-    load_from_ = load_now_;
-    load_ = touch.load;
+    if (!same(touch.load, load_) || load_age_s_ >= kCrossFade_s) {
+        // The same load again, from one of many ticks that share a drawn frame, goes on as it comes.
+        load_from_ = load_now_;
+        load_ = touch.load;
+        load_age_s_ = 0.0;
+    }
     loaded_ = !same(load_, Wrench()) || !same(load_from_, Wrench());
     const bool stamped = touch.state_time_s >= 0.0 && state_time_s_ >= 0.0;
     renew(touch, stamped ? std::max(0.0, touch.state_time_s - state_time_s_) : 0.0, clamp);
@@ -244,7 +248,8 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         return {};
     }
     if (loaded_) {
-        const double share = cross_fade(clock_.age_s() + dt_s);
+        load_age_s_ += dt_s;
+        const double share = cross_fade(load_age_s_);
         load_now_ = blend(load_from_, load_, share);
         // The load pulls on the proxy: as far as its springs give, or to what carries it.
         DofLanes gives = lanes(load_now_);

@@ -109,10 +109,11 @@ private:
     Wrench load_from_; // when the scene came
     Wrench load_;
     Wrench load_now_;
-    bool loaded_ = false;    // some load acts or is on its way to nothing
-    bool squeezing_ = false; // the jaws' stop pushed in the last cycle
-    bool moving_ = false;    // a part of the scene moves in this cycle
-    bool settled_ = false;   // the last cycle changed nothing
+    double load_age_s_ = 0.0; // since load_ came
+    bool loaded_ = false;     // some load acts or is on its way to nothing
+    bool squeezing_ = false;  // the jaws' stop pushed in the last cycle
+    bool moving_ = false;     // a part of the scene moves in this cycle
+    bool settled_ = false;    // the last cycle changed nothing
     std::uint64_t skipped_ = 0;
     std::uint64_t sequence_ = 0;
     // Of the last cycle.
