@@ -7,6 +7,7 @@
 #include "godot/base/class_documentation.h"
 #include "godot/calibration/spidar_g_calibrator.h"
 #include "godot/device/spidar_g.h"
+#include "godot/hand/spidar_g_hand.h"
 #include "godot/settings/project_options.h"
 #include "godot/settings/spidar_g_calibration.h"
 #include "godot/settings/spidar_g_config.h"
@@ -21,6 +22,7 @@ void initialize(godot::ModuleInitializationLevel level) {
         GDREGISTER_CLASS(SpidarGCalibrator);
         GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);
+        GDREGISTER_CLASS(SpidarGHand);
         spidar::register_project_options();
     }
     if (level == godot::MODULE_INITIALIZATION_LEVEL_EDITOR) {

@@ -7,7 +7,6 @@ extends Node3D
 ##
 ## Add it as a child of a [SpidarG]. It only reads; it redraws what changed since the last frame, and nothing while hidden.
 
-const Hand := preload("spidar_g_hand.gd")
 const ViewParts := preload("view_parts.gd")
 
 ## Below this a string is slack, N.
@@ -47,7 +46,7 @@ const LEAST_FORCE_N: float = 0.02
 var spidar: SpidarG = null
 
 var _parts: ViewParts = null
-var _hand: Hand = null
+var _hand: SpidarGHand = null
 var _stale: bool = true
 var _drawn_grip: Transform3D = Transform3D.IDENTITY
 var _drawn_frame: Transform3D = Transform3D.IDENTITY
@@ -201,12 +200,12 @@ func _draw_force(from: Vector3, forced: bool) -> void:
 		_parts.place_arrow(from, force * (force_arrow_m_n * spidar.workspace_scale))
 
 
-func _find_hand() -> Hand:
+func _find_hand() -> SpidarGHand:
 	if is_instance_valid(_hand) and _hand.get_parent() == spidar:
 		return _hand
 	for child: Node in spidar.get_children():
-		if child is Hand:
-			return child as Hand
+		if child is SpidarGHand:
+			return child as SpidarGHand
 	return null
 
 

@@ -12,6 +12,8 @@ const HEMISPHERE_RADIUS_M: float = 0.02
 const STOP_DISTANCE_M: float = 0.012
 const STOP_RADIUS_M: float = 0.0015
 const ARROW_RADIUS_M: float = 0.0022
+## Of the pads' rounded edge, in radii of a pad: half its thickness.
+const PAD_EDGE: float = 0.25
 
 const FRAME_COLOUR: Color = Color(0.45, 0.48, 0.53)
 const POLE_COLOURS: Array[Color] = [Color(0.93, 0.55, 0.22), Color(0.25, 0.62, 0.70)]
@@ -32,7 +34,7 @@ var _rods: Array[MeshInstance3D] = []
 var _knots: MultiMeshInstance3D
 var _poles: Array[Node3D] = []
 var _stops: Array[MeshInstance3D] = []
-var _pad_meshes: Array[MeshInstance3D] = []
+var _pads: Array[Node3D] = []
 var _shaft: MeshInstance3D
 var _tip: MeshInstance3D
 
@@ -108,10 +110,10 @@ func place_grip(at: Transform3D, pole1: Transform3D, pole2: Transform3D, closed_
 
 ## at: x outward from the middle of the pad's inner face.
 func place_pad(side: int, at: Transform3D, radius: float) -> void:
-	# The mesh's dome points along +Y.
+	# The disc's axis is Y.
 	var size: Basis = Basis.from_scale(Vector3.ONE * radius)
-	_pad_meshes[side].global_transform = Transform3D(
-		at.basis * Basis(Vector3.BACK, -0.5 * PI) * size, at.origin
+	_pads[side].global_transform = Transform3D(
+		at.basis * Basis(Vector3.BACK, -0.5 * PI) * size, at * Vector3(PAD_EDGE * radius, 0.0, 0.0)
 	)
 
 
@@ -157,10 +159,17 @@ func _make_pole(pole: int) -> void:
 func _make_pads() -> void:
 	pads = Node3D.new()
 	add_child(pads)
+	var edge: TorusMesh = TorusMesh.new()
+	edge.outer_radius = 1.0
+	edge.inner_radius = 1.0 - 2.0 * PAD_EDGE
+	edge.ring_segments = 8
+	edge.rings = 24
 	for _side: int in 2:
-		var pad: MeshInstance3D = _one(_hemisphere(1.0), PAD_COLOUR)
+		var pad: Node3D = Node3D.new()
+		pad.add_child(_one(edge, PAD_COLOUR))
+		pad.add_child(_one(_cylinder(1.0 - PAD_EDGE, 1.0 - PAD_EDGE, 2.0 * PAD_EDGE, 24), PAD_COLOUR))
 		pads.add_child(pad)
-		_pad_meshes.append(pad)
+		_pads.append(pad)
 
 
 func _make_arrow() -> void:

@@ -1,9 +1,6 @@
 ## Base of the SpidarGHand tests: a stepped device, a hand, a floor and boxes, at 1:1 scale.
 extends "res://test_case.gd"
 
-## By path, so that the tests need no import before them.
-const Hand := preload("res://addons/spidar_g/nodes/spidar_g_hand.gd")
-const GraspStop := preload("res://addons/spidar_g/nodes/grasp_stop.gd")
 ## Top of the floor in the world, and so the rest height of a box's underside.
 const FLOOR_Y: float = -0.08
 const GRAVITY: float = 9.8
@@ -13,7 +10,7 @@ const SQUEEZE_ANGLE: float = 1.4
 const ARMING_FRAMES: int = 70
 
 var device: SpidarG
-var hand: Hand
+var hand: SpidarGHand
 ## Of the simulated device, before set_up().
 var elastic: bool = false
 var friction_n: float = 0.0
@@ -29,7 +26,7 @@ func set_up(start: Vector3, forces: bool = true) -> void:
 	device.config.simulated_friction = friction_n
 	device.config.simulated_hand_firmness = firmness
 	device.forces_enabled = forces
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	add_box(Vector3(1.0, 0.1, 1.0), Vector3(0.0, FLOOR_Y - 0.05, 0.0), 0.0)
@@ -101,3 +98,13 @@ func tremble(frame_count: int) -> float:
 		least = least.min(grip.origin)
 		most = most.max(grip.origin)
 	return (most - least).length()
+
+
+## Ids of the shapes that push the tool now.
+func touched() -> Array:
+	var ids: Array = []
+	for point: Dictionary in hand.get_touch_points():
+		var force: Vector3 = point["force"]
+		if not force.is_zero_approx() and not ids.has(point["id"]):
+			ids.append(point["id"])
+	return ids

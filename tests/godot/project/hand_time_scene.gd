@@ -129,7 +129,7 @@ func _prepare() -> void:
 	device.drive_mode = drive_mode
 	device.forces_enabled = true
 	device.request_rejected.connect(func(message: String) -> void: rejected.append(message))
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	device.set_physics_process_internal(frames_per_s == 0)

@@ -115,7 +115,7 @@ func test_a_scene_ten_times_larger_works_the_same() -> void:
 	device = ideal_device()
 	device.forces_enabled = true
 	device.workspace_scale = SCALE
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	add_box(Vector3(10.0, 1.0, 10.0), Vector3(0.0, SCALE * FLOOR_Y - 0.5, 0.0), 0.0)
@@ -138,7 +138,7 @@ func test_a_turned_and_moved_device_works_the_same() -> void:
 	device.forces_enabled = true
 	var turn := Basis(Vector3.UP, PI / 3.0)
 	device.transform = Transform3D(turn, Vector3(2.0, 0.0, -1.0))
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	add_box(Vector3(8.0, 0.1, 8.0), Vector3(0.0, FLOOR_Y - 0.05, 0.0), 0.0)

@@ -93,18 +93,20 @@ func test_what_is_too_heavy_to_hold_stays_so_at_every_time_scale() -> void:
 
 func test_poses_of_one_frame_count_as_one() -> void:
 	var lone: SpidarG = ideal_device()
+	var clocked := SpidarGHand.new()
+	lone.add_child(clocked)
 	add(lone)
-	await physics_frames(1)
 	lone.set_physics_process_internal(false)
-	var clock: RefCounted = load("res://addons/spidar_g/nodes/hand/device_clock.gd").new()
-	clock.read(lone)
-	check_near(clock.elapsed_s, 0.0, 1e-9, "the first pose has none before it")
+	lone.advance_cycles(1)
+	var since := func() -> float: return clocked.get_touch_statistics()["since_s"]
+	await physics_frames(2)
+	check_near(since.call(), 0.0, 1e-9, "the first pose has none before it")
 	# Cycles of 1 ms until a tick reads, and how far it is then from the last pose: half a tick of 16.7 ms is too near, and so is
 	# half the way between the last two.
 	for row: Array in [[17, 0.017], [5, 0.0], [12, 0.017], [60, 0.060], [3, 0.0], [20, 0.0], [37, 0.060], [16, 0.0], [16, 0.032], [16, 0.016]]:
 		lone.advance_cycles(row[0])
-		clock.read(lone)
-		check_near(clock.elapsed_s, row[1], 1e-9, "%d cycles" % row[0])
+		await physics_frames(1)
+		check_near(since.call(), row[1], 1e-9, "%d cycles" % row[0])
 	lone.free()
 
 

@@ -1,56 +1,46 @@
 ## Pads are shown on the surface of what they meet, never inside, however they meet it.
 extends "res://hand_scene.gd"
 
-const PadShape := preload("res://addons/spidar_g/nodes/pad_shape.gd")
-const ShownPads := preload("res://addons/spidar_g/nodes/shown_pads.gd")
+const PadDepth := preload("res://pad_depth.gd")
 const View := preload("res://addons/spidar_g/nodes/spidar_g_view.gd")
 
-## What the engine's own collision tolerance leaves, m.
+## What the hull that is measured with and the engine's own collision tolerance leave, m.
 const CLEAR_M: float = 0.0001
 const TURN: float = deg_to_rad(4.0)
 
-var _pad: PadShape = PadShape.new()
-var _pads: ShownPads = ShownPads.new()
+var _pad: PadDepth = PadDepth.new()
 
 
-## The deepest that the shape of a pad stands inside anything.
-func depth(space: PhysicsDirectSpaceState3D, pad_at: Transform3D) -> float:
+## The deepest of both pads, as shown or as the device alone would place them.
+func depth(shown: bool) -> float:
 	var deepest: float = 0.0
-	for plane in _pads.overlaps(space, _pad.shape_for(1.0), pad_at):
-		deepest = maxf(deepest, -plane.separation_m)
+	var space: PhysicsDirectSpaceState3D = hand.get_world_3d().direct_space_state
+	for side: int in 2:
+		var as_is: Transform3D = PadDepth.place(side, device.get_grip_transform(), maxf(device.get_jaw_gap(), 0.0))
+		deepest = maxf(deepest, _pad.depth(space, hand.get_pad_transform(side) if shown else as_is))
 	return deepest
 
 
-func test_a_pad_askew_on_a_face_is_moved_out_by_its_rim() -> void:
-	var box: PhysicsBody3D = add_box(Vector3(0.04, 0.06, 0.06), Vector3.ZERO, 0.0)
-	await physics_frames(2)
-	var space: PhysicsDirectSpaceState3D = box.get_world_3d().direct_space_state
-	# The middle of the pad's flat face lies on the box's face, turned by 4 degrees.
-	var on_face := Transform3D(Basis(Vector3.UP, TURN), Vector3(0.02, 0.0, 0.0))
-	var rim: float = PadShape.RADIUS_M * sin(TURN)
-	check_near(depth(space, on_face), rim, CLEAR_M, "the rim's depth")
-	var shown: Transform3D = _pads.place(space, _pad.shape_for(1.0), on_face, PadShape.RADIUS_M)
-	check(depth(space, shown) <= CLEAR_M, "shown %.3f mm inside" % [1e3 * depth(space, shown)])
-	check_near(shown.origin.x - on_face.origin.x, rim, 2.0 * CLEAR_M, "moved by as much as it was in")
-	check_equal(shown.basis, on_face.basis, "and not turned")
-	var beside: Transform3D = on_face.translated(Vector3(0.002, 0.0, 0.0))
-	check_equal(_pads.place(space, _pad.shape_for(1.0), beside, PadShape.RADIUS_M), beside, "free: as it is")
-	var passes_through := Transform3D(Basis.IDENTITY, Vector3.ZERO)
-	check_equal(
-		_pads.place(space, _pad.shape_for(1.0), passes_through, PadShape.RADIUS_M), passes_through,
-		"no way out is near: as it is"
-	)
+func test_a_pad_pressed_askew_on_a_face_is_shown_on_it() -> void:
+	await set_up(Vector3.ZERO)
+	add_box(Vector3(0.1, 0.4, 0.4), Vector3(0.15, 0.0, 0.0), 0.0)
+	# A pad's flat back meets the wall at 100 mm, turned by 4 degrees.
+	for i: int in 120:
+		at = Vector3(0.06 * minf((i + 1) / 60.0, 1.0), 0.0, 0.0)
+		device.simulated_hand_target(Transform3D(Basis(Vector3.UP, TURN), at), 0.0)
+		await physics_frames(1)
+		check(depth(true) <= CLEAR_M, "shown %.3f mm inside" % [1e3 * depth(true)])
+	check(depth(false) > 0.001, "the grip itself is %.3f mm inside" % [1e3 * depth(false)])
 
 
 func test_in_a_corner_a_pad_is_shown_out_of_both_faces() -> void:
-	var floor_box: PhysicsBody3D = add_box(Vector3(0.2, 0.1, 0.2), Vector3(0.0, -0.05, 0.0), 0.0)
-	add_box(Vector3(0.1, 0.2, 0.2), Vector3(-0.05, 0.1, 0.0), 0.0)
-	await physics_frames(2)
-	var space: PhysicsDirectSpaceState3D = floor_box.get_world_3d().direct_space_state
-	var in_both := Transform3D(Basis.IDENTITY, Vector3(-0.003, PadShape.RADIUS_M - 0.004, 0.0))
-	check_near(depth(space, in_both), 0.004, 2.0 * CLEAR_M, "depth before")
-	var shown: Transform3D = _pads.place(space, _pad.shape_for(1.0), in_both, PadShape.RADIUS_M)
-	check(depth(space, shown) <= CLEAR_M, "shown %.3f mm inside" % [1e3 * depth(space, shown)])
+	await set_up(Vector3.ZERO)
+	add_box(Vector3(0.1, 0.4, 0.4), Vector3(0.15, 0.0, 0.0), 0.0)
+	await move_to(Vector3(0.058, FLOOR_Y + 0.008, 0.0), 0.0, 60)
+	await physics_frames(40)
+	check(depth(false) > 0.001, "the grip itself is %.3f mm inside" % [1e3 * depth(false)])
+	check(depth(true) <= CLEAR_M, "shown %.3f mm inside" % [1e3 * depth(true)])
+	check_near(hand.get_proxy_transform().origin.y, FLOOR_Y + PadDepth.RADIUS_M, CLEAR_M, "on the floor")
 
 
 func test_drawn_pads_stay_out_of_a_box_that_they_close_on_askew() -> void:
@@ -67,10 +57,8 @@ func test_drawn_pads_stay_out_of_a_box_that_they_close_on_askew() -> void:
 		await move_to(at, angle + SQUEEZE_ANGLE / 40.0, 1)
 		var space: PhysicsDirectSpaceState3D = hand.get_world_3d().direct_space_state
 		for side: int in 2:
-			deepest = maxf(deepest, depth(space, view.get_drawn_pad(side)))
-			var grip: Transform3D = device.get_grip_transform()
-			var as_is: Transform3D = _pad.transform_of(side, grip, hand._shown_gap_m())
-			true_deepest = maxf(true_deepest, depth(space, as_is))
+			deepest = maxf(deepest, _pad.depth(space, view.get_drawn_pad(side)))
+		true_deepest = maxf(true_deepest, depth(false))
 	check_equal(hand.get_held_body(), body, "held")
 	check(true_deepest > 0.0003, "the grip itself overlaps it: %.3f mm" % [1e3 * true_deepest])
 	check(deepest <= CLEAR_M, "drawn %.3f mm inside" % [1e3 * deepest])

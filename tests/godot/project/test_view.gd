@@ -2,7 +2,6 @@
 extends "res://test_case.gd"
 
 const View := preload("res://addons/spidar_g/nodes/spidar_g_view.gd")
-const Hand := preload("res://addons/spidar_g/nodes/spidar_g_hand.gd")
 
 
 func test_strings_are_coloured_by_tension() -> void:
@@ -23,7 +22,7 @@ func test_parts_are_where_the_device_is() -> void:
 	var device: SpidarG = ideal_device()
 	device.transform = Transform3D(Basis(Vector3.UP, 0.7), Vector3(1.0, 2.0, 3.0))
 	device.workspace_scale = 2.0
-	var hand := Hand.new()
+	var hand := SpidarGHand.new()
 	var view := View.new()
 	device.add_child(hand)
 	device.add_child(view)
@@ -44,11 +43,12 @@ func test_parts_are_where_the_device_is() -> void:
 		check_near(drawn.basis.x.normalized().dot(true_pole.basis.x), 1.0, 1e-5, "along pole %d" % pole)
 		check_near(drawn.basis.x.length(), 2.0, 1e-4, "drawn at the workspace's scale")
 	for side: int in 2:
-		var pad: Vector3 = view._parts._pad_meshes[side].global_position
-		check_near(pad.distance_to(hand.get_pad_position(side)), 0.0, 1e-5, "pad %d" % side)
+		var pad: Vector3 = view._parts._pads[side].global_position
+		var middle: Vector3 = hand.get_pad_transform(side) * Vector3(0.25 * hand.get_pad_radius_m(), 0.0, 0.0)
+		check_near(pad.distance_to(middle), 0.0, 1e-5, "pad %d" % side)
 		var outward: Vector3 = (hand.get_pad_position(side) - hand.get_pad_position(1 - side)).normalized()
-		var dome: Vector3 = view._parts._pad_meshes[side].global_basis.y.normalized()
-		check_near(dome.dot(outward), 1.0, 1e-4, "pad %d's dome looks outward" % side)
+		var disc: Vector3 = view._parts._pads[side].global_basis.y.normalized()
+		check_near(disc.dot(outward), 1.0, 1e-4, "pad %d's axis looks outward" % side)
 
 
 func test_a_hidden_view_does_not_follow_and_catches_up() -> void:

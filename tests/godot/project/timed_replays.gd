@@ -43,7 +43,7 @@ func _record(number: int) -> Story:
 	device = ideal_device()
 	device.drive_mode = SpidarG.DRIVE_THREADED
 	device.forces_enabled = true
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	at = Vector3(0.0, -0.03 + 0.0003 * number, 0.0)
@@ -66,7 +66,7 @@ func _record(number: int) -> Story:
 func _replay(number: int) -> Story:
 	device = ideal_device()
 	device.drive_mode = SpidarG.DRIVE_THREADED
-	hand = Hand.new()
+	hand = SpidarGHand.new()
 	device.add_child(hand)
 	add(device)
 	await physics_frames(3)

@@ -1,0 +1,54 @@
+// The shapes of a held body as parts of the tool: convex, with rounded edges, in device metres. What is not convex is held by
+// its hull. Main thread only.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <godot_cpp/variant/rid.hpp>
+
+#include "device/contact/shapes/placement.h"
+#include "device/contact/shapes/tool_shape.h"
+#include "godot/hand/scene/box_clearance.h"
+#include "godot/hand/scene/shape_shelf.h"
+
+namespace godot {
+class RigidBody3D;
+}
+
+namespace spidar {
+
+class HeldShapes {
+public:
+    struct Part {
+        std::shared_ptr<const ToolShape> shape;
+        Placement in_body; // device metres
+        TurnedBox box;     // in the body
+    };
+
+    // A body has just been caught. workspace_scale: scene metres per device metre.
+    void take(godot::RigidBody3D &body, double workspace_scale);
+    // Once a tick while it is held: large shapes are ready later than small ones.
+    void update();
+    void drop();
+
+    [[nodiscard]] const std::vector<Part> &parts() const noexcept { return parts_; }
+    // Round all its shapes, in the body.
+    [[nodiscard]] const TurnedBox &box() const noexcept { return box_; }
+
+private:
+    struct Waiting {
+        std::shared_ptr<ShapeShelf::Source> source;
+        Placement in_body;
+        Vec3 scale{1.0};
+    };
+    void add(const CookedShape &shape, const Placement &in_body);
+    [[nodiscard]] bool ready(const Waiting &one);
+
+    ShapeShelf shelf_;
+    std::vector<Waiting> waiting_;
+    std::vector<Part> parts_;
+    TurnedBox box_;
+};
+
+} // namespace spidar

@@ -1,0 +1,54 @@
+// Whose surface a point of the device's report lies on. The device tells of the scene that it rendered last, which may be
+// older than the one that stands near the hand now.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include <godot_cpp/variant/rid.hpp>
+
+#include "godot/hand/scene/surroundings.h"
+
+namespace spidar {
+
+struct TouchedBody {
+    godot::RID rid;
+    std::uint64_t collider = 0; // instance id; 0: a body without an object
+    bool is_pushed = false;     // physics moves it
+    double squeeze_nm_rad = 0.0;
+    Placement at; // of the shape, as it was published last; device frame
+    std::int64_t tick = 0;
+
+    [[nodiscard]] std::uint64_t key() const noexcept {
+        return static_cast<std::uint64_t>(rid.get_id());
+    }
+};
+
+class TouchedBodies {
+public:
+    // Once a tick, when the scene was gathered.
+    void note(const std::vector<NearShape> &shapes) {
+        ++tick_;
+        for (const NearShape &shape : shapes) {
+            bodies_[shape.id] = {
+                shape.body, shape.collider, shape.mass_kg > 0.0, shape.facts.squeeze_nm_rad,
+                shape.at,   tick_};
+        }
+        std::erase_if(bodies_,
+                      [this](const auto &one) { return tick_ - one.second.tick > kKeptTicks; });
+    }
+    // By the id of a part of the scene; null: unknown.
+    [[nodiscard]] const TouchedBody *find(std::int32_t id) const {
+        const auto found = bodies_.find(id);
+        return found != bodies_.end() ? &found->second : nullptr;
+    }
+    void clear() noexcept { bodies_.clear(); }
+
+private:
+    static constexpr std::int64_t kKeptTicks = 30;
+
+    std::unordered_map<std::int32_t, TouchedBody> bodies_;
+    std::int64_t tick_ = 0;
+};
+
+} // namespace spidar

@@ -1,0 +1,188 @@
+// SpidarGHand: the tool that a SPIDAR-G holds in a scene, two finger pads that touch, grasp and carry. Each physics tick it
+// reads what the device told of the last scene, decides what is held, and publishes the shapes near the tool; the servo loop
+// renders them. Main thread only. The class reference is gdextension/doc_classes/SpidarGHand.xml.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/variant/array.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+
+#include "godot/base/strict.h"
+#include "godot/device/spidar_g.h"
+#include "godot/hand/body_pushes.h"
+#include "godot/hand/device_clock.h"
+#include "godot/hand/grasp/grasp_judge.h"
+#include "godot/hand/grasp/held_load.h"
+#include "godot/hand/grasp/held_shapes.h"
+#include "godot/hand/grasp/hold_joint.h"
+#include "godot/hand/grasp/hold_watch.h"
+#include "godot/hand/grasp/pinch.h"
+#include "godot/hand/grasp/touched_bodies.h"
+#include "godot/hand/hand_drawing.h"
+#include "godot/hand/hand_place.h"
+#include "godot/hand/pads.h"
+#include "godot/hand/scene/surroundings.h"
+#include "godot/hand/touch_scenes.h"
+
+// A number with its setter and getter. What makes no sense is refused with an error.
+#define SPIDAR_G_HAND_NUMBER(m_name, m_default, m_least, m_most, m_unit)                           \
+public:                                                                                            \
+    void set_##m_name(double p_value) {                                                            \
+        m_name##_ = checked_number(#m_name, p_value, m_name##_, m_least, m_most, m_unit);          \
+    }                                                                                              \
+    double get_##m_name() const {                                                                  \
+        return m_name##_;                                                                          \
+    }                                                                                              \
+                                                                                                   \
+private:                                                                                           \
+    double m_name##_ = m_default
+
+#define SPIDAR_G_HAND_FLAG(m_name, m_default)                                                      \
+public:                                                                                            \
+    void set_##m_name(bool p_value) {                                                              \
+        m_name##_ = p_value;                                                                       \
+    }                                                                                              \
+    bool is_##m_name() const {                                                                     \
+        return m_name##_;                                                                          \
+    }                                                                                              \
+                                                                                                   \
+private:                                                                                           \
+    bool m_name##_ = m_default
+
+class SpidarGHand : public godot::Node3D {
+    GDCLASS(SpidarGHand, godot::Node3D)
+    SPIDAR_G_CHECKED_CALLS
+
+    // The inspector offers less; a script may go so far.
+    SPIDAR_G_HAND_NUMBER(contact_margin_m, 0.04, 0.001, 1.0, "m");
+    SPIDAR_G_HAND_NUMBER(contact_stiffness_n_m, 0.0, 0.0, 1.0e4, "N/m");
+    SPIDAR_G_HAND_NUMBER(contact_damping_n_s_m, 2.0, 0.0, 100.0, "N s/m");
+    SPIDAR_G_HAND_NUMBER(contact_friction, 0.4, 0.0, 10.0, "");
+    SPIDAR_G_HAND_NUMBER(pad_friction, 1.0, 0.0, 10.0, "");
+    SPIDAR_G_HAND_NUMBER(hold_torque_nm, 0.005, 0.0, 10.0, "N m");
+    SPIDAR_G_HAND_NUMBER(break_force_n, 7.0, 0.0, 1000.0, "N");
+    SPIDAR_G_HAND_NUMBER(weight_scale, 1.0, 0.0, 100.0, "");
+    SPIDAR_G_HAND_FLAG(render_contacts, true);
+    SPIDAR_G_HAND_FLAG(render_width, true);
+    SPIDAR_G_HAND_FLAG(render_weight, true);
+    SPIDAR_G_HAND_FLAG(render_inertia, true);
+    SPIDAR_G_HAND_FLAG(debug_draw, false);
+
+public:
+    void set_collision_mask(std::int64_t mask);
+    [[nodiscard]] std::int64_t get_collision_mask() const { return collision_mask_; }
+
+    // Told in the output: an argument of a type that a method does not take.
+    void refuse(const std::string &message) const;
+
+    // What is held.
+    [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
+    [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
+    [[nodiscard]] double get_held_width_m() const;
+    [[nodiscard]] godot::Transform3D get_wanted_pose() const;
+    [[nodiscard]] double get_squeeze_torque_nm() const { return squeeze_nm_; }
+    [[nodiscard]] double get_stop_angle() const;
+    void add_load(const godot::Vector3 &force_n, const godot::Vector3 &moment_nm);
+    void detain(const godot::Transform3D &seat);
+    void release();
+
+    // Where the tool is shown.
+    [[nodiscard]] godot::Transform3D get_proxy_transform() const;
+    [[nodiscard]] godot::Transform3D get_pad_transform(int side) const;
+    [[nodiscard]] godot::Vector3 get_pad_position(int side) const;
+    [[nodiscard]] double get_pad_radius_m() const;
+
+    // What it touches.
+    [[nodiscard]] godot::Array get_shapes_in_reach() const;
+    [[nodiscard]] godot::Array get_touch_points() const;
+    [[nodiscard]] godot::Dictionary get_touch_statistics() const;
+
+    void _enter_tree() override;
+    void _ready() override;
+    void _exit_tree() override;
+    void _physics_process(double delta) override;
+    [[nodiscard]] godot::PackedStringArray _get_configuration_warnings() const override;
+    [[nodiscard]] godot::PackedStringArray get_warnings() const {
+        return _get_configuration_warnings();
+    }
+
+protected:
+    static void _bind_methods();
+
+private:
+    static void bind_properties();
+    // `value`, or `old` with an error for one that makes no sense.
+    [[nodiscard]] double checked_number(const char *name, double value, double old, double least,
+                                        double most, const char *unit) const;
+
+    // The tick, in this order (spidar_g_hand_tick.cpp).
+    void read_device(double since_s);
+    void watch_pinch(double since_s);
+    void watch_hold();
+    void try_grasp();
+    void attach(godot::RigidBody3D &body);
+    void carry(double delta_s);
+    void push_bodies(double since_s);
+    void remember_place();
+
+    // What is published (spidar_g_hand_scene.cpp).
+    void gather();
+    void publish();
+    void withdraw();
+    void draw();
+    [[nodiscard]] spidar::SearchVolume pads_volume() const;
+    [[nodiscard]] spidar::SearchVolume held_volume() const;
+    void look_at_held();
+    [[nodiscard]] spidar::HeldLoad::Pull load_of_held() const;
+    [[nodiscard]] spidar::HandFeel feel() const;
+    [[nodiscard]] spidar::Placement held_in_grip() const;
+
+    [[nodiscard]] spidar::Jaws jaws() const;
+    [[nodiscard]] spidar::ToolPose device_pose() const;
+    // Device frame: the tool as it is shown, in no surface.
+    [[nodiscard]] spidar::ToolPose proxy_pose() const;
+    // Where the tool is shown in the world: with what it holds.
+    [[nodiscard]] godot::Transform3D shown_grip() const;
+    [[nodiscard]] bool is_open() const;
+    [[nodiscard]] const spidar::WorldFrame &stepped() const { return stepped_ ? *stepped_ : now_; }
+
+    std::int64_t collision_mask_ = 1;
+
+    SpidarG *spidar_ = nullptr;
+    spidar::HandPlace place_;
+    bool acts_ = false;
+    spidar::DeviceClock clock_;
+    spidar::WorldFrame now_;                    // of the device's node in this tick
+    std::optional<spidar::WorldFrame> stepped_; // at the last physics step
+    spidar::Pads pads_;
+    spidar::Surroundings surroundings_;
+    spidar::TouchedBodies touched_;
+    spidar::BodyPushes pushes_;
+
+    spidar::Pinch pinch_;
+    double pinch_age_s_ = 0.0; // since both pads lay on it last
+    double resting_s_ = 0.0;   // since they closed no further
+    double squeeze_nm_ = 0.0;
+    spidar::GraspJudge judge_;
+
+    spidar::HoldJoint hold_;
+    spidar::HoldWatch watch_;
+    spidar::HeldShapes held_shapes_;
+    spidar::HeldLoad load_;
+    spidar::HeldLoad::Body held_;
+    double held_stop_rad_ = 0.0;
+    double held_squeeze_nm_rad_ = 0.0;
+
+    enum class Published { nothing, empty, scene };
+    Published published_ = Published::nothing;
+    spidar::Jaws published_jaws_;
+    spidar::HeldLoad::Pull pull_; // in the last scene
+    std::uint64_t seen_sequence_ = 0;
+    spidar::HandDrawing drawing_;
+};

@@ -1,0 +1,215 @@
+// One physics tick of a hand: what the device told, what is held, and how it is carried.
+#include "godot/hand/spidar_g_hand.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/variant/callable_method_pointer.hpp>
+
+#include "godot/base/type_conversions.h"
+
+using godot::RigidBody3D;
+using godot::Transform3D;
+using spidar::Vec3;
+
+namespace {
+
+// Closing to within this of a body's width counts as touching it.
+constexpr double kTouchTolerance_rad = 0.01;
+// Opening this far past the held body's width lets go (3 degrees; less would drop it when a hand trembles).
+constexpr double kReleaseAngle_rad = 0.052;
+// Pads that tremble on a body press it again within this time.
+constexpr double kPinchKept_s = 0.1;
+// A body that is caught askew turns until its faces lie on the pads: it is held when the jaws close no further.
+constexpr double kRestingRate_rad_s = 0.3;
+constexpr double kRestTime_s = 0.04;
+// Smooths the trembling of the fingers.
+constexpr double kSqueezeTime_s = 0.024;
+// Physics engines cannot move a body much faster.
+constexpr double kFastest_m_s = 200.0;
+
+double tick_s() {
+    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
+    return 1.0 / (hz > 0 ? hz : 60);
+}
+
+} // namespace
+
+void SpidarGHand::_physics_process(double delta) {
+    acts_ = place_.may_act(*this) && is_open();
+    if (!acts_) {
+        release();
+        withdraw();
+        return;
+    }
+    now_ = spidar_->world();
+    call_deferred("_remember_place");
+    clock_.read(spidar_->get_device_time_s(), tick_s());
+    if (clock_.elapsed_s() > 0.0) {
+        read_device(clock_.elapsed_s());
+    }
+    if (hold_.holds()) {
+        watch_hold();
+    }
+    if (!hold_.holds() && delta > 0.0) { // nothing is lifted while the game's time stands still
+        try_grasp();
+    }
+    if (hold_.holds()) {
+        carry(delta);
+    }
+    gather();
+    publish();
+    if (clock_.elapsed_s() > 0.0) {
+        push_bodies(clock_.elapsed_s());
+    }
+    draw();
+}
+
+// At the end: a velocity that a push has just given, and that the physics step has not yet set against the floor and all else
+// that holds a body, would carry the body's shapes on in the device.
+void SpidarGHand::push_bodies(double since_s) {
+    spidar::BodyPushes::Terms terms;
+    terms.frame = stepped();
+    terms.most_n = spidar_->get_effective_config()->get_max_force();
+    terms.since_s = since_s;
+    terms.time_scale = godot::Engine::get_singleton()->get_time_scale();
+    terms.jaws = jaws();
+    terms.pose = proxy_pose();
+    terms.twist = spidar_->snapshot().grip.twist;
+    terms.node_m_s = spidar::to_core(spidar_->get_linear_velocity()) -
+                     now_.velocity_to_world(terms.twist.linear_m_s);
+    pushes_.push(spidar_->snapshot().touch, touched_, terms);
+}
+
+// The bodies of the physics space stand where the last step left them, while the node of a device on a lift has moved on: by
+// 17 mm at 1 m/s and 60 ticks a second. Called deferred, when all nodes have moved.
+void SpidarGHand::remember_place() {
+    if (spidar_ != nullptr && spidar_->is_inside_tree()) {
+        stepped_ = spidar_->world();
+    }
+}
+
+// What happened at the device since the pose that was read before.
+void SpidarGHand::read_device(double since_s) {
+    load_.follow(device_pose().position_m, since_s);
+    watch_pinch(since_s);
+}
+
+void SpidarGHand::watch_pinch(double since_s) {
+    const spidar::TouchReport &touch = spidar_->snapshot().touch;
+    bool is_squeezing = hold_.holds() || touch.stop_push_nm > 0.0;
+    if (!hold_.holds()) {
+        const spidar::Pinch found = spidar::find_pinch(touch, touched_);
+        if (found.body != 0) {
+            if (found.body != pinch_.body) {
+                judge_.reset();
+                squeeze_nm_ = 0.0;
+            }
+            is_squeezing = true;
+            pinch_age_s_ = 0.0;
+            const double moved_rad = std::abs(found.width_rad - pinch_.width_rad);
+            const bool rests =
+                found.body == pinch_.body && moved_rad < kRestingRate_rad_s * since_s;
+            resting_s_ = rests ? resting_s_ + since_s : 0.0;
+            pinch_ = found;
+        } else {
+            pinch_age_s_ += since_s;
+            if (pinch_age_s_ > kPinchKept_s) {
+                pinch_ = {};
+                resting_s_ = 0.0;
+            }
+        }
+    }
+    const double torque_nm =
+        is_squeezing ? spidar::squeeze_nm(touch, spidar_->get_grasp_angle()) : 0.0;
+    const double kept = std::exp(-since_s / kSqueezeTime_s);
+    squeeze_nm_ =
+        is_squeezing || pinch_.body != 0 ? torque_nm + kept * (squeeze_nm_ - torque_nm) : 0.0;
+}
+
+void SpidarGHand::try_grasp() {
+    const double angle_rad = spidar_->get_grasp_angle();
+    if (pinch_.body == 0 || angle_rad < pinch_.width_rad - kReleaseAngle_rad) {
+        judge_.reset();
+        return;
+    }
+    if (angle_rad < pinch_.width_rad - kTouchTolerance_rad) {
+        return;
+    }
+    // The fingers push at the poles' ends: force = torque / pole half length.
+    const double lever_m = spidar_->get_effective_config()->get_pole_half_length();
+    auto *const body = cast_to<RigidBody3D>(godot::ObjectDB::get_instance(pinch_.collider));
+    const auto verdict =
+        judge_.judge(pinch_, body, {pad_friction_, hold_torque_nm_ / lever_m, weight_scale_},
+                     squeeze_nm_ / lever_m, spidar_->get_grasp_rate(), clock_.elapsed_s());
+    if (verdict == spidar::GraspJudge::Verdict::hold) {
+        if (resting_s_ >= kRestTime_s) {
+            attach(*body);
+        }
+    } else if (verdict == spidar::GraspJudge::Verdict::refuse) {
+        emit_signal("grasp_refused", body, spidar::to_godot(judge_.reason()));
+    }
+}
+
+void SpidarGHand::attach(RigidBody3D &body) {
+    const spidar::ToolPose proxy = proxy_pose();
+    // A body that does not give way keeps the proxy's pads round it, beside the device. Held, it keeps nothing any more, and is
+    // brought to where the proxy then is.
+    const Vec3 beside = proxy.position_m - device_pose().position_m;
+    const double off_m = glm::dot(beside, proxy.rotation[0]);
+    const Transform3D grip =
+        stepped().pose_to_world(proxy.position_m - off_m * proxy.rotation[0], proxy.rotation);
+    hold_.attach(*this, body, grip, off_m * spidar_->get_workspace_scale());
+    held_shapes_.take(body, spidar_->get_workspace_scale());
+    held_stop_rad_ = proxy.grasp_rad;
+    held_squeeze_nm_rad_ = pinch_.squeeze_nm_rad;
+    watch_.reset();
+    load_.reset();
+    held_ = {};
+    body.connect("tree_exiting", callable_mp(this, &SpidarGHand::release));
+    emit_signal("body_grasped", &body);
+}
+
+// Lets go when the jaws open past the body, or when the world tears at it for long enough.
+void SpidarGHand::watch_hold() {
+    if (!hold_.is_movable()) {
+        release();
+        return;
+    }
+    Vec3 press_n(0.0);
+    const spidar::TouchReport &touch = spidar_->snapshot().touch;
+    const bool forces_on = spidar_->get_state() == SpidarG::STATE_ACTIVE;
+    for (int i = 0; i < touch.point_count && forces_on; ++i) {
+        const spidar::TouchPointReport &point = touch.points[static_cast<std::size_t>(i)];
+        if (point.tool_id >= spidar::kFirstHeldId) {
+            press_n += point.force_n;
+        }
+    }
+    const bool opened = spidar_->get_grasp_angle() < held_stop_rad_ - kReleaseAngle_rad;
+    const bool broken = watch_.breaks(glm::length(press_n), break_force_n_, clock_.elapsed_s(),
+                                      hold_.stretch_m() / spidar_->get_workspace_scale(), tick_s());
+    if (opened || broken || hold_.body()->is_freeze_enabled()) {
+        release();
+    }
+}
+
+// Moves the held body with the proxy, which stops where the world stops the body.
+void SpidarGHand::carry(double delta_s) {
+    hold_.advance(delta_s);
+    held_shapes_.update();
+    load_.clear();
+    emit_signal("carrying", delta_s);
+    if (!hold_.holds()) {
+        return; // a listener let go
+    }
+    const spidar::ToolPose pose = proxy_pose();
+    const Transform3D proxy = now_.pose_to_world(pose.position_m, pose.rotation);
+    const double moved_m = glm::length(now_.origin - stepped().origin);
+    if (!hold_.is_detained() && moved_m > kFastest_m_s * delta_s) {
+        hold_.jump(proxy);
+    }
+    hold_.follow(proxy);
+}

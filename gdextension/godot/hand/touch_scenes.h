@@ -1,0 +1,41 @@
+// What a hand publishes once a tick: its tool, what stands near it, and how that feels.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "device/contact/touch/touch_scene.h"
+#include "device/settings/servo_settings.h"
+#include "godot/hand/grasp/held_shapes.h"
+#include "godot/hand/pads.h"
+#include "godot/hand/scene/surroundings.h"
+
+namespace spidar {
+
+struct HandFeel {
+    bool contacts = true;
+    bool width = true;
+    double stiffness_n_m = 0.0; // 0: automatic
+    double damping_n_s_m = 2.0;
+    double friction = 0.4;
+    double squeeze_nm_rad = 0.0; // of what is between the pads, or held; 0: automatic
+    std::uint64_t pinched = 0;   // RID of the body between the pads: it cannot get out of their way
+    // Of what else a push moves: N/m for a kilogram, so that it does not bounce between the push and its answer a frame later.
+    double pushed_n_m_kg = 0.0;
+};
+
+struct HeldTool {
+    const std::vector<HeldShapes::Part> &parts;
+    Placement grip;    // the proxy's
+    Placement in_grip; // of the body, device metres
+    double stop_rad = 0.0;
+    bool is_detained = false; // its shapes touch nothing
+};
+
+// held: null while nothing is held. load: what the tool carries, about P0, device frame.
+[[nodiscard]] std::shared_ptr<TouchScene>
+make_touch_scene(const Pads &pads, const Jaws &jaws, const std::vector<NearShape> &near,
+                 const HeldTool *held, const HandFeel &feel, const ServoSettings &settings,
+                 const Wrench &load);
+
+} // namespace spidar
