@@ -56,6 +56,9 @@ public:
     // From the controlling thread: what the recorded game read next. False: nothing more.
     [[nodiscard]] bool next_read(GameRead &read) noexcept;
 
+    // The scene of shapes that the newest command of the last cycle had. From the loop's thread, or when it rests.
+    [[nodiscard]] const TouchScene &touch() const noexcept { return touch_; }
+
     // The set of contacts that the last cycle rendered. From the loop's thread, or when it rests.
     [[nodiscard]] std::uint64_t contacts_sequence() const noexcept { return contacts_sequence_; }
 

@@ -26,6 +26,7 @@
 #include "godot/base/node_motion.h"
 #include "godot/device/recording_places.h"
 #include "godot/device/replay_contacts.h"
+#include "godot/device/replay_touches.h"
 #include "godot/device/request_owners.h"
 #include "godot/settings/project_options.h"
 #include "godot/settings/spidar_g_calibration.h"
@@ -358,6 +359,7 @@ private:
     spidar::Replay *replay_ = nullptr;                // owned by loop_
     bool replay_end_told_ = false;
     spidar::ReplayContacts replay_contacts_;
+    spidar::ReplayTouches replay_touches_;
     std::unique_ptr<spidar::HidWatch> hid_watch_; // while the real device is not open
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;

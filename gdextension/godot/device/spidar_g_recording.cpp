@@ -135,6 +135,7 @@ void SpidarG::open_replay() {
     requests_.clear();
     requests_.configure(settings_.safety.wrench_fade_s, settings_.safety.contacts_gone_s);
     replay_contacts_ = spidar::ReplayContacts();
+    replay_touches_.forget();
     replay_ = replay.get();
     change_loop(std::make_unique<spidar::ServoLoop>(std::move(replay)));
     const Status status = loop_->start_stepped(settings_); // by the game's ticks: replay_tick()

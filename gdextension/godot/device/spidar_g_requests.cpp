@@ -108,7 +108,11 @@ void SpidarG::publish_wrench() {
 }
 
 void SpidarG::publish_touch(std::shared_ptr<spidar::TouchScene> touch) {
-    if (!loop_ || replay_ != nullptr) {
+    if (!loop_) {
+        return;
+    }
+    if (replay_ != nullptr) {
+        replay_touches_.note(std::move(touch));
         return;
     }
     if (touch) {

@@ -25,6 +25,9 @@ void SpidarG::pull_snapshot(bool physics_tick, const spidar::GameRead *recorded)
                                   recorded->contacts_sequence - replay_->contacts_sequence(),
                                   snapshot_);
     }
+    if (is_newer && replay_ != nullptr) {
+        replay_touches_.renumber(replay_->touch(), snapshot_.touch);
+    }
     if (is_newer) {
         if (snapshot_.state == DeviceState::closed) {
             forget_player();

@@ -63,7 +63,6 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
         part.velocity_m_s = shape.velocity_m_s;
         part.angular_rad_s = shape.angular_rad_s;
         part.stiffness_n_m = softness_of(shape, feel);
-        part.damping_n_s_m = feel.damping_n_s_m;
         part.friction = friction_of(shape.facts, feel.friction);
         part.id = shape.id;
         part.groups = shape.seen_by;

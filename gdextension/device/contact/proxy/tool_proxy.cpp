@@ -237,7 +237,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         const auto k = static_cast<std::size_t>(i);
         ProxyContact &contact = contacts_[k];
         if (solved.push[k] > 0.0 && !anticipated) {
-            const ProxyContact *last = nearest_before(contact);
+            const ProxyContact *last = nearest_before(contact, true);
             anticipated = contact.gap_m > kAnticipated_m ||
                           (passes_ == 0 && last != nullptr &&
                            glm::dot(last->normal, contact.normal) < kTurned);
@@ -378,7 +378,8 @@ bool ToolProxy::is_sound() const noexcept {
         bool sound = count >= 0 && count <= kMaxPoints;
         for (int i = 0; sound && i < count; ++i) {
             const ProxyContact &contact = contacts[static_cast<std::size_t>(i)];
-            sound = contact.tool_part < kMaxToolParts && contact.scene_part < kMaxSceneParts;
+            sound = contact.tool_part < kMaxToolParts && contact.scene_part < kMaxSceneParts &&
+                    are_flags(contact.rubs);
         }
         return sound;
     };

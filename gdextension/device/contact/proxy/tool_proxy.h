@@ -33,6 +33,7 @@ struct ProxyContact {
     double push_n = 0.0;  // along the normal, 0 when it does not touch
     Vec3 friction_n{0.0}; // on the tool
     Vec3 stretch_m{0.0};  // of the friction's spring
+    bool rubs = false;    // some contact of its pair pushes: its stretch goes on
 };
 
 // What it gave a part of the scene in this cycle.
@@ -116,7 +117,10 @@ private:
               const Twist &velocity) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
-    [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact) const noexcept;
+    // Of the same pair, in the last cycle, on a surface turned little; null: none. touching: that pushed, or that rubs.
+    [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
+                                                     bool touching) const noexcept;
+    [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
 
     ProxySettings settings_;
     Move root_{}; // of the stiffnesses

@@ -21,13 +21,14 @@ Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
 
 } // namespace
 
-// The contact of this pair that pushed nearest to it in the last cycle, on a surface turned little; null: none.
-const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact) const noexcept {
+const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact,
+                                              bool touching) const noexcept {
     const ProxyContact *nearest = nullptr;
     for (int i = 0; i < before_count_; ++i) {
         const ProxyContact &other = before_[static_cast<std::size_t>(i)];
-        if (other.tool_id != contact.tool_id || other.scene_id != contact.scene_id ||
-            !(other.push_n > 0.0) || glm::dot(other.normal, contact.normal) < kSameSurface) {
+        const bool counts = touching ? other.push_n > 0.0 : other.rubs;
+        if (!counts || other.tool_id != contact.tool_id || other.scene_id != contact.scene_id ||
+            glm::dot(other.normal, contact.normal) < kSameSurface) {
             continue;
         }
         if (nearest == nullptr || glm::distance(other.point_m, contact.point_m) <
@@ -36,6 +37,17 @@ const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact) const
         }
     }
     return nearest;
+}
+
+bool ToolProxy::pair_pushes(const ProxyContact &contact) const noexcept {
+    for (int i = 0; i < count_; ++i) {
+        const ProxyContact &other = contacts_[static_cast<std::size_t>(i)];
+        if (other.push_n > 0.0 && other.tool_part == contact.tool_part &&
+            other.scene_part == contact.scene_part) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Springs along surfaces turn the tool by their levers. They are softened where they would turn it harder than the springs
@@ -78,38 +90,45 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
     for (int i = 0; i < count_; ++i) {
         ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
         const ScenePart &other = scene.parts[contact.scene_part];
-        if (!(contact.push_n > 0.0)) {
-            continue;
-        }
-        const ToolPart &part = tool.parts[contact.tool_part];
-        const Vec3 surface_m_s = surface_velocity(other, contact.point_m);
-        if (other.friction > 0.0) {
-            const double stiffness_n_m = all_n_m * contact.push_n / all_n;
-            const double limit_n = other.friction * contact.push_n;
+        contact.rubs = other.friction > 0.0 && pair_pushes(contact);
+        if (contact.rubs) {
+            const ToolPart &part = tool.parts[contact.tool_part];
+            const Vec3 surface_m_s = surface_velocity(other, contact.point_m);
             const Vec3 slid_m =
                 point_velocity(part, tool.jaws, device, step, contact.point_m) - dt_s * surface_m_s;
-            const ProxyContact *last = nearest_before(contact);
+            const ProxyContact *last = nearest_before(contact, false);
             const Vec3 carried_m = last != nullptr ? last->stretch_m : Vec3(0.0);
             Vec3 stretch_m = along_surface(carried_m + slid_m, contact.normal);
-            const double spring_n = stiffness_n_m * glm::length(stretch_m);
-            if (spring_n > limit_n) {
-                stretch_m *= limit_n / spring_n;
-            }
-            const Vec3 slides_m_s = along_surface(
-                point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,
-                contact.normal);
-            Vec3 rub_n = -stiffness_n_m * (stretch_m + settings_.damping_s * slides_m_s);
-            const double size_n = glm::length(rub_n);
-            if (size_n > limit_n) {
-                rub_n *= limit_n / size_n;
+            // Where the cone ends: the same for all points, for each has the share of its push of stiffness and limit. A corner
+            // that is lifted for a moment goes on with them, and finds its own place again.
+            const double most_m = other.friction * all_n / all_n_m;
+            const double size_m = glm::length(stretch_m);
+            if (size_m > most_m) {
+                stretch_m *= most_m / size_m;
             }
             contact.stretch_m = stretch_m;
-            contact.friction_n = rub_n;
-            const DofLanes acts =
-                lanes(moves_along(part, tool.jaws, pose_, contact.point_m, rub_n));
-            for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-                sum[dof] += acts[dof];
+            if (contact.push_n > 0.0) {
+                const double limit_n = other.friction * contact.push_n;
+                const Vec3 slides_m_s = along_surface(
+                    point_velocity(part, tool.jaws, device, velocity, contact.point_m) -
+                        surface_m_s,
+                    contact.normal);
+                Vec3 rub_n = -(all_n_m * contact.push_n / all_n) *
+                             (stretch_m + settings_.damping_s * slides_m_s);
+                const double size_n = glm::length(rub_n);
+                if (size_n > limit_n) {
+                    rub_n *= limit_n / size_n;
+                }
+                contact.friction_n = rub_n;
+                const DofLanes acts =
+                    lanes(moves_along(part, tool.jaws, pose_, contact.point_m, rub_n));
+                for (std::size_t dof = 0; dof < sum.size(); ++dof) {
+                    sum[dof] += acts[dof];
+                }
             }
+        }
+        if (!(contact.push_n > 0.0)) {
+            continue;
         }
         const Vec3 given_n = -(contact.push_n * contact.normal + contact.friction_n);
         PartForce &gets = given_[contact.scene_part];

@@ -1,0 +1,82 @@
+// The numbers of shapes in a replay. A snapshot says what touched by the number that the recorded game gave it, and a game
+// that runs anew numbers its shapes anew: each recorded shape gets the number of the one that stands where it stood.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "device/contact/touch/touch_scene.h"
+#include "device/contract/servo_snapshot.h"
+
+namespace spidar {
+
+class ReplayTouches {
+public:
+    // What the game that runs now would have published.
+    void note(std::shared_ptr<const TouchScene> live) { live_ = std::move(live); }
+    void forget() { live_.reset(); }
+
+    // recorded: the scene that the snapshot's report is of. What has no counterpart gets number 0, which nothing has.
+    void renumber(const TouchScene &recorded, TouchReport &report) const noexcept {
+        std::array<bool, kMaxSceneParts> used{};
+        std::array<std::int32_t, kMaxSceneParts> numbers{};
+        for (int i = 0; i < report.part_count && i < recorded.scene.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            numbers[k] = number_of(recorded.scene.parts[k], used);
+        }
+        for (int i = 0; i < report.point_count; ++i) {
+            TouchPointReport &point = report.points[static_cast<std::size_t>(i)];
+            std::int32_t number = 0;
+            for (int s = 0; s < report.part_count; ++s) {
+                const auto k = static_cast<std::size_t>(s);
+                number = report.parts[k].id == point.scene_id ? numbers[k] : number;
+            }
+            point.scene_id = number;
+        }
+        for (int s = 0; s < report.part_count; ++s) {
+            const auto k = static_cast<std::size_t>(s);
+            report.parts[k].id = numbers[k];
+        }
+    }
+
+private:
+    // Two scenes are a physics tick or two apart.
+    static constexpr double kApart_m = 0.03;
+    static constexpr double kSameSize_m = 1e-4;
+
+    [[nodiscard]] std::int32_t number_of(const ScenePart &part,
+                                         std::array<bool, kMaxSceneParts> &used) const noexcept {
+        std::int32_t number = 0;
+        std::size_t taken = kMaxSceneParts;
+        double nearest_m = kApart_m;
+        for (int i = 0; live_ && i < live_->scene.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const ScenePart &other = live_->scene.parts[k];
+            const double apart_m = glm::distance(other.at.origin_m, part.at.origin_m);
+            if (!used[k] && apart_m < nearest_m && are_alike(*other.shape, *part.shape)) {
+                nearest_m = apart_m;
+                number = other.id;
+                taken = k;
+            }
+        }
+        if (taken < kMaxSceneParts) {
+            used[taken] = true;
+        }
+        return number;
+    }
+    [[nodiscard]] static bool are_alike(const CookedShape &a, const CookedShape &b) noexcept {
+        const bool plane = a.kind() == ShapeKind::half_space;
+        return a.kind() == b.kind() &&
+               (plane || (glm::distance(a.lower_m(), b.lower_m()) < kSameSize_m &&
+                          glm::distance(a.upper_m(), b.upper_m()) < kSameSize_m));
+    }
+
+    std::shared_ptr<const TouchScene> live_;
+};
+
+} // namespace spidar
