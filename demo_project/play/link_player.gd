@@ -16,6 +16,8 @@ const TUG_S := 0.7
 ## Where friction has turned with the way: this share of it.
 const TUG_FROM := 0.25
 const TUG_TO := 0.75
+## A tick in which the grip is drawn less than this far (device metres) tells nothing of the spring.
+const TUG_MOVES_M := 0.00005
 ## Further than the release distance.
 const TEAR_M := 0.022
 const TEAR_S := 0.9
@@ -92,13 +94,19 @@ func _feel_detent(body: TaskBody) -> void:
 	var out := _way_out(body)
 	var seat := hand.wanted
 	var lines: Array[FitLine] = [FitLine.new(), FitLine.new()]
+	# The hand rises a little when the seat takes the weight: the way counts from where it begins.
+	var begins := out.dot(linker.stretch_m())
 	for back in 2:
+		var last: Array[float] = [NAN]
 		var feel := func() -> void:
 			var truth := spidar.get_simulated_truth()
 			var strings: PackedFloat64Array = truth["strings_wrench"]
 			var pull := -out.dot(Vector3(strings[0], strings[1], strings[2]))
-			var way := out.dot(linker.stretch_m())
-			if way > TUG_FROM * TUG_M and way < TUG_TO * TUG_M:
+			var way := out.dot(linker.stretch_m()) - begins
+			# Where the strings' friction holds the grip, at the turn, the pull changes and the way does not.
+			var moves := absf(way - last[0]) > TUG_MOVES_M
+			last[0] = way
+			if moves and way > TUG_FROM * TUG_M and way < TUG_TO * TUG_M:
 				lines[back].add(way, pull)
 		hand.stepped.connect(feel)
 		await hand.move_to(seat.translated(out * TUG_M) if back == 0 else seat, TUG_S)
