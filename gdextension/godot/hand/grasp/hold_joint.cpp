@@ -9,6 +9,7 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/core/memory.hpp>
 
+#include "core/geometry/rotation_log.h"
 #include "godot/base/type_conversions.h"
 
 namespace spidar {
@@ -24,6 +25,8 @@ using godot::Vector3;
 
 // The pads close on the middle of a body that was caught off-centre within this time.
 constexpr double kCentringTime_s = 0.08;
+// What comes off a seat is brought to the grip within this time, not in one tick.
+constexpr double kComingOff_s = 0.08;
 // Speed left to a body that is let go (device m/s), so that a solver's last correction never throws it.
 constexpr double kMaxReleaseSpeed_m_s = 2.0;
 
@@ -55,6 +58,7 @@ void HoldJoint::attach(godot::Node3D &hand, RigidBody3D &body, const Transform3D
     age_s_ = 0.0;
     detained_ = false;
     time_runs_ = true;
+    free_s_ = kComingOff_s;
     caught_ = grip.affine_inverse() * body.get_global_transform();
     Holders &holders = all_holders()[body_id_];
     if (holders.count == 0) {
@@ -107,6 +111,7 @@ bool HoldJoint::is_movable() const {
 
 void HoldJoint::advance(double delta_s) {
     age_s_ += delta_s;
+    free_s_ += delta_s;
     detained_ = false;
     const bool runs = delta_s > 0.0;
     if (time_runs_ != runs) {
@@ -143,7 +148,24 @@ void HoldJoint::follow(const Transform3D &grip) {
     if (!time_runs_) {
         return;
     }
-    anchor_->set_global_transform(detained_ ? seat_ * caught_.affine_inverse() : centred(grip));
+    if (detained_) {
+        const Transform3D at = seat_ * caught_.affine_inverse();
+        from_seat_ = centred(grip).affine_inverse() * at;
+        free_s_ = 0.0;
+        anchor_->set_global_transform(at);
+    } else {
+        anchor_->set_global_transform(centred(grip) * way_left());
+    }
+}
+
+Transform3D HoldJoint::way_left() const {
+    const double part = std::clamp(1.0 - free_s_ / kComingOff_s, 0.0, 1.0);
+    if (!(part > 0.0)) {
+        return {};
+    }
+    const Mat3 turn =
+        rotation_exp(part * rotation_log(to_core(from_seat_.basis.orthonormalized())));
+    return {to_godot(turn), from_seat_.origin * static_cast<GodotReal>(part)};
 }
 
 void HoldJoint::jump(const Transform3D &grip) {

@@ -64,6 +64,8 @@ private:
     void untie_body();
     [[nodiscard]] godot::Transform3D centred(const godot::Transform3D &grip) const;
     [[nodiscard]] double off_centre_moved() const noexcept;
+    // What is left of the way from the seat to the grip, from the grip on.
+    [[nodiscard]] godot::Transform3D way_left() const;
 
     std::uint64_t body_id_ = 0;
     bool detained_ = false;
@@ -74,6 +76,8 @@ private:
     godot::Transform3D caught_; // from the anchor to the body, as it was when caught
     double off_centre_m_ = 0.0;
     godot::Transform3D seat_;
+    godot::Transform3D from_seat_; // in the grip, when it was detained last
+    double free_s_ = 0.0;          // since then
     double age_s_ = 0.0;
 };
 
