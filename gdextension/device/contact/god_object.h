@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-inline constexpr int kMaxConstraints = 8; // of planes
-inline constexpr int kMaxPoints = 24;     // of shapes
+inline constexpr int kMaxConstraints = 8;       // of planes
+inline constexpr int kMaxPoints = 24;           // of shapes
 inline constexpr int kMaxRows = kMaxPoints + 1; // with the stop of the jaws
 
 // Row i of the problem: constraint i asks row . move + compliance * push >= depth, with `move` in units of sqrt(energy), so
