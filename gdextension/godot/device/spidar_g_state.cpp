@@ -230,6 +230,10 @@ godot::Dictionary SpidarG::get_statistics() const {
     statistics["kinematics_skipped"] = whole(count.kinematics_skipped);
     statistics["tension_skipped"] = whole(count.tension_skipped);
     statistics["steps_skipped"] = whole(count.steps_skipped);
+    const spidar::TouchReport &touch = snapshot_.touch;
+    statistics["touch_points"] = touch.point_count;
+    statistics["touch_pairs"] = touch.queries;
+    statistics["touch_skipped"] = whole(touch.skipped);
     statistics["cold_starts"] = whole(count.cold_starts);
     statistics["bad_samples"] = whole(count.bad_samples);
     statistics["read_timeouts"] = whole(count.read_timeouts);
