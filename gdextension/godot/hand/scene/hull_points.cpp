@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kAround = 32; // chords of a 32-gon are 0.5 % inside their circle
 constexpr int kRings = 8;   // from pole to equator
+constexpr int kDirections = 1024;
 
 struct OnPlane {
     double u = 0.0;
@@ -74,6 +75,27 @@ std::vector<Vec3> rim_points(double radius, double half_height) {
         points.push_back(out - Vec3(0.0, half_height, 0.0));
     }
     return points;
+}
+
+std::vector<Vec3> outermost_points(const std::vector<Vec3> &points_m) {
+    std::vector<bool> taken(points_m.size());
+    std::vector<Vec3> found;
+    for (int i = 0; i < kDirections; ++i) {
+        // A spiral of the golden angle from pole to pole.
+        const double y = 1.0 - (2.0 * i + 1.0) / kDirections;
+        const double angle = 2.0 * std::numbers::pi * i / std::numbers::phi;
+        const double across = std::sqrt(1.0 - y * y);
+        const Vec3 way(across * std::cos(angle), y, across * std::sin(angle));
+        const auto farthest = std::max_element(
+            points_m.begin(), points_m.end(),
+            [&way](const Vec3 &a, const Vec3 &b) { return glm::dot(a, way) < glm::dot(b, way); });
+        const auto index = static_cast<std::size_t>(farthest - points_m.begin());
+        if (index < points_m.size() && !taken[index]) {
+            taken[index] = true;
+            found.push_back(*farthest);
+        }
+    }
+    return found;
 }
 
 ShapeDescription flat_mesh(const std::vector<Vec3> &points_m) {

@@ -24,6 +24,8 @@ using godot::Variant;
 
 constexpr std::int64_t kMostPointsAtOnce = 1500; // 500 triangles, half a millisecond
 constexpr std::int64_t kMostHullPointsAtOnce = 300;
+// A hull of more is made of the outermost ones: what cook() takes, and the time of a hull grows with their square.
+constexpr std::size_t kMostHullPoints = 4096;
 constexpr std::int64_t kMostHeightsAtOnce = 65536;
 
 double number(const godot::Dictionary &data, const Variant &key) {
@@ -340,6 +342,9 @@ CookResult cook_shape(const ShapeNumbers &shape, const Vec3 &scale) {
     ShapeDescription description = describe(shape, scale);
     if (description.kind != ShapeKind::hull) {
         return cook(std::move(description));
+    }
+    if (description.points_m.size() > kMostHullPoints) {
+        description.points_m = outermost_points(description.points_m);
     }
     CookResult hull = cook(description);
     if (hull.status != Status::invalid_shape) {
