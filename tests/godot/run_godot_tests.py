@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Headless tests on the loaded extension: run_godot_tests.py GODOT [PART_OF_NAME].
+"""Headless tests on the loaded extension: run_godot_tests.py GODOT [--physics=godot|thread] [PART_OF_NAME ...].
+
+Without a name, all of them; those of the hand then run once more under each of the other settings of physics.
 
 Fails on a failed check, a script error, a test that never ends, or an object left behind. The last line is
 "N passed, N failed".
@@ -7,7 +9,9 @@ Fails on a failed check, a script error, a test that never ends, or an object le
 
 import os
 import re
+import shutil
 import subprocess
+import tempfile
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
@@ -15,16 +19,23 @@ from godot_project import prepare_project  # noqa: E402
 
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "project")
 TIME_LIMIT_S = 600
+# Other settings of physics than the project's own, as the game's [physics] section has them.
+PHYSICS = {
+    "godot": '3d/physics_engine="GodotPhysics3D"',
+    "thread": "3d/run_on_separate_thread=true",
+}
+# What runs under those: what is felt of shapes.
+PHYSICS_TESTS = ("test_hand_shapes", "test_hand_colliders", "test_hand_moments", "test_hand_piles")
 LEAKS = re.compile(r"^(Leaked instance|WARNING: ObjectDB instances leaked|Orphan StringName"
                    r"|ERROR: \d+ resources still in use).*", re.M)
 SCRIPT_ERRORS = re.compile(r"^SCRIPT ERROR.*(?:\n   .*)*", re.M)
 TOTALS = re.compile(r"^(\d+) passed, (\d+) failed$", re.M)
 
 
-def run(godot, script, *arguments):
+def run(godot, script, *arguments, project=PROJECT):
     """What Godot printed, and its exit code (a text when it had to be stopped). Simulated time, unless asked otherwise."""
     pace = [] if "--real-time" in arguments else ["--fixed-fps", "60"]
-    command = [godot, "--headless", "--verbose", "--path", PROJECT, *pace,
+    command = [godot, "--headless", "--verbose", "--path", project, *pace,
                "-s", script, "--", *arguments]
     try:
         done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace",
@@ -60,9 +71,35 @@ def project_opens_and_closes(godot, times=20):
     return True
 
 
-def run_scripts(godot, *arguments):
+def project_with(physics, names, parent):
+    """A copy of the project in the folder `parent`, under another of the settings of PHYSICS, with the test files of `names`."""
+    project = os.path.join(parent, physics)
+    shutil.copytree(PROJECT, project, ignore=shutil.ignore_patterns("addons", ".godot", "*.uid"))
+    for file in os.listdir(project):
+        is_test = file.startswith(("test_", "timed_")) and file != "test_case.gd"
+        if is_test and not any(name in file for name in names):
+            os.remove(os.path.join(project, file))
+    key = PHYSICS[physics].split("=")[0]
+    path = os.path.join(project, "project.godot")
+    with open(path, encoding="utf-8") as file:
+        lines = [line for line in file.read().splitlines() if not line.startswith(key + "=")]
+    lines.insert(lines.index("[physics]") + 1, PHYSICS[physics])
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    prepare_project(project)
+    return project
+
+
+def run_under(godot, physics, names):
+    """The test files of `names` under another of the settings of PHYSICS: how many passed and failed."""
+    print(f"physics: {PHYSICS[physics]}")
+    with tempfile.TemporaryDirectory(prefix="spidar_g_physics_") as parent:
+        return run_scripts(godot, project=project_with(physics, names, parent))
+
+
+def run_scripts(godot, *arguments, project=PROJECT):
     """One run of the test scripts: how many passed and failed. Prints their lines and all else that is wrong."""
-    output, code = run(godot, "res://run_tests.gd", *arguments)
+    output, code = run(godot, "res://run_tests.gd", *arguments, project=project)
     for line in output.splitlines():
         if line.startswith(("RUN ", "PASS", "FAIL", "     ", "INFO ")):
             print(line)
@@ -79,6 +116,10 @@ def run_scripts(godot, *arguments):
 def main(arguments):
     godot, *names = arguments
     prepare_project(PROJECT, godot)
+    if names and names[0].startswith("--physics="):
+        passed, failed = run_under(godot, names[0].split("=")[1], names[1:] or PHYSICS_TESTS)
+        print(f"{passed} passed, {failed} failed")
+        return 0 if passed and not failed else 1
     # A name is looked for among those that need real time when it says so.
     runs = [names] if names and not names[0].startswith("timed_") else [["--real-time", *names]]
     if not names:
@@ -88,6 +129,9 @@ def main(arguments):
         good, bad = run_scripts(godot, *chosen)
         passed, failed = passed + good, failed + bad
     if not names:
+        for physics in PHYSICS:
+            good, bad = run_under(godot, physics, PHYSICS_TESTS)
+            passed, failed = passed + good, failed + bad
         for good in (quits_cleanly(godot), project_opens_and_closes(godot)):
             passed, failed = passed + good, failed + (not good)
     print(f"{passed} passed, {failed} failed")

@@ -40,6 +40,8 @@ bench() { # bench [publish] [--runs N] [--rows N]: figures and pictures into bui
     python3 tests/godot_project.py "$GODOT" tests/godot/project
     timeout --foreground -k 10 "$bench_limit_s" "$GODOT" --headless --path tests/godot/project --fixed-fps 60 \
         --script "$root/tests/bench/godot/bench_node.gd"
+    timeout --foreground -k 10 "$bench_limit_s" "$GODOT" --headless --path tests/godot/project \
+        --script "$root/tests/bench/godot/bench_hand.gd"
     python3 tests/editor/run_view_tests.py "$GODOT" --part idle
     bench_demo
 }

@@ -34,6 +34,34 @@ func depth(space: PhysicsDirectSpaceState3D, at: Transform3D) -> float:
 	return deepest
 
 
+## Stands for a pad in met(), larger than it by beyond_m. Physics on a thread of its own knows it some frames later.
+static func ball(beyond_m: float) -> SphereShape3D:
+	var shape := SphereShape3D.new()
+	shape.radius = EDGE_M + beyond_m
+	return shape
+
+
+## Bodies nearer to a pad than its ball() says (below 0: that deep in it), with their nodes. The disc is searched with balls
+## whose middles are spacing_m apart, for those are exact in every engine: a hull in Jolt may lack 1 mm.
+static func met(
+	space: PhysicsDirectSpaceState3D, at: Transform3D, ball_shape: SphereShape3D, spacing_m: float
+) -> Dictionary[RID, Object]:
+	var found: Dictionary[RID, Object] = {}
+	var query := PhysicsShapeQueryParameters3D.new()
+	query.shape = ball_shape
+	var disc_m: float = RADIUS_M - EDGE_M
+	var rings: int = ceili(disc_m / spacing_m)
+	for ring: int in rings + 1:
+		var radius: float = disc_m * ring / rings
+		var sectors: int = maxi(1, ceili(TAU * radius / spacing_m))
+		for sector: int in sectors:
+			var spot: Vector2 = Vector2.from_angle(TAU * sector / sectors) * radius
+			query.transform.origin = at * Vector3(EDGE_M, spot.x, spot.y)
+			for hit: Dictionary in space.intersect_shape(query, 32):
+				found[hit["rid"]] = hit["collider"]
+	return found
+
+
 ## The pad of side 0 (at -x) or 1 of a grip whose jaws are open by gap_m.
 static func place(side: int, grip: Transform3D, gap_m: float) -> Transform3D:
 	var outward: float = -1.0 if side == 0 else 1.0
