@@ -1,6 +1,7 @@
 #include "device/contact/touch/touch_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/finite.h"
 
@@ -39,7 +40,7 @@ Status validate(const TouchScene &touch) noexcept {
     }
     if (!all_finite(touch.stiffness, touch.damping_n_s_m, touch.load, touch.state_time_s,
                     tool.jaws.open_m, tool.jaws.closed_rad) ||
-        tool.stop_rad != tool.stop_rad) {
+        std::isnan(tool.stop_rad)) { // infinite where nothing is held
         return Status::not_finite;
     }
     const bool good = touch.damping_n_s_m >= 0.0 && tool.jaws.open_m >= 0.0 &&

@@ -1,0 +1,42 @@
+// The lists of what descriptions of shapes and tools hold, beside their points, indices and heights.
+#pragma once
+
+#include <type_traits>
+
+#include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/shapes/tool_shape.h"
+#include "device/recording/codec/field_words.h"
+
+namespace spidar {
+
+// A field added to one of these structs: add it to the lists below, then correct the number.
+static_assert(count_members<ShapeDescription>() == 14, "ShapeDescription changed: list it here");
+static_assert(count_members<ToolDescription>() == 5, "ToolDescription changed: list it here");
+
+// Of a description, what is no list.
+template <typename Shape, typename Visit>
+void for_each_field(Shape &shape, Visit &&visit) requires
+    std::is_same_v<std::remove_const_t<Shape>, ShapeDescription> {
+    visit("kind", 0, shape.kind);
+    visit_vector("half_extents_m", 0, shape.half_extents_m, visit);
+    visit("radius_m", 0, shape.radius_m);
+    visit("half_height_m", 0, shape.half_height_m);
+    visit("two_sided", 0, shape.two_sided);
+    visit("columns", 0, shape.columns);
+    visit("rows", 0, shape.rows);
+    visit("spacing_x_m", 0, shape.spacing_x_m);
+    visit("spacing_z_m", 0, shape.spacing_z_m);
+    visit_vector("normal", 0, shape.normal, visit);
+    visit("offset_m", 0, shape.offset_m);
+}
+
+template <typename Tool, typename Visit>
+void for_each_field(
+    Tool &tool, Visit &&visit) requires std::is_same_v<std::remove_const_t<Tool>, ToolDescription> {
+    visit("kind", 0, tool.kind);
+    visit("radius_m", 0, tool.radius_m);
+    visit("half_thickness_m", 0, tool.half_thickness_m);
+    visit("skin_m", 0, tool.skin_m);
+}
+
+} // namespace spidar
