@@ -127,6 +127,7 @@ spidar::HandFeel SpidarGHand::feel() const {
     feel.stiffness_n_m = contact_stiffness_n_m_;
     feel.damping_n_s_m = contact_damping_n_s_m_;
     feel.friction = contact_friction_;
+    feel.centres_itself = !hold_.holds() && spidar_->get_state() != SpidarG::STATE_ACTIVE;
     feel.pinched = hold_.holds() ? 0 : pinch_.body;
     feel.squeeze_nm_rad = hold_.holds() ? held_squeeze_nm_rad_ : pinch_.squeeze_nm_rad;
     const double hz = Engine::get_singleton()->get_physics_ticks_per_second();

@@ -10,6 +10,8 @@ namespace spidar {
 
 namespace {
 
+// Fingers that squeeze with 0.6 N overcome a tenth of the springs' stiffness 6 mm beside the middle of what they close on.
+constexpr double kCentringPart = 0.1;
 constexpr double kSoftestSqueeze_nm_rad = 0.02;
 constexpr double kFirmestSqueeze_nm_rad = 0.4;
 
@@ -21,6 +23,13 @@ DofGains stiffness_of(const HandFeel &feel, const ServoSettings &settings) noexc
         feel.stiffness_n_m > 0.0 ? feel.stiffness_n_m / stiffness_cap(caps, 0).most : 0.0;
     for (std::size_t dof = 0; dof < stiffness.size(); ++dof) {
         stiffness[dof] = share * stiffness_cap(caps, dof).most;
+    }
+    if (feel.centres_itself) {
+        for (std::size_t dof = 0; dof < 3; ++dof) {
+            const double own =
+                share > 0.0 ? stiffness[dof] : kAutomaticShare * stiffness_cap(caps, dof).most;
+            stiffness[dof] = kCentringPart * own;
+        }
     }
     if (feel.squeeze_nm_rad > 0.0) {
         const std::size_t grasp = stiffness.size() - 1;

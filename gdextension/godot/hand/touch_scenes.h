@@ -19,7 +19,9 @@ struct HandFeel {
     double damping_n_s_m = 2.0;
     double friction = 0.4;
     double squeeze_nm_rad = 0.0; // of what is between the pads, or held; 0: automatic
-    std::uint64_t pinched = 0;   // RID of the body between the pads: it cannot get out of their way
+    // No force reaches the hand, so none centres it on what it closes on: the pads centre themselves.
+    bool centres_itself = false;
+    std::uint64_t pinched = 0; // RID of the body between the pads: it cannot get out of their way
     // Of what else a push moves: N/m for a kilogram, so that it does not bounce between the push and its answer a frame later.
     double pushed_n_m_kg = 0.0;
 };

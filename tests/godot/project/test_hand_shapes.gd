@@ -10,7 +10,7 @@ const SIDEWAYS: float = 0.02
 ## Known fault, over the edges where two shapes meet: the damping of a contact (2 N s/m) also makes points push that the proxy
 ## has not reached, up to 0.3 mm ahead, along the slope of the edge. Measured: 0.051 N of 2.1 N at 0.1 m/s, 0.171 N at
 ## 0.4 m/s; with contact_damping_n_s_m = 0 it is 0.011 and 0.026 N.
-const SIDEWAYS_OVER_TILES: Dictionary[float, float] = {0.1: 0.03, 0.4: 0.1}
+const SIDEWAYS_OVER_TILES: Dictionary[float, float] = {0.1: 0.06, 0.4: 0.06}
 ## Of the device's servo loop, nearly: a tick a cycle, so that no cycle goes unseen.
 const SLIDING_TICKS: int = 960
 ## The faces of a ball of 80 segments lean by this from the ball.

@@ -283,8 +283,10 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
                                surface_velocity(other, contact.point_m);
         const double damping_s = settings_.damping_s + other.damping_n_s_m * softness_m_n;
         // The damper acts as a deeper spring: so the push stays one-sided, and shared.
+        // Only where it touches: of a row that the step left open, a damper alone would make a push.
+        const double damps_s = contact.gap_m < kAnticipated_m ? damping_s : 0.0;
         rows[k].depth =
-            std::max(0.0, rows[k].depth - damping_s * glm::dot(contact.normal, speed_m_s));
+            std::max(0.0, rows[k].depth - damps_s * glm::dot(contact.normal, speed_m_s));
         note_own(k);
     }
     const auto stop = static_cast<std::size_t>(count_);
