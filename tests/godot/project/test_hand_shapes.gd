@@ -7,9 +7,8 @@ const BESIDE := Vector3(0.005, 0.0, 0.003)
 const SAME: float = 0.05
 const RIPPLE_N: float = 0.05
 const SIDEWAYS: float = 0.02
-## Known fault, over the edges where two shapes meet: the damping of a contact (2 N s/m) also makes points push that the proxy
-## has not reached, up to 0.3 mm ahead, along the slope of the edge. Measured: 0.051 N of 2.1 N at 0.1 m/s, 0.171 N at
-## 0.4 m/s; with contact_damping_n_s_m = 0 it is 0.011 and 0.026 N.
+## Known fault, over the edges where two shapes meet: a point that is only just reached pushes along the slope of the edge, and its
+## damper more. Measured: 0.104 N of 2.1 N at 0.1 m/s, 0.070 N at 0.4 m/s.
 const SIDEWAYS_OVER_TILES: Dictionary[float, float] = {0.1: 0.06, 0.4: 0.06}
 ## Of the device's servo loop, nearly: a tick a cycle, so that no cycle goes unseen.
 const SLIDING_TICKS: int = 960
