@@ -164,7 +164,9 @@ func _draw(socket: LinkSocket, at: Transform3D) -> void:
 		if mate == null:
 			return
 		var far_m := at.origin.distance_to(mate.global_position) / scale_m
-		if far_m <= latch_m and _turn(socket, at, mate) <= latch_rad:
+		# The magnet draws the body itself, ahead of the hand: whichever comes there first snaps in.
+		var body_m := socket.global_position.distance_to(mate.global_position) / scale_m
+		if minf(far_m, body_m) <= latch_m and _turn(socket, at, mate) <= latch_rad:
 			_latch(socket, mate)
 		if not _latched.has(socket):
 			_pull(socket, at, mate, smoothstep(CAPTURE_M, FULL_M, far_m))
