@@ -28,7 +28,6 @@ constexpr double kRowSoftness = 1e-7;
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
-constexpr std::size_t kGrasp = 6;
 
 double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexcept {
     double sum = 0.0;
@@ -85,7 +84,16 @@ void ToolProxy::offer(const ProxyContact &contact) noexcept {
     }
 }
 
-void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene, double dt_s,
+double ToolProxy::margin_for(const ContactScene &scene, double dt_s) const noexcept {
+    double fastest_m_s = 0.0; // where the tool is
+    for (int s = 0; s < scene.count; ++s) {
+        const ScenePart &part = scene.parts[static_cast<std::size_t>(s)];
+        fastest_m_s = std::max(fastest_m_s, glm::length(surface_velocity(part, pose_.position_m)));
+    }
+    return settings_.margin_m + fastest_m_s * dt_s / (1.0 - kPartOfMargin);
+}
+
+void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
                               ProxyMemory &memory) noexcept {
     count_ = 0;
     ClosestPoints found;
@@ -99,7 +107,6 @@ void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene, doubl
             }
             const Vec3 tool_m =
                 glm::transpose(other.at.rotation) * (at.origin_m - other.at.origin_m);
-            const double margin_m = settings_.margin_m + dt_s * glm::length(other.velocity_m_s);
             if (is_far(*part.shape, tool_m, *other.shape, margin_m)) {
                 continue;
             }
@@ -202,7 +209,7 @@ ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, 
 }
 
 bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                             double dt_s) noexcept {
+                             double most_m, double dt_s) noexcept {
     const Move target = scaled(between(pose_, device));
     std::array<double, kMaxRows> least{};
     for (int i = 0; i < count_; ++i) {
@@ -220,14 +227,13 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     const auto stop = static_cast<std::size_t>(count_);
     row_count_ = count_ + 1;
     rows_[stop] = ConstraintRow();
-    rows_[stop].row[kGrasp] = -1.0 / root_[kGrasp];
+    rows_[stop].row[kGraspLane] = -1.0 / root_[kGraspLane];
     least[stop] = pose_.grasp_rad - tool.closes_to_rad();
     rows_[stop].depth = least[stop] - dot(rows_[stop].row, target);
     const RowPushes<kMaxRows> solved =
         solve_rows<kMaxRows>(rows_, row_count_, active_mask_, kRowSoftness);
     active_mask_ = solved.active_mask;
     Move step = nearest_to(target, rows_, solved);
-    const double most_m = kPartOfMargin * settings_.margin_m;
     const bool cut = length_of(step, tool) > most_m;
     if (cut) {
         step = shortened(step, least, tool, most_m);
@@ -359,11 +365,12 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     if (!known) {
         return; // nothing pushes, and the proxy waits
     }
+    const double margin_m = margin_for(scene, dt_s);
     double left_s = dt_s; // of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
-        find_contacts(tool, scene, left_s, memory);
-        again = step_towards(tool, scene, device, left_s);
+        find_contacts(tool, scene, margin_m, memory);
+        again = step_towards(tool, scene, device, kPartOfMargin * margin_m, left_s);
         ++passes_;
         for (int s = 0; s < scene.count && left_s > 0.0; ++s) {
             move_on(scene.parts[static_cast<std::size_t>(s)], left_s);

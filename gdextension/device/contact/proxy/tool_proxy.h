@@ -48,7 +48,7 @@ struct ProxySettings {
     // Damping of each contact and of the jaws' stop, in parts of its own stiffness (unit: s), along its normal and along
     // its surface: 2 N s/m where it gives way by 1000 N/m.
     double damping_s = 0.002;
-    // Surfaces nearer than this are looked at in a cycle, and what moves that much sooner: a hand at 2 m/s covers 2 mm in
+    // Surfaces nearer than this are looked at in a cycle, further where something moves: a hand at 2 m/s covers 2 mm in
     // three looks.
     double margin_m = 0.001;
 };
@@ -95,8 +95,9 @@ private:
     // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.
     [[nodiscard]] Move unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
                                  const Vec3 &direction) const noexcept;
-    // dt_s: of the scene's motion that is still to come.
-    void find_contacts(const Tool &tool, const ContactScene &scene, double dt_s,
+    // How far to look in a cycle: the tool may move by kPartOfMargin of it, and what moves comes nearer meanwhile.
+    [[nodiscard]] double margin_for(const ContactScene &scene, double dt_s) const noexcept;
+    void find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
                        ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
     [[nodiscard]] Move scaled(const Displacement &by) const noexcept;
@@ -111,8 +112,9 @@ private:
     [[nodiscard]] Move shortened(const Move &step, const std::array<double, kMaxRows> &least,
                                  const Tool &tool, double most_m) const noexcept;
     // True: another look from where the proxy is now may bring it nearer to the device.
+    // most_m: no point of the tool moves further. dt_s: of the scene's motion that is still to come.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                      double dt_s) noexcept;
+                      double most_m, double dt_s) noexcept;
     void push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
               const Twist &velocity) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,

@@ -13,7 +13,6 @@ namespace {
 
 // A friction spring goes over to a contact whose surface is turned by less than this.
 constexpr double kSameSurface = 0.7;
-constexpr std::size_t kGrasp = 6;
 
 Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
     return v - glm::dot(normal, v) * normal;
@@ -68,7 +67,7 @@ double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
             moves_along(tool.parts[contact.tool_part], tool.jaws, pose_, contact.point_m, slides)
                 .grasp_rad;
         turns += contact.push_n / all_n *
-                 (glm::dot(lever_m, lever_m) / turn_nm_rad + jaw_m_rad * jaw_m_rad / k[kGrasp]);
+                 (glm::dot(lever_m, lever_m) / turn_nm_rad + jaw_m_rad * jaw_m_rad / k[kGraspLane]);
     }
     return 1.0 / std::max(1.0, k[0] * turns);
 }

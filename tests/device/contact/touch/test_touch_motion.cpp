@@ -4,108 +4,62 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
-#include "device/contact/touch/touch_renderer.h"
 #include "device/contract/dof_lanes.h"
-#include "support/servo_fixture.h"
+#include "support/case_random.h"
 #include "support/touch_gates.h"
+#include "support/touch_rig.h"
 
 using namespace spidar;
 using namespace spidar::test;
 
 namespace {
 
-struct Dice {
-    std::mt19937_64 engine;
-    explicit Dice(std::uint64_t seed) : engine(seed) {}
-    double between(double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(engine);
-    }
-    Vec3 vector(double size) {
-        return {between(-size, size), between(-size, size), between(-size, size)};
-    }
-    Vec3 unit() {
-        const Vec3 v = vector(1.0) + Vec3(1e-9);
-        return v / glm::length(v);
-    }
-};
-
-// A step with a game that publishes at its own rate, and a device that is put anywhere.
-struct Rig {
-    ServoSettings settings;
-    ProxyMemory memory;
-    TouchRenderer renderer;
-    GripMotion motion;
-    double time_s = 0.0;
-    std::uint64_t sequence = 0;
-
-    Rig() {
-        renderer.use(&memory);
-        renderer.configure(settings);
-        motion.grip.frame.rotation = Mat3(1.0);
-    }
-    void give(TouchScene &touch) {
-        touch.state_time_s = time_s;
-        REQUIRE(usable(validate(touch)));
-        (void)renderer.accept(touch, ++sequence, time_s);
-    }
-    Wrench tick() {
-        time_s += kTick_s;
-        (void)renderer.age(kTick_s);
-        return renderer.render(motion, kTick_s);
-    }
-    [[nodiscard]] TouchReport report() const {
-        TouchReport told;
-        renderer.report(told);
-        return told;
-    }
-    [[nodiscard]] ToolPose device() const {
-        return {motion.grip.pose.position_m, motion.grip.frame.rotation,
-                motion.grip.frame.grasp_angle_rad};
-    }
-};
+Vec3 unit(CaseRandom &random) {
+    const Vec3 v = random.vector(1.0) + Vec3(1e-9);
+    return v / glm::length(v);
+}
 
 } // namespace
 
 TEST_CASE("touch: at rest the springs pull with what the contacts push, none pulls, and none is "
           "entered") {
-    Dice dice(21);
+    CaseRandom random(21, 0);
     int touching = 0;
     for (int round = 0; round < 150; ++round) {
         CAPTURE(round);
-        Rig rig;
+        TouchRig rig;
         TouchScene touch;
         touch.damping_n_s_m = 0.0;
         if (round % 2 == 0) {
             add_pads(touch);
         }
         if (round % 3 != 0) {
-            ToolPart &bar = add_tool(touch, box_tool({dice.between(0.03, 0.15), 0.01, 0.008}));
-            bar.at = {dice.vector(0.01), rotation_exp(dice.vector(0.5))};
+            ToolPart &bar = add_tool(touch, box_tool({random.between(0.03, 0.15), 0.01, 0.008}));
+            bar.at = {random.vector(0.01), rotation_exp(random.vector(0.5))};
         } else {
             add_tool(touch, make_sphere(0.015));
         }
-        const int walls = 1 + static_cast<int>(dice.engine() % 4);
+        const int walls = 1 + static_cast<int>(random.bits() % 4);
         for (int i = 0; i < walls; ++i) {
-            const Vec3 normal = dice.unit();
+            const Vec3 normal = unit(random);
             // A half space's surface is at its origin, its normal +y.
             const Vec3 axis = glm::cross(Vec3(0.0, 1.0, 0.0), normal);
             const double angle = std::atan2(glm::length(axis), normal.y);
             add(touch, cooked_half_space(),
                 {-0.08 * normal, rotation_exp(angle / glm::length(axis) * axis)});
         }
-        add(touch, cooked_box({0.05, 0.02, 0.03}),
-            {Vec3(0.0, -0.08, 0.0), rotation_exp(dice.vector(1.0))});
+        add(touch, box({0.05, 0.02, 0.03}),
+            {Vec3(0.0, -0.08, 0.0), rotation_exp(random.vector(1.0))});
         rig.give(touch);
         rig.tick();
         // Into something, slowly enough for a hand, then still.
-        const Vec3 way_m = 0.08 * dice.unit();
-        const Vec3 turn_rad = 0.3 * dice.unit();
+        const Vec3 way_m = 0.08 * unit(random);
+        const Vec3 turn_rad = 0.3 * unit(random);
         for (int i = 1; i <= 300; ++i) {
             const double part = std::min(1.0, i / 200.0);
             rig.motion.grip.pose.position_m = part * way_m;
@@ -142,19 +96,19 @@ TEST_CASE("touch: at rest the springs pull with what the contacts push, none pul
 
 TEST_CASE(
     "touch: a plate that moves into a resting hand never passes it, whatever the game's rate") {
-    Dice dice(22);
-    for (int round = 0; round < 200; ++round) {
+    CaseRandom random(22, 0);
+    for (int round = 0; round < 1000; ++round) {
         CAPTURE(round);
-        Rig rig;
+        TouchRig rig;
         TouchScene touch;
         add_pads(touch);
-        const double half_m = dice.between(0.0005, 0.01);
-        ScenePart &plate = add(touch, cooked_box({0.15, half_m, 0.15}));
-        const double speed_m_s = dice.between(0.05, 2.0);
+        const double half_m = random.between(0.0005, 0.01);
+        ScenePart &plate = add(touch, box({0.15, half_m, 0.15}));
+        const double speed_m_s = random.between(0.05, 2.0);
         const int ticks =
-            4 + static_cast<int>(dice.engine() % 30); // of the servo loop in a frame: 240 to 30 Hz
+            4 + static_cast<int>(random.bits() % 30); // of the servo loop in a frame: 240 to 30 Hz
         plate.velocity_m_s.y = speed_m_s;
-        rig.motion.grip.frame.rotation = rotation_exp(dice.vector(1.0));
+        rig.motion.grip.frame.rotation = rotation_exp(random.vector(1.0));
         constexpr double kStart_m = -0.06;
         double entered_m = 0.0;
         for (int i = 0; kStart_m + speed_m_s * rig.time_s < 0.03; ++i) {
@@ -166,6 +120,9 @@ TEST_CASE(
             const double top_m = kStart_m + speed_m_s * rig.time_s + half_m;
             const TouchReport told = rig.report();
             // The pads' middle is above the plate, and once it was reached it pushes up.
+            for (int p = 0; p < told.point_count; ++p) {
+                CHECK(told.points[static_cast<std::size_t>(p)].gap_m > -1e-5);
+            }
             entered_m = std::max(entered_m, top_m - told.position_m.y - 0.003);
             if (top_m > 0.0) {
                 CHECK(wrench.force_n.y > 0.0);
@@ -177,7 +134,7 @@ TEST_CASE(
 
 TEST_CASE("touch: thrown and pressed 50 mm deep at plates, meshes, corners and slots, a hand "
           "passes nothing") {
-    Dice dice(23);
+    CaseRandom random(23, 0);
     const auto sheet = [](bool two_sided) {
         // A flat mesh of 20 mm triangles, front up.
         ShapeDescription mesh;
@@ -213,15 +170,15 @@ TEST_CASE("touch: thrown and pressed 50 mm deep at plates, meshes, corners and s
     field.spacing_z_m = 0.02;
     field.heights_m.assign(121, 0.0F);
     const auto map = cooked(std::move(field));
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < 1000; ++round) {
         CAPTURE(round);
-        Rig rig;
+        TouchRig rig;
         TouchScene touch;
         add_pads(touch);
         switch (round % 5) {
         case 0: {
-            const double half_m = dice.between(0.0005, 0.01);
-            add(touch, cooked_box({0.1, half_m, 0.1}), {Vec3(0.0, -half_m, 0.0), Mat3(1.0)});
+            const double half_m = random.between(0.0005, 0.01);
+            add(touch, box({0.1, half_m, 0.1}), {Vec3(0.0, -half_m, 0.0), Mat3(1.0)});
             break;
         }
         case 1:
@@ -234,19 +191,19 @@ TEST_CASE("touch: thrown and pressed 50 mm deep at plates, meshes, corners and s
             add(touch, map);
             break;
         default: // a corner of three plates
-            add(touch, cooked_box({0.1, 0.002, 0.1}), {Vec3(0.0, -0.002, 0.0), Mat3(1.0)});
-            add(touch, cooked_box({0.002, 0.1, 0.1}), {Vec3(-0.102, 0.05, 0.0), Mat3(1.0)});
-            add(touch, cooked_box({0.1, 0.1, 0.002}), {Vec3(0.0, 0.05, -0.102), Mat3(1.0)});
+            add(touch, box({0.1, 0.002, 0.1}), {Vec3(0.0, -0.002, 0.0), Mat3(1.0)});
+            add(touch, box({0.002, 0.1, 0.1}), {Vec3(-0.102, 0.05, 0.0), Mat3(1.0)});
+            add(touch, box({0.1, 0.1, 0.002}), {Vec3(0.0, 0.05, -0.102), Mat3(1.0)});
             break;
         }
-        const int frame = 4 + static_cast<int>(dice.engine() % 30);
-        rig.motion.grip.frame.rotation = rotation_exp(dice.vector(1.5));
+        const int frame = 4 + static_cast<int>(random.bits() % 30);
+        rig.motion.grip.frame.rotation = rotation_exp(random.vector(1.5));
         rig.motion.grip.frame.grasp_angle_rad =
-            dice.between(0.5, 0.8); // the pads' middles 5 to 35 mm apart
-        const Vec3 start_m(dice.between(-0.03, 0.03), 0.06, dice.between(-0.03, 0.03));
-        const double speed_m_s = dice.between(0.1, 2.0);
+            random.between(0.5, 0.8); // the pads' middles 5 to 35 mm apart
+        const Vec3 start_m(random.between(-0.03, 0.03), 0.06, random.between(-0.03, 0.03));
+        const double speed_m_s = random.between(0.1, 2.0);
         const Vec3 along =
-            glm::normalize(Vec3(dice.between(-0.2, 0.2), -1.0, dice.between(-0.2, 0.2)));
+            glm::normalize(Vec3(random.between(-0.2, 0.2), -1.0, random.between(-0.2, 0.2)));
         double lowest_m = 1.0;
         double gone_m = 0.0;
         for (int i = 0; start_m.y + gone_m * along.y > -0.05; ++i) {

@@ -11,62 +11,13 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/rotation_log.h"
-#include "device/contact/touch/touch_renderer.h"
 #include "support/allocation_trap.h"
-#include "support/servo_fixture.h"
-#include "support/touch_scenes.h"
+#include "support/touch_rig.h"
 
 using namespace spidar;
 using namespace spidar::test;
 
 namespace {
-
-// A renderer that is fed a pose by hand.
-struct Rig {
-    ServoSettings settings;
-    ProxyMemory memory;
-    TouchRenderer renderer;
-    GripMotion motion;
-    double time_s = 0.0;
-    std::uint64_t sequence = 0;
-
-    Rig() {
-        renderer.use(&memory);
-        renderer.configure(settings);
-        motion.grip.frame.rotation = Mat3(1.0);
-    }
-    // Taken in the next cycle. The scene is as of now.
-    void give(TouchScene &touch) {
-        touch.state_time_s = time_s;
-        REQUIRE(usable(validate(touch)));
-        given = std::make_shared<TouchScene>(touch);
-    }
-    Wrench tick() {
-        time_s += kTick_s;
-        expired += renderer.age(kTick_s) ? 1 : 0;
-        if (given) {
-            (void)renderer.accept(*given, ++sequence, time_s);
-            given.reset();
-        }
-        const Wrench wrench = renderer.render(motion, kTick_s);
-        renderer.integrate(1.0, kTick_s);
-        return wrench;
-    }
-    Wrench ticks(int count) {
-        Wrench last;
-        for (int i = 0; i < count; ++i) {
-            last = tick();
-        }
-        return last;
-    }
-    TouchReport report() const {
-        TouchReport told;
-        renderer.report(told);
-        return told;
-    }
-    int expired = 0;
-    std::shared_ptr<TouchScene> given;
-};
 
 double automatic_n_m(const ServoSettings &settings) {
     return kAutomaticShare * gain_caps(settings.render, settings.rate_hz).stiffness_n_m;
@@ -77,7 +28,7 @@ double automatic_n_m(const ServoSettings &settings) {
 TEST_CASE(
     "touch: a floor pushes with the automatic stiffness, 60 % of the cap, or with what was asked") {
     for (const double asked_n_m : {0.0, 500.0}) {
-        Rig rig;
+        TouchRig rig;
         FloorScene floor(0.0, asked_n_m);
         rig.motion.grip.pose.position_m.y = kBall_m + 0.001;
         rig.give(floor.touch);
@@ -91,7 +42,7 @@ TEST_CASE(
 }
 
 TEST_CASE("touch: a stiffness above the cap is brought down to it, and told") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor(0.0, 1e5);
     floor.touch.state_time_s = 0.0;
     const GainClamp clamp = rig.renderer.accept(floor.touch, 1, 0.0);
@@ -105,7 +56,7 @@ TEST_CASE("touch: a stiffness above the cap is brought down to it, and told") {
 }
 
 TEST_CASE("touch: where nothing is near, the proxy is the device and no shape is looked at") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor(-1.0);
     rig.give(floor.touch);
     rig.motion.grip.pose.position_m = Vec3(0.01, 0.02, 0.03);
@@ -120,7 +71,7 @@ TEST_CASE("touch: where nothing is near, the proxy is the device and no shape is
 }
 
 TEST_CASE("touch: a floor that moves is felt where it is, between the frames of a game") {
-    Rig rig;
+    TouchRig rig;
     constexpr double kSpeed_m_s = 0.1;
     FloorScene floor;
     floor.touch.damping_n_s_m = 0.0;
@@ -144,7 +95,7 @@ TEST_CASE("touch: a floor that moves is felt where it is, between the frames of 
 
 TEST_CASE("touch: what a new scene corrects comes within a game frame, without a blow; what was "
           "put elsewhere is there at once") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor;
     floor.touch.damping_n_s_m = 0.0;
     rig.motion.grip.pose.position_m.y = kBall_m + 0.001;
@@ -168,7 +119,7 @@ TEST_CASE("touch: what a new scene corrects comes within a game frame, without a
 }
 
 TEST_CASE("touch: a game that falls silent fades away, and comes back without a blow") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor;
     rig.motion.grip.pose.position_m.y = kBall_m + 0.001;
     rig.give(floor.touch);
@@ -190,7 +141,7 @@ TEST_CASE("touch: a game that falls silent fades away, and comes back without a 
 }
 
 TEST_CASE("touch: a load is felt in full in free air, and not at all on what carries it") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor(0.0, 800.0);
     floor.touch.load.force_n.y = -0.8;
     rig.motion.grip.pose.position_m.y = kBall_m;
@@ -215,7 +166,7 @@ TEST_CASE("touch: a load is felt in full in free air, and not at all on what car
 }
 
 TEST_CASE("touch: jaws stop where they hold something, or on each other") {
-    Rig rig;
+    TouchRig rig;
     TouchScene held;
     held.tool.stop_rad = 0.3;
     rig.give(held);
@@ -238,7 +189,7 @@ TEST_CASE("touch: jaws stop where they hold something, or on each other") {
 }
 
 TEST_CASE("touch: DOF that are not felt push nobody, and the load is felt all the same") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor(0.0, 800.0);
     floor.touch.felt = 0b1000000;
     rig.motion.grip.pose.position_m.y = kBall_m + 0.001;
@@ -250,7 +201,7 @@ TEST_CASE("touch: DOF that are not felt push nobody, and the load is felt all th
 }
 
 TEST_CASE("touch: pads and what they hold touch what they are meant to") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor;
     floor.touch.scene.parts[0].groups = kHeldGroup;
     floor.touch.tool.parts[0].groups = kPadGroup;
@@ -263,7 +214,7 @@ TEST_CASE("touch: pads and what they hold touch what they are meant to") {
 }
 
 TEST_CASE("touch: what does not change costs nothing, and is counted") {
-    Rig rig;
+    TouchRig rig;
     FloorScene floor;
     rig.motion.grip.pose.position_m.y = kBall_m + 0.001;
     rig.give(floor.touch);
@@ -279,7 +230,7 @@ TEST_CASE("touch: what does not change costs nothing, and is counted") {
 }
 
 TEST_CASE("touch: no cycle allocates, and none says anything that is not finite") {
-    Rig rig;
+    TouchRig rig;
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal;
     TouchScene touch;
@@ -288,7 +239,7 @@ TEST_CASE("touch: no cycle allocates, and none says anything that is not finite"
     add_tool(touch, make_pad(0.012, 0.003, 0.003), ToolMount::jaw_plus,
              {Vec3(0.003, 0.0, 0.0), Mat3(1.0)});
     for (int i = 0; i < 8; ++i) {
-        ScenePart &part = add(touch, cooked_box(Vec3(0.02)));
+        ScenePart &part = add(touch, box(Vec3(0.02)));
         part.friction = 0.5;
     }
     std::size_t allocated = 0;
