@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "device/recording/codec/command_fields.h"
 #include "device/recording/recorder.h"
 #include "device/recording/replay.h"
 #include "support/servo_fixture.h"
@@ -118,6 +119,29 @@ public:
     std::vector<std::uint64_t> bits;
     ServoSnapshot last;
 };
+
+// The rest of the cycles of one file into another, as they are but for what `change` does to each; a memory before each
+// segment where `memories`. touch: the scene that every command points to.
+template <typename Change>
+void copy_cycles(RecordingReader &reader, RecordingWriter &writer, bool memories,
+                 const TouchScene *touch, Change &&change) {
+    RecordedCycle cycle;
+    HapticCommand command;
+    command.touch = touch;
+    while (reader.next(cycle)) {
+        if (memories && cycle.segment_start) {
+            writer.memory(reader.memory());
+        }
+        load_words(cycle.command_words, command);
+        CycleRecord record;
+        record.input = cycle.input;
+        record.tick = cycle.tick;
+        record.segment_start = cycle.segment_start;
+        record.command_is_new = cycle.command_is_new;
+        change(record);
+        writer.cycle(record, command);
+    }
+}
 
 struct Replayed {
     std::string problem; // it did not even start

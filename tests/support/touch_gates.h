@@ -28,7 +28,7 @@ inline void add_pads(TouchScene &touch) {
 }
 
 inline ToolResult box_tool(const Vec3 &half_extents_m) {
-    return make_tool(*cooked_box(half_extents_m));
+    return make_tool(*box(half_extents_m));
 }
 
 inline TouchScene scene_of(TouchWall wall) {
@@ -44,14 +44,14 @@ inline TouchScene scene_of(TouchWall wall) {
         break;
     case TouchWall::width:
         add_pads(touch);
-        add(touch, cooked_box({0.04, 0.03, 0.03}));
+        add(touch, box({0.04, 0.03, 0.03}));
         break;
     case TouchWall::peg: {
         add_tool(touch, box_tool({0.01, 0.03, 0.01}));
         constexpr double kThick_m = 0.02;
         constexpr double kHole_m = 0.0105;
-        const auto block = cooked_box({kThick_m, 0.05, 0.06});
-        const auto other = cooked_box({0.06, 0.05, kThick_m});
+        const auto block = box({kThick_m, 0.05, 0.06});
+        const auto other = box({0.06, 0.05, kThick_m});
         add(touch, block, {Vec3(kHole_m + kThick_m, 0.0, 0.0), Mat3(1.0)});
         add(touch, block, {Vec3(-kHole_m - kThick_m, 0.0, 0.0), Mat3(1.0)});
         add(touch, other, {Vec3(0.0, 0.0, kHole_m + kThick_m), Mat3(1.0)});

@@ -10,17 +10,9 @@
 
 namespace spidar::test {
 
-inline std::shared_ptr<const CookedShape> cooked_half_space() {
-    ShapeDescription description;
-    description.kind = ShapeKind::half_space;
-    return cooked(std::move(description));
-}
-
-inline std::shared_ptr<const CookedShape> cooked_box(const Vec3 &half_extents_m) {
-    ShapeDescription description;
-    description.kind = ShapeKind::box;
-    description.half_extents_m = half_extents_m;
-    return cooked(std::move(description));
+// Solid below y = 0.
+inline ShapePtr cooked_half_space() {
+    return half_space(Vec3(0.0, 1.0, 0.0), 0.0);
 }
 
 // Adds a shape to a scene, which keeps it.

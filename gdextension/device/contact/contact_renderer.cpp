@@ -16,9 +16,6 @@ namespace {
 // Deeper than any grip can be in a frame of half a metre: keeps absurd offsets from overflowing.
 constexpr double kMaxDepth_m = 0.5;
 constexpr double kMaxGraspDepth_rad = 1.6;
-// No game object meets a hand faster; a larger plane velocity is a mistake of the physics engine.
-constexpr double kMaxPlaneSpeed_m_s = 10.0;
-constexpr double kMaxFriction = 10.0;
 // Below this a contact is no contact yet, and its share of a push is not a number to divide by.
 constexpr double kLeastDepth_m = 1e-9;
 // Keeps 1 / stiffness finite for a contact that only damps.
@@ -46,9 +43,8 @@ bool is_stop(const ContactPlane &plane) noexcept {
 // A DOF of the kind that the contact acts on: caps differ between the kinds.
 std::size_t kind_of_dof(const ContactPlane &plane) noexcept {
     constexpr std::size_t kTurn = 3;
-    constexpr std::size_t kGrasp = 6;
     if (is_stop(plane)) {
-        return is_grasp_stop(plane) ? kGrasp : kTurn;
+        return is_grasp_stop(plane) ? kGraspLane : kTurn;
     }
     return 0;
 }
@@ -110,8 +106,8 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
         plane.friction = capped(plane.friction, kMaxFriction, Gain::friction, index, false, clamp);
         plane.offset_m = std::clamp(plane.offset_m, -kFarAway_m, kFarAway_m);
         for (int k = 0; k < 3; ++k) {
-            plane.velocity_m_s[k] =
-                capped(plane.velocity_m_s[k], kMaxPlaneSpeed_m_s, Gain::speed, index, false, clamp);
+            plane.velocity_m_s[k] = capped(plane.velocity_m_s[k], kMaxSurfaceSpeed_m_s, Gain::speed,
+                                           index, false, clamp);
         }
 
         Track track;

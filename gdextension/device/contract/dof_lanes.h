@@ -10,6 +10,7 @@
 namespace spidar {
 
 using DofLanes = std::array<double, kDofCount>;
+inline constexpr std::size_t kGraspLane = kDofCount - 1;
 
 [[nodiscard]] inline DofLanes lanes(const Vec3 &linear, const Vec3 &angular,
                                     double grasp) noexcept {

@@ -25,7 +25,6 @@ struct ContactReport {
 // What a part of the scene got from the tool (device/contact/touch).
 struct TouchPartReport {
     std::int32_t id = 0;
-    bool touching = false;
     Vec3 impulse_ns{0.0};          // on the part, summed since this id appeared
     Vec3 angular_impulse_nms{0.0}; // about the part's origin
 };
@@ -129,9 +128,6 @@ struct ServoSnapshot {
     const TouchReport &touch = snapshot.touch;
     sound = sound && touch.part_count >= 0 && touch.part_count <= kMostTouchParts &&
             touch.point_count >= 0 && touch.point_count <= kMostTouchPoints;
-    for (const TouchPartReport &part : touch.parts) {
-        sound = sound && are_flags(part.touching);
-    }
     return sound;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
@@ -150,11 +151,10 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
                               gain(from_damping_, coupling_.damping, i + 3) *
                                   (pull.angular_rad_s[k] - v.angular_rad_s[k]);
     }
-    constexpr std::size_t kGrasp = 6;
-    wrench.grasp_torque_nm = gain(from_stiffness_, coupling_.stiffness, kGrasp) *
+    wrench.grasp_torque_nm = gain(from_stiffness_, coupling_.stiffness, kGraspLane) *
                                  (proxy.grasp_angle_rad + motion.lead_s * pull.grasp_rate_rad_s -
                                   grip.frame.grasp_angle_rad - motion.ahead.grasp_rad) +
-                             gain(from_damping_, coupling_.damping, kGrasp) *
+                             gain(from_damping_, coupling_.damping, kGraspLane) *
                                  (pull.grasp_rate_rad_s - motion.velocity.grasp_rate_rad_s);
     const double strength = strength_.value();
     wrench.force_n = strength * no_longer_than(wrench.force_n, coupling_.max_force_n);

@@ -5,9 +5,9 @@
 namespace spidar {
 
 void HapticRenderer::configure(const ServoSettings &settings) noexcept {
-    const TouchRenderer touch = parts_.touch; // its memory
+    ProxyMemory *const memory = parts_.touch.memory();
     *this = HapticRenderer();
-    parts_.touch = touch;
+    parts_.touch.use(memory);
     const RenderSettings &render = settings.render;
     parts_.motion.configure(render, settings.rate_hz);
     parts_.contacts.configure(settings);

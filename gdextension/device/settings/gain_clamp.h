@@ -36,6 +36,11 @@ struct GainClamp {
     explicit operator bool() const noexcept { return gain != Gain::none; }
 };
 
+// What no hand can use more of, whatever the settings: a Coulomb coefficient, and the speed of a surface. A faster one is a
+// mistake of the physics engine.
+inline constexpr double kMaxFriction = 10.0;
+inline constexpr double kMaxSurfaceSpeed_m_s = 10.0;
+
 // Brings |value| down to the cap and notes it; the first note of a request stands.
 inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_t index,
                      bool from_latency, GainClamp &clamp) noexcept {

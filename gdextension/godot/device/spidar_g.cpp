@@ -9,6 +9,7 @@
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
+#include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 #include "godot/device/live_limits.h"
 
@@ -318,8 +319,7 @@ void SpidarG::physics_tick() {
     if (!loop_) {
         return;
     }
-    const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
-    move_limits(1.0 / (hz > 0 ? hz : 60));
+    move_limits(spidar::physics_tick_s());
     if (requests_.wrench_changes(snapshot_.time_s)) {
         publish_wrench();
     }
@@ -329,7 +329,7 @@ void SpidarG::physics_tick() {
         replay_tick();
     } else {
         if (drive_mode_ == DRIVE_STEPPED) {
-            loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
+            loop_->advance(1, spidar::physics_ticks_per_second());
         }
         pull_snapshot(true);
     }

@@ -180,7 +180,6 @@ public:
     // The newest that the device told, device frame.
     [[nodiscard]] const spidar::ServoSnapshot &snapshot() const { return snapshot_; }
     [[nodiscard]] spidar::WorldFrame world() const;
-    [[nodiscard]] const spidar::NodeMotion &node_motion() const { return motion_; }
     [[nodiscard]] const spidar::ServoSettings &servo_settings() const { return settings_; }
 
     // State (spidar_g_state.cpp). World coordinates.

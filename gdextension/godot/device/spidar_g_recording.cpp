@@ -1,11 +1,11 @@
 // Recording what the servo loop does, and playing a recording in place of a device.
 #include "godot/device/spidar_g.h"
 
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "device/recording/replay.h"
+#include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 
 using godot::String;
@@ -163,8 +163,7 @@ void SpidarG::replay_tick() {
         return;
     }
     // The recorded game read no more: what is left passes at the clock's pace.
-    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
-    loop_->advance(1, static_cast<std::uint32_t>(hz > 0 ? hz : 60));
+    loop_->advance(1, spidar::physics_ticks_per_second());
     pull_snapshot(true);
 }
 

@@ -5,9 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include <godot_cpp/classes/engine.hpp>
-
 #include "device/contract/grip_points.h"
+#include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 
 using spidar::ContactPlane;
@@ -130,9 +129,8 @@ void SpidarG::publish_contacts() {
 }
 
 void SpidarG::note_place() {
-    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
-    if (is_inside_tree() && hz > 0) {
-        motion_.note(world(), 1.0 / hz);
+    if (is_inside_tree()) {
+        motion_.note(world(), spidar::physics_tick_s());
     }
 }
 

@@ -14,6 +14,7 @@
 #include <godot_cpp/classes/world3d.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
+#include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 
 using godot::Engine;
@@ -104,8 +105,7 @@ void SpidarGHand::gather() {
     space.space = world->get_space();
     space.now = now_;
     space.stepped = stepped();
-    const int hz = Engine::get_singleton()->get_physics_ticks_per_second();
-    space.tick_s = 1.0 / (hz > 0 ? hz : 60);
+    space.tick_s = spidar::physics_tick_s();
     space.time_scale = Engine::get_singleton()->get_time_scale();
     const spidar::SearchVolume pads = pads_volume();
     if (hold_.holds() && !hold_.is_detained()) {
@@ -130,8 +130,8 @@ spidar::HandFeel SpidarGHand::feel() const {
     feel.centres_itself = !hold_.holds() && spidar_->get_state() != SpidarG::STATE_ACTIVE;
     feel.pinched = hold_.holds() ? 0 : pinch_.body;
     feel.squeeze_nm_rad = hold_.holds() ? held_squeeze_nm_rad_ : pinch_.squeeze_nm_rad;
-    const double hz = Engine::get_singleton()->get_physics_ticks_per_second();
-    const double per_frame = hz / std::max(Engine::get_singleton()->get_time_scale(), 1.0);
+    const double per_frame = spidar::physics_ticks_per_second() /
+                             std::max(Engine::get_singleton()->get_time_scale(), 1.0);
     // Stiffness is per device metre, the body moves in scene metres.
     feel.pushed_n_m_kg =
         kPushedStiffnessRatio * per_frame * per_frame * spidar_->get_workspace_scale();

@@ -9,6 +9,7 @@
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 
+#include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 
 using godot::RigidBody3D;
@@ -28,13 +29,6 @@ constexpr double kRestingRate_rad_s = 0.3;
 constexpr double kRestTime_s = 0.04;
 // Smooths the trembling of the fingers.
 constexpr double kSqueezeTime_s = 0.024;
-// Physics engines cannot move a body much faster.
-constexpr double kFastest_m_s = 200.0;
-
-double tick_s() {
-    const int hz = godot::Engine::get_singleton()->get_physics_ticks_per_second();
-    return 1.0 / (hz > 0 ? hz : 60);
-}
 
 } // namespace
 
@@ -47,7 +41,7 @@ void SpidarGHand::_physics_process(double delta) {
     }
     now_ = spidar_->world();
     call_deferred("_remember_place");
-    clock_.read(spidar_->get_device_time_s(), tick_s());
+    clock_.read(spidar_->get_device_time_s(), spidar::physics_tick_s());
     if (clock_.elapsed_s() > 0.0) {
         read_device(clock_.elapsed_s());
     }
@@ -189,8 +183,9 @@ void SpidarGHand::watch_hold() {
         }
     }
     const bool opened = spidar_->get_grasp_angle() < held_stop_rad_ - kReleaseAngle_rad;
-    const bool broken = watch_.breaks(glm::length(press_n), break_force_n_, clock_.elapsed_s(),
-                                      hold_.stretch_m() / spidar_->get_workspace_scale(), tick_s());
+    const bool broken =
+        watch_.breaks(glm::length(press_n), break_force_n_, clock_.elapsed_s(),
+                      hold_.stretch_m() / spidar_->get_workspace_scale(), spidar::physics_tick_s());
     if (opened || broken || hold_.body()->is_freeze_enabled()) {
         release();
     }
@@ -208,7 +203,7 @@ void SpidarGHand::carry(double delta_s) {
     const spidar::ToolPose pose = proxy_pose();
     const Transform3D proxy = now_.pose_to_world(pose.position_m, pose.rotation);
     const double moved_m = glm::length(now_.origin - stepped().origin);
-    if (!hold_.is_detained() && moved_m > kFastest_m_s * delta_s) {
+    if (!hold_.is_detained() && moved_m > spidar::kFastestBody_m_s * delta_s) {
         hold_.jump(proxy);
     }
     hold_.follow(proxy);

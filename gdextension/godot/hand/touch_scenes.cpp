@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "device/contract/dof_lanes.h"
 #include "device/settings/gain_clamp.h"
 #include "godot/hand/grasp/pinch.h"
 
@@ -24,19 +25,18 @@ DofGains stiffness_of(const HandFeel &feel, const ServoSettings &settings) noexc
     for (std::size_t dof = 0; dof < stiffness.size(); ++dof) {
         stiffness[dof] = share * stiffness_cap(caps, dof).most;
     }
+    const auto own = [&](std::size_t dof) {
+        return share > 0.0 ? stiffness[dof] : kAutomaticShare * stiffness_cap(caps, dof).most;
+    };
     if (feel.centres_itself) {
         for (std::size_t dof = 0; dof < 3; ++dof) {
-            const double own =
-                share > 0.0 ? stiffness[dof] : kAutomaticShare * stiffness_cap(caps, dof).most;
-            stiffness[dof] = kCentringPart * own;
+            stiffness[dof] = kCentringPart * own(dof);
         }
     }
     if (feel.squeeze_nm_rad > 0.0) {
-        const std::size_t grasp = stiffness.size() - 1;
-        const double own =
-            share > 0.0 ? stiffness[grasp] : kAutomaticShare * stiffness_cap(caps, grasp).most;
-        stiffness[grasp] = std::min(
-            own, std::clamp(feel.squeeze_nm_rad, kSoftestSqueeze_nm_rad, kFirmestSqueeze_nm_rad));
+        stiffness[kGraspLane] =
+            std::min(own(kGraspLane), std::clamp(feel.squeeze_nm_rad, kSoftestSqueeze_nm_rad,
+                                                 kFirmestSqueeze_nm_rad));
     }
     return stiffness;
 }
@@ -48,8 +48,7 @@ double friction_of(const BodyFacts &facts, double hand_friction) noexcept {
     if (!facts.has_material) {
         return hand_friction;
     }
-    return facts.rough ? std::max(hand_friction, facts.friction)
-                       : std::min(hand_friction, facts.friction);
+    return combined_friction(hand_friction, facts.friction, facts.rough);
 }
 
 // 0: it does not give way.

@@ -57,9 +57,9 @@ public:
 private:
     int still_;
     ToolResult ball_ = make_sphere(kBall_m);
-    ToolResult bar_ = make_tool(*cooked_box(Vec3(0.02, 0.004, 0.004)));
+    ToolResult bar_ = make_tool(*box(Vec3(0.02, 0.004, 0.004)));
     ShapePtr floor_ = cooked_half_space();
-    ShapePtr box_ = cooked_box(Vec3(0.008, 0.009, 0.01));
+    ShapePtr box_ = box(Vec3(0.008, 0.009, 0.01));
     ShapePtr hills_ = cooked(field(
         6, 0.005, [](double x, double z) { return 0.002 * std::sin(900.0 * x + 500.0 * z); }));
 };
@@ -397,20 +397,7 @@ TEST_CASE("replay: a memory whose shapes are not in the file is refused") {
     const TemporaryFile bare;
     RecordingWriter writer;
     REQUIRE(writer.open(bare.path(), reader.info()) == "");
-    RecordedCycle cycle;
-    HapticCommand command;
-    while (reader.next(cycle)) {
-        if (cycle.segment_start) {
-            writer.memory(reader.memory());
-        }
-        load_words(cycle.command_words, command);
-        CycleRecord record;
-        record.input = cycle.input;
-        record.tick = cycle.tick;
-        record.segment_start = cycle.segment_start;
-        record.command_is_new = cycle.command_is_new;
-        writer.cycle(record, command);
-    }
+    copy_cycles(reader, writer, true, nullptr, [](CycleRecord &) {});
     writer.close();
     const Replayed replayed = replay(bare.path());
     CHECK(replayed.bits.empty());
@@ -430,18 +417,7 @@ TEST_CASE("replay: shapes and scenes of another build are passed over") {
     RecordingWriter writer;
     REQUIRE(writer.open(other.path(), info) == "");
     writer.shape(*scene->shapes.front());
-    RecordedCycle cycle;
-    HapticCommand command;
-    command.touch = scene.get();
-    while (reader.next(cycle)) {
-        load_words(cycle.command_words, command);
-        CycleRecord record;
-        record.input = cycle.input;
-        record.tick = cycle.tick;
-        record.segment_start = cycle.segment_start;
-        record.command_is_new = cycle.command_is_new;
-        writer.cycle(record, command);
-    }
+    copy_cycles(reader, writer, false, scene.get(), [](CycleRecord &) {});
     writer.close();
     const Replayed replayed = replay(other.path());
     CHECK(replayed.problem == "");

@@ -16,9 +16,6 @@ namespace {
 // A part that a new scene puts further away than this was put there: nothing lies in between.
 constexpr double kJump_m = 0.05;
 constexpr double kJump_rad = 0.5;
-constexpr double kMaxFriction = 10.0;
-// As ContactRenderer's.
-constexpr double kMaxPartSpeed_m_s = 10.0;
 // Of a soft contact: the velocity is measured over some milliseconds.
 constexpr double kMostDamping_s = 0.01;
 
@@ -42,7 +39,7 @@ Wrench blend(const Wrench &from, const Wrench &to, double share) noexcept {
 Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp) noexcept {
     const double speed_m_s = glm::length(velocity_m_s);
     const double given_m_s =
-        capped(speed_m_s, kMaxPartSpeed_m_s, GainClamp::Gain::speed, index, false, clamp);
+        capped(speed_m_s, kMaxSurfaceSpeed_m_s, GainClamp::Gain::speed, index, false, clamp);
     return given_m_s < speed_m_s ? (given_m_s / speed_m_s) * velocity_m_s : velocity_m_s;
 }
 
@@ -218,13 +215,13 @@ bool TouchRenderer::age(double dt_s) noexcept {
     return true;
 }
 
-void TouchRenderer::carry(double dt_s) noexcept {
+bool TouchRenderer::carry(double dt_s) noexcept {
     const bool carries = clock_.carries();
     const double left_s = std::clamp(kCrossFade_s - clock_.age_s(), 0.0, dt_s);
     const double corrects = left_s / (kCrossFade_s * dt_s);
     // The middle of this cycle, from the moment of the scene on, and seen as far ahead as the grip is.
     const double middle_s = clock_.carried_s() + lead_s_ - 0.5 * dt_s;
-    moving_ = false;
+    bool moves = false;
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
         const Track &track = tracks_[k];
@@ -235,8 +232,9 @@ void TouchRenderer::carry(double dt_s) noexcept {
             part.velocity_m_s += track.velocity_m_s + middle_s * track.acceleration_m_s2;
             part.angular_rad_s += track.angular_rad_s;
         }
-        moving_ = moving_ || part.velocity_m_s != Vec3(0.0) || part.angular_rad_s != Vec3(0.0);
+        moves = moves || part.velocity_m_s != Vec3(0.0) || part.angular_rad_s != Vec3(0.0);
     }
+    return moves;
 }
 
 Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
@@ -258,17 +256,16 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         }
         device = moved(device, of_lanes<Displacement>(gives));
     }
-    carry(dt_s);
     const double strength = strength_.value();
-    if (settled_ && !moving_ && same(device, device_) && same(motion.velocity, velocity_) &&
-        strength == rendered_strength_) {
+    const bool waits = !carry(dt_s) && same(device, device_) && same(motion.velocity, velocity_) &&
+                       strength == rendered_strength_;
+    if (settled_ && waits) {
         skipped_ += scene_.count > 0 ? 1 : 0;
         return wrench_;
     }
     const ToolPose before = proxy_.pose();
     const Wrench wrench_before = wrench_;
     proxy_.update(tool_, scene_, device, motion.velocity, dt_s, *memory_);
-    squeezing_ = proxy_.stop_push_nm() > 0.0;
     DofLanes felt = lanes(proxy_.wrench());
     const DofLanes load = lanes(load_now_);
     for (std::size_t dof = 0; dof < felt.size(); ++dof) {
@@ -276,8 +273,6 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         felt[dof] = strength * ((is_felt ? felt[dof] : 0.0) + load[dof]);
     }
     wrench_ = of_lanes<Wrench>(felt);
-    const bool waits = same(device, device_) && same(motion.velocity, velocity_) && !moving_ &&
-                       strength == rendered_strength_;
     settled_ = waits && same(before, proxy_.pose()) && same(wrench_before, wrench_);
     device_ = device;
     velocity_ = motion.velocity;
@@ -314,15 +309,11 @@ void TouchRenderer::report(TouchReport &report) const noexcept {
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
         const Track &track = tracks_[k];
-        report.parts[k] = {scene_.parts[k].id, false, track.impulse_ns, track.angular_impulse_nms};
+        report.parts[k] = {scene_.parts[k].id, track.impulse_ns, track.angular_impulse_nms};
     }
     report.point_count = proxy_.contact_count();
     for (int i = 0; i < report.point_count; ++i) {
         const ProxyContact &contact = proxy_.contact(i);
-        const bool touches = contact.push_n > 0.0;
-        if (touches && contact.scene_part < report.part_count) {
-            report.parts[contact.scene_part].touching = true;
-        }
         report.points[static_cast<std::size_t>(i)] = {contact.tool_id,
                                                       contact.scene_id,
                                                       contact.point_m,
@@ -335,8 +326,7 @@ void TouchRenderer::report(TouchReport &report) const noexcept {
 
 bool TouchRenderer::is_sound() const noexcept {
     bool sound = scene_.count >= 0 && scene_.count <= kMaxSceneParts && tool_.count >= 0 &&
-                 tool_.count <= kMaxToolParts &&
-                 are_flags(caps_.from_latency, loaded_, squeezing_, moving_, settled_) &&
+                 tool_.count <= kMaxToolParts && are_flags(caps_.from_latency, loaded_, settled_) &&
                  clock_.is_sound() && proxy_.is_sound();
     for (const ToolPart &part : tool_.parts) {
         sound = sound && is_one_of(part.mount, ToolMount::jaw_plus);

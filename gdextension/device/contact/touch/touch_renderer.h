@@ -47,7 +47,7 @@ public:
 
     void report(TouchReport &report) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept {
-        return scene_.count == 0 && !loaded_ && !squeezing_;
+        return scene_.count == 0 && !loaded_ && !(proxy_.stop_push_nm() > 0.0);
     }
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept;
@@ -89,8 +89,8 @@ private:
     void renew(const TouchScene &touch, double apart_s, GainClamp &clamp) noexcept;
     void drop() noexcept;
     [[nodiscard]] bool empty() const noexcept;
-    // The velocities of this cycle.
-    void carry(double dt_s) noexcept;
+    // The velocities of this cycle. False: nothing moves.
+    bool carry(double dt_s) noexcept;
     // The proxy's springs, of what was asked and what the caps allow.
     void tune(GainClamp &clamp) noexcept;
 
@@ -111,8 +111,6 @@ private:
     Wrench load_now_;
     double load_age_s_ = 0.0; // since load_ came
     bool loaded_ = false;     // some load acts or is on its way to nothing
-    bool squeezing_ = false;  // the jaws' stop pushed in the last cycle
-    bool moving_ = false;     // a part of the scene moves in this cycle
     bool settled_ = false;    // the last cycle changed nothing
     std::uint64_t skipped_ = 0;
     std::uint64_t sequence_ = 0;

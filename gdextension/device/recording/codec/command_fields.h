@@ -14,13 +14,6 @@ static_assert(count_members<Effect>() == 11, "Effect changed: list its fields he
 static_assert(count_members<LiveLimits>() == 6, "LiveLimits changed: list its fields here");
 static_assert(count_members<HapticCommand>() == 24, "HapticCommand changed: list its fields here");
 
-template <typename Matrix, typename Visit>
-void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
-    for (int column = 0; column < 3; ++column) {
-        visit_vector(name, 3 * index + column, matrix[column], visit);
-    }
-}
-
 template <typename Gains, typename Visit>
 void visit_dof(std::string_view name, int index, Gains &gains, Visit &&visit) {
     for (int dof = 0; dof < kDofCount; ++dof) {

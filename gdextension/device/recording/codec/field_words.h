@@ -57,6 +57,13 @@ void visit_vector(std::string_view name, int index, Vector &vector, Visit &&visi
     }
 }
 
+template <typename Matrix, typename Visit>
+void visit_matrix(std::string_view name, int index, Matrix &matrix, Visit &&visit) {
+    for (int column = 0; column < 3; ++column) {
+        visit_vector(name, 3 * index + column, matrix[column], visit);
+    }
+}
+
 template <typename Array, typename Visit>
 void visit_array(std::string_view name, Array &values, Visit &&visit) {
     int index = 0;

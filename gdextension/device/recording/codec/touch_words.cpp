@@ -18,9 +18,7 @@ namespace {
 template <typename Place, typename Visit>
 void visit_placement(Place &at, Visit &&visit) {
     visit_vector("origin_m", 0, at.origin_m, visit);
-    for (int column = 0; column < 3; ++column) {
-        visit_vector("rotation", column, at.rotation[column], visit);
-    }
+    visit_matrix("rotation", 0, at.rotation, visit);
 }
 
 // Beside the parts.

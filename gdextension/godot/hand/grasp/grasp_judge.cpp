@@ -9,6 +9,8 @@
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
+#include "godot/hand/scene/near_body.h"
+
 namespace spidar {
 
 namespace {
@@ -35,8 +37,7 @@ double friction_on(const RigidBody3D &body, double pad_friction) {
     if (material.is_null()) {
         return pad_friction;
     }
-    const double own = material->get_friction();
-    return material->is_rough() ? std::max(pad_friction, own) : std::min(pad_friction, own);
+    return combined_friction(pad_friction, material->get_friction(), material->is_rough());
 }
 
 double gravity_on(const RigidBody3D &body) {

@@ -7,7 +7,6 @@
 
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
-#include <godot_cpp/variant/packed_int32_array.hpp>
 
 #include "godot/base/type_conversions.h"
 #include "godot/hand/scene/near_body.h"
@@ -15,22 +14,6 @@
 namespace spidar {
 
 namespace {
-
-std::vector<bool> disabled_shapes(godot::RigidBody3D &body, int count) {
-    std::vector<bool> disabled(static_cast<std::size_t>(count), false);
-    const godot::PackedInt32Array owners = body.get_shape_owners();
-    for (std::int64_t i = 0; i < owners.size(); ++i) {
-        const auto owner = static_cast<std::uint32_t>(owners[i]);
-        const int shapes = body.shape_owner_get_shape_count(owner);
-        for (int k = 0; k < shapes && body.is_shape_owner_disabled(owner); ++k) {
-            const int index = body.shape_owner_get_shape_index(owner, k);
-            if (index >= 0 && index < count) {
-                disabled[static_cast<std::size_t>(index)] = true;
-            }
-        }
-    }
-    return disabled;
-}
 
 // Of what is not convex itself.
 CookResult cook_hull(const ShapeNumbers &numbers, const Vec3 &scale) {
@@ -46,7 +29,12 @@ void HeldShapes::take(godot::RigidBody3D &body, double workspace_scale) {
     auto *const server = godot::PhysicsServer3D::get_singleton();
     const godot::RID rid = body.get_rid();
     const int count = server->body_get_shape_count(rid);
-    const std::vector<bool> disabled = disabled_shapes(body, count);
+    std::vector<bool> disabled(static_cast<std::size_t>(count), false);
+    for_owned_shapes(body, [&disabled](std::uint32_t, std::size_t index, bool is_disabled) {
+        if (index < disabled.size()) {
+            disabled[index] = is_disabled;
+        }
+    });
     const Mat3 axes = to_core(body.get_global_transform().basis);
     const Mat3 back = glm::transpose(to_core(body.get_global_transform().basis.orthonormalized()));
     shelf_.begin_tick();

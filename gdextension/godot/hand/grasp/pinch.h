@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "device/contract/dof_lanes.h"
 #include "device/contract/servo_snapshot.h"
 #include "godot/hand/grasp/touched_bodies.h"
 
@@ -28,7 +29,7 @@ struct Pinch {
 // What the fingers press with: the pull of the grasp's spring from the device to the proxy. The pads give it to what is
 // between them, or to each other. With forces off as well, so that games without a force display can grasp.
 [[nodiscard]] inline double squeeze_nm(const TouchReport &report, double grasp_rad) noexcept {
-    const double stiffness_nm_rad = report.stiffness[report.stiffness.size() - 1];
+    const double stiffness_nm_rad = report.stiffness[kGraspLane];
     return stiffness_nm_rad * std::max(grasp_rad - report.grasp_rad, 0.0);
 }
 

@@ -80,6 +80,23 @@ TurnAndScale take_apart(const Mat3 &axes) noexcept {
     return result;
 }
 
+void for_owned_shapes(
+    CollisionObject3D &node,
+    const std::function<void(std::uint32_t owner, std::size_t index, bool disabled)> &use) {
+    const godot::PackedInt32Array owners = node.get_shape_owners();
+    for (std::int64_t i = 0; i < owners.size(); ++i) {
+        const auto owner = static_cast<std::uint32_t>(owners[i]);
+        const bool disabled = node.is_shape_owner_disabled(owner);
+        const int count = node.shape_owner_get_shape_count(owner);
+        for (int k = 0; k < count; ++k) {
+            const int index = node.shape_owner_get_shape_index(owner, k);
+            if (index >= 0) {
+                use(owner, static_cast<std::size_t>(index), disabled);
+            }
+        }
+    }
+}
+
 NearBody::NearBody(const godot::RID &rid, std::uint64_t object) : rid_(rid), object_(object) {
     const auto *node = Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(object));
     is_node_ = node != nullptr && node->get_rid() == rid;
@@ -178,19 +195,12 @@ void NearBody::read_owners() {
         shape.owner = -1;
         shape.disabled = false;
     }
-    const godot::PackedInt32Array owners = node->get_shape_owners();
-    for (std::int64_t i = 0; i < owners.size(); ++i) {
-        const auto owner = static_cast<std::uint32_t>(owners[i]);
-        const int count = node->shape_owner_get_shape_count(owner);
-        const bool disabled = node->is_shape_owner_disabled(owner);
-        for (int k = 0; k < count; ++k) {
-            const int index = node->shape_owner_get_shape_index(owner, k);
-            if (index >= 0 && index < static_cast<int>(shapes_.size())) {
-                shapes_[static_cast<std::size_t>(index)].owner = owner;
-                shapes_[static_cast<std::size_t>(index)].disabled = disabled;
-            }
+    for_owned_shapes(*node, [this](std::uint32_t owner, std::size_t index, bool disabled) {
+        if (index < shapes_.size()) {
+            shapes_[index].owner = owner;
+            shapes_[index].disabled = disabled;
         }
-    }
+    });
 }
 
 void NearBody::read_shape(ShapeShelf &shelf, int index) {
@@ -254,8 +264,6 @@ void NearBody::read_facts(const Names &names) {
         static_cast<double>(server->body_get_param(rid_, PhysicsServer3D::BODY_PARAM_BOUNCE));
     facts_.friction = std::abs(friction);
     facts_.rough = std::signbit(friction);
-    facts_.bounce = std::abs(bounce);
-    facts_.absorbent = std::signbit(bounce);
     const Object *object = ObjectDB::get_instance(object_);
     facts_.has_material =
         is_node_ ? has_material(object) : friction != 1.0 || bounce != 0.0 || std::signbit(bounce);

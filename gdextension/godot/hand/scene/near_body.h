@@ -1,7 +1,9 @@
 // One body of the physics server that stands near the hand: its shapes, its place, its motion and how it feels. Main thread.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,16 +19,23 @@
 #include "godot/base/world_frame.h"
 #include "godot/hand/scene/shape_shelf.h"
 
+namespace godot {
+class CollisionObject3D;
+}
+
 namespace spidar {
+
+// Of what touches a body whose PhysicsMaterial has a friction of its own: a rough one raises it, any other lowers it.
+[[nodiscard]] inline double combined_friction(double mine, double own, bool is_rough) noexcept {
+    return is_rough ? std::max(mine, own) : std::min(mine, own);
+}
 
 // What a game says of a body. 0 in the last three: it does not say.
 struct BodyFacts {
     // Of its PhysicsMaterial; has_material is false for a node without one, and for a server body as the server made it.
     bool has_material = false;
     double friction = 1.0;
-    double bounce = 0.0;
-    bool rough = false;     // of two frictions the larger one counts
-    bool absorbent = false; // takes bounce away from what it touches
+    bool rough = false; // of two frictions the larger one counts
     // Metadata spidar_stiffness_n_m, spidar_friction, spidar_squeeze_nm_rad of the collider.
     double stiffness_n_m = 0.0;
     double hand_friction = 0.0;
@@ -55,6 +64,11 @@ struct Moment {
     double tick_s = 0.0;
     double time_scale = 1.0; // 0 while physics stands still
 };
+
+// Calls use(owner, index, disabled) for each shape of the body that has a shape owner; index: its place in the server's list.
+void for_owned_shapes(
+    godot::CollisionObject3D &body,
+    const std::function<void(std::uint32_t owner, std::size_t index, bool disabled)> &use);
 
 class NearBody {
 public:
@@ -99,8 +113,6 @@ public:
         return velocity_m_s_ + glm::cross(angular_rad_s_, point_m - center_m_);
     }
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_rad_s_; }
-    // Center of mass of what physics moves, else the body's origin; device frame.
-    [[nodiscard]] const Vec3 &center_m() const noexcept { return center_m_; }
 
     std::int64_t near_tick = 0;  // last time that one of its shapes was near
     std::int64_t facts_tick = 0; // when its facts are to be read again

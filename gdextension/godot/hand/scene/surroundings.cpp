@@ -25,8 +25,6 @@ constexpr std::int64_t kGraceTicks = 30;
 constexpr std::int64_t kFactsTicks = 8;
 constexpr std::size_t kMostExamined = 3 * kMostNearShapes;
 constexpr double kNever_m = 1e9;
-// Physics engines cannot move a body much faster, m/s: a device that goes farther was put elsewhere.
-constexpr double kFastest_m_s = 200.0;
 
 // Of a shape at that scale and place and what the volume is round; m. 0 while the shape's bounds are not known.
 double clearance_of(const ShapeData &data, const Vec3 &scale, const Placement &at,
@@ -82,7 +80,7 @@ void Surroundings::update(const SearchSpace &space, const SearchVolume &pads,
         return;
     }
     const double moved = glm::length(space.now.origin - space.stepped.origin);
-    const bool jumped = !(moved < kFastest_m_s * space.tick_s);
+    const bool jumped = !(moved < kFastestBody_m_s * space.tick_s);
     moment_.now = space.now;
     moment_.in_space = jumped ? space.now : space.stepped;
     node_motion_.note(moment_.in_space, space.tick_s);
@@ -299,11 +297,8 @@ void Surroundings::list_nearest() {
         near.at = candidate.at;
         near.velocity_m_s = body.velocity_at(candidate.at.origin_m);
         near.angular_rad_s = body.angular_rad_s();
-        near.body_center_m = body.center_m();
-        near.mode = body.mode();
         near.mass_kg = body.mass_kg();
         near.seen_by = candidate.seen_by;
-        near.clearance_m = candidate.clearance_m;
         near.facts = body.facts();
         shapes_.push_back(std::move(near));
     }

@@ -46,6 +46,9 @@ struct SearchSpace {
     double time_scale = 1.0; // Engine.time_scale
 };
 
+// Physics engines cannot move a body much faster: a device that goes farther in a tick was put elsewhere.
+inline constexpr double kFastestBody_m_s = 200.0;
+
 enum SeenBy : std::uint8_t { kSeenByPads = 1, kSeenByHeld = 2 };
 
 struct NearShape {
@@ -55,14 +58,11 @@ struct NearShape {
     // Of this shape of this body for as long as it stays near; another shape never has the same one.
     std::int32_t id = 0;
     std::shared_ptr<const CookedShape> shape;
-    Placement at;            // device frame
-    Vec3 velocity_m_s{0.0};  // of at.origin_m, device frame, a second of device time
-    Vec3 angular_rad_s{0.0}; // device frame
-    Vec3 body_center_m{0.0}; // center of mass of a body that physics moves; device frame
-    godot::PhysicsServer3D::BodyMode mode = godot::PhysicsServer3D::BODY_MODE_STATIC;
+    Placement at;             // device frame
+    Vec3 velocity_m_s{0.0};   // of at.origin_m, device frame, a second of device time
+    Vec3 angular_rad_s{0.0};  // device frame
     double mass_kg = 0.0;     // 0 unless physics moves the body
     std::uint8_t seen_by = 0; // SeenBy
-    double clearance_m = 0.0; // at most the distance from the nearest volume's half_extents_m
     BodyFacts facts;
 };
 

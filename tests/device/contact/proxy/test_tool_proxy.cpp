@@ -13,29 +13,15 @@
 
 #include "core/geometry/rotation_log.h"
 #include "device/contact/proxy/tool_proxy.h"
+#include "support/touch_scenes.h"
 
 using namespace spidar;
+using spidar::test::box;
+using spidar::test::cooked_half_space;
 
 namespace {
 
 constexpr double kTick_s = 0.001;
-
-std::shared_ptr<const CookedShape> box(const Vec3 &half_extents_m) {
-    ShapeDescription description;
-    description.kind = ShapeKind::box;
-    description.half_extents_m = half_extents_m;
-    CookResult cooked = cook(std::move(description));
-    REQUIRE(usable(cooked.status));
-    return cooked.shape;
-}
-
-std::shared_ptr<const CookedShape> half_space() {
-    ShapeDescription description;
-    description.kind = ShapeKind::half_space;
-    CookResult cooked = cook(std::move(description));
-    REQUIRE(usable(cooked.status));
-    return cooked.shape;
-}
 
 // A tool, a scene, and a hand that holds the device anywhere.
 struct Rig {
@@ -162,7 +148,7 @@ TEST_CASE("proxy: in free space it is where the device is, however fast, and not
 TEST_CASE("proxy: a sphere on a plane is pushed by stiffness times depth, and stays on it") {
     Rig rig;
     rig.add_tool(make_sphere(0.012));
-    rig.add(half_space());
+    rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
     rig.move_to(at(Vec3(0.01, 0.007, 0.0)), 100);
     const Wrench wrench = rig.proxy.wrench();
@@ -177,7 +163,7 @@ TEST_CASE("proxy: a sphere on a plane is pushed by stiffness times depth, and st
 TEST_CASE("proxy: a face of four points pushes like one plane, with and without a turn") {
     Rig rig;
     rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.03))));
-    rig.add(half_space());
+    rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
     rig.move_to(at(Vec3(0.0, 0.006, 0.0)), 100);
     CHECK(rig.proxy.contact_count() == 4);
@@ -249,7 +235,7 @@ TEST_CASE("proxy: a body between the jaws stops the fingers, and what is pressed
 TEST_CASE("proxy: friction holds within the cone and slips at it; a face holds a turn too") {
     Rig rig;
     rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.02))));
-    rig.add(half_space()).friction = 0.5;
+    rig.add(cooked_half_space()).friction = 0.5;
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
     rig.move_to(at(Vec3(0.0, 0.006, 0.0)), 100); // 4 N
     rig.move_to(at(Vec3(0.001, 0.006, 0.0)), 100);
@@ -412,7 +398,7 @@ TEST_CASE("proxy: another shape under the same id is looked at anew") {
 TEST_CASE("proxy: what is not finite pushes nothing, and the proxy waits") {
     Rig rig;
     rig.add_tool(make_sphere(0.012));
-    rig.add(half_space());
+    rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
     rig.move_to(at(Vec3(0.0, 0.007, 0.0)), 100);
     const ToolPose waits = rig.proxy.pose();
