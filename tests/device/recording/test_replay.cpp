@@ -11,6 +11,7 @@
 #include "device/recording/codec/command_fields.h"
 #include "support/allocation_trap.h"
 #include "support/recording_fixture.h"
+#include "support/stalling_disk.h"
 
 using namespace spidar;
 using namespace spidar::test;
@@ -241,13 +242,14 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
     bench.start();
     REQUIRE(usable(bench.started));
     bench.command.forces_enabled = true;
+    StallingDisk disk(file.path());
+    REQUIRE(disk.is_usable());
     Recorder recorder(bench.settings, true);
-    REQUIRE(recorder.open(file.path()) == "");
-    std::vector<std::uint64_t> bits;
+    REQUIRE(recorder.open(disk.path()) == "");
     constexpr double kStep_s = 0.01;
     std::uint64_t ticks = 0;
     for (int burst = 0; burst < 3; ++burst) {
-        // Far faster than the writing thread looks; on a machine that makes us wait, until a cycle is lost.
+        disk.stall();
         const std::uint64_t before = recorder.statistics().lost;
         for (int i = 0; i < 3000 || (recorder.statistics().lost == before && i < kPatience); ++i) {
             bench.reading.counts[0] = (i / 7) % 20;
@@ -257,9 +259,11 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
                          bench.now(), bench.command, false);
             ++ticks;
         }
+        disk.go_on();
         std::this_thread::sleep_for(std::chrono::milliseconds(100)); // and time to catch up
     }
     recorder.close();
+    disk.finish();
     const RecorderStatistics statistics = recorder.statistics();
     CHECK(statistics.lost > 0);
     CHECK(statistics.cycles + statistics.lost == ticks);
@@ -289,8 +293,11 @@ TEST_CASE("recording: the servo thread's part allocates nothing, not at the star
     bench.settings.safety.arming_time_s = 0.02;
     bench.start();
     bench.command.forces_enabled = true;
+    StallingDisk disk(file.path());
+    REQUIRE(disk.is_usable());
     Recorder recorder(bench.settings, true);
-    REQUIRE(recorder.open(file.path()) == "");
+    REQUIRE(recorder.open(disk.path()) == "");
+    disk.stall();
     const std::size_t before = allocations_of_this_thread();
     for (int i = 0; i < 5000 || (recorder.statistics().lost == 0 && i < kPatience); ++i) {
         const bool command_is_new = i % 16 == 0;
@@ -304,6 +311,8 @@ TEST_CASE("recording: the servo thread's part allocates nothing, not at the star
     }
     const std::size_t made = allocations_of_this_thread() - before;
     CHECK(made == 0);
+    disk.go_on();
+    recorder.close();
     const RecorderStatistics statistics = recorder.statistics();
     CHECK(statistics.cycles > 0);
     CHECK(statistics.lost > 0); // both ways were gone

@@ -11,6 +11,7 @@
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/touch_words.h"
 #include "support/recording_fixture.h"
+#include "support/stalling_disk.h"
 #include "support/touch_scenes.h"
 
 using namespace spidar;
@@ -246,12 +247,14 @@ TEST_CASE("replay: scenes of cycles that were lost leave their shapes in the fil
     const TemporaryFile file;
     TouchBench bench;
     REQUIRE(usable(bench.started));
+    StallingDisk disk(file.path());
+    REQUIRE(disk.is_usable());
     Recorder recorder(bench.settings, true);
-    REQUIRE(recorder.open(file.path()) == "");
+    REQUIRE(recorder.open(disk.path()) == "");
     int touching = 0;
     for (int burst = 0; burst < 4; ++burst) {
         const Table table; // other shapes in each burst
-        // Far faster than the writing thread looks; on a machine that makes us wait, until a cycle is lost.
+        disk.stall();
         const std::uint64_t before = recorder.statistics().lost;
         constexpr int kPatience = 1'000'000;
         for (int i = 0; i < 2500 || (recorder.statistics().lost == before && i < kPatience); ++i) {
@@ -262,9 +265,11 @@ TEST_CASE("replay: scenes of cycles that were lost leave their shapes in the fil
             bench.cycle(recorder, is_new);
             touching += bench.now().touch.point_count > 0 ? 1 : 0;
         }
+        disk.go_on();
         std::this_thread::sleep_for(std::chrono::milliseconds(100)); // and time to catch up
     }
     recorder.close();
+    disk.finish();
     CHECK(touching > 100);
     const RecorderStatistics statistics = recorder.statistics();
     CHECK(statistics.lost > 0);
