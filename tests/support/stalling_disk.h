@@ -31,14 +31,24 @@ public:
 #endif
         copier_ = std::thread([this] { copy(); });
     }
-    ~StallingDisk() { finish(); }
+    ~StallingDisk() {
+        finish();
+    }
     StallingDisk(const StallingDisk &) = delete;
     StallingDisk &operator=(const StallingDisk &) = delete;
 
-    [[nodiscard]] bool is_usable() const { return made_ && pipe_ >= 0; }
-    [[nodiscard]] const std::string &path() const { return path_; }
-    void stall() { stalled_ = true; }
-    void go_on() { stalled_ = false; }
+    [[nodiscard]] bool is_usable() const {
+        return made_ && pipe_ >= 0;
+    }
+    [[nodiscard]] const std::string &path() const {
+        return path_;
+    }
+    void stall() {
+        stalled_ = true;
+    }
+    void go_on() {
+        stalled_ = false;
+    }
     // After the writer has closed it: the rest comes to the file.
     void finish() {
         if (copier_.joinable()) {

@@ -453,7 +453,12 @@ TEST_CASE(
         for (const unsigned char value : {std::uint8_t{0x5A}, std::uint8_t{0xFF}}) {
             std::memcpy(static_cast<void *>(found.get()), memory.data(), memory.size());
             reinterpret_cast<unsigned char *>(found.get())[i] = value;
-            if (!found->is_sound()) {
+            const bool taken =
+                found->is_sound() &&
+                found->touch().relink( // as a replay does
+                    nullptr, [](std::uint64_t) -> const CookedShape * { return nullptr; },
+                    [](std::uint64_t) -> const ToolShape * { return nullptr; });
+            if (!taken) {
                 ++refused;
                 continue;
             }

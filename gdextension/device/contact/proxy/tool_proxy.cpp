@@ -23,8 +23,6 @@ constexpr int kMostPasses = 3;
 // feel.
 constexpr double kAnticipated_m = 1e-6;
 constexpr double kTurned = 1.0 - 4.5e-6; // 3e-3 rad
-// Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
-constexpr double kRowSoftness = 1e-7;
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
@@ -187,7 +185,8 @@ ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, 
                                      const Tool &tool, double most_m) const noexcept {
     Rows rows = rows_;
     for (int i = 0; i < row_count_; ++i) {
-        rows[static_cast<std::size_t>(i)].depth = least[static_cast<std::size_t>(i)];
+        const auto k = static_cast<std::size_t>(i);
+        rows[k].depth = rows[k].depth == kOpen ? kOpen : least[k];
     }
     // Without a row that the proxy stands in this costs nothing and is no move.
     Move move = nearest_to(Move{}, rows,
@@ -209,7 +208,8 @@ ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, 
 }
 
 bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                             double most_m, double dt_s) noexcept {
+                             double margin_m, double dt_s, ProxyMemory &memory) noexcept {
+    const double most_m = kPartOfMargin * margin_m;
     const Move target = scaled(between(pose_, device));
     std::array<double, kMaxRows> least{};
     for (int i = 0; i < count_; ++i) {
@@ -230,9 +230,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     rows_[stop].row[kGraspLane] = -1.0 / root_[kGraspLane];
     least[stop] = pose_.grasp_rad - tool.closes_to_rad();
     rows_[stop].depth = least[stop] - dot(rows_[stop].row, target);
-    const RowPushes<kMaxRows> solved =
-        solve_rows<kMaxRows>(rows_, row_count_, active_mask_, kRowSoftness);
-    active_mask_ = solved.active_mask;
+    const RowPushes<kMaxRows> solved = solve_over_seams(tool, scene, margin_m, dt_s, memory);
     Move step = nearest_to(target, rows_, solved);
     const bool cut = length_of(step, tool) > most_m;
     if (cut) {
@@ -258,12 +256,14 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
 void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                      const Twist &velocity) noexcept {
     const Move pull = scaled(between(device, pose_));
+    Rows rows = rows_;
     std::array<int, kMaxSceneParts> touching{};
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        touching[contacts_[k].scene_part] += rows_[k].depth > 0.0 ? 1 : 0;
+        // A row that the step left open would take over from one that a damper lets go.
+        rows[k].depth = (active_mask_ >> k & 1U) != 0 ? rows[k].depth : kOpen;
+        touching[contacts_[k].scene_part] += rows[k].depth > 0.0 ? 1 : 0;
     }
-    Rows rows = rows_;
     std::array<double, kMaxRows> alone{};
     double deepest_n = 0.0;
     double deepest = 0.0; // in units of a move
@@ -289,10 +289,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
                                surface_velocity(other, contact.point_m);
         const double damping_s = settings_.damping_s + other.damping_n_s_m * softness_m_n;
         // The damper acts as a deeper spring: so the push stays one-sided, and shared.
-        // Only where it touches: of a row that the step left open, a damper alone would make a push.
-        const double damps_s = contact.gap_m < kAnticipated_m ? damping_s : 0.0;
         rows[k].depth =
-            std::max(0.0, rows[k].depth - damps_s * glm::dot(contact.normal, speed_m_s));
+            std::max(0.0, rows[k].depth - damping_s * glm::dot(contact.normal, speed_m_s));
         note_own(k);
     }
     const auto stop = static_cast<std::size_t>(count_);
@@ -370,7 +368,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
         find_contacts(tool, scene, margin_m, memory);
-        again = step_towards(tool, scene, device, kPartOfMargin * margin_m, left_s);
+        again = step_towards(tool, scene, device, margin_m, left_s, memory);
         ++passes_;
         for (int s = 0; s < scene.count && left_s > 0.0; ++s) {
             move_on(scene.parts[static_cast<std::size_t>(s)], left_s);

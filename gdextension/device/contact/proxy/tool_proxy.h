@@ -87,6 +87,9 @@ private:
     using Rows = std::array<ConstraintRow, kMaxRows>;
     // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
     using Move = std::array<double, 8>;
+    static constexpr double kOpen = -1.0; // depth of a row that never pushes
+    // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
+    static constexpr double kRowSoftness = 1e-7;
 
     // Nothing is in reach: the proxy is where the device is.
     void follow(const ToolPose &device) noexcept;
@@ -112,9 +115,19 @@ private:
     [[nodiscard]] Move shortened(const Move &step, const std::array<double, kMaxRows> &least,
                                  const Tool &tool, double most_m) const noexcept;
     // True: another look from where the proxy is now may bring it nearer to the device.
-    // most_m: no point of the tool moves further. dt_s: of the scene's motion that is still to come.
+    // margin_m: that of find_contacts(). dt_s: of the scene's motion that is still to come.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                      double most_m, double dt_s) noexcept;
+                      double margin_m, double dt_s, ProxyMemory &memory) noexcept;
+    // The pushes of rows_, over seams.
+    [[nodiscard]] RowPushes<kMaxRows> solve_over_seams(const Tool &tool, const ContactScene &scene,
+                                                       double margin_m, double dt_s,
+                                                       ProxyMemory &memory) noexcept;
+    // Opens the rows that push and belong to an edge flush with what the tool rests on. False: there is none.
+    bool open_seams(const Tool &tool, const ContactScene &scene, const RowPushes<kMaxRows> &solved,
+                    double margin_m, double dt_s, ProxyMemory &memory) noexcept;
+    [[nodiscard]] bool is_flush(const ProxyContact &edge, const ProxyContact &floor,
+                                const Tool &tool, const ContactScene &scene, double margin_m,
+                                double dt_s, ProxyMemory &memory) noexcept;
     void push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
               const Twist &velocity) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,

@@ -312,27 +312,94 @@ TEST_CASE("proxy: a plate that moves into a resting tool pushes it along") {
     }
 }
 
-TEST_CASE("proxy: seams between bodies are not felt: no ripple, and little sideways") {
-    for (const double speed_m_s : {0.1, 0.4}) {
-        for (const bool pad : {false, true}) {
-            Rig rig;
-            const double height_m = pad ? 0.003 : 0.012;
-            rig.add_tool(pad ? make_pad(0.012, 0.003, 0.003) : make_sphere(0.012));
-            const auto tile = box(Vec3(0.02));
-            for (int i = -3; i < 4; ++i) {
-                for (int j = -1; j < 2; ++j) {
-                    rig.add(tile, {Vec3(0.04 * i + 0.013, -0.02, 0.04 * j + 0.007), Mat3(1.0)});
+namespace {
+
+struct Slider {
+    std::string name;
+    ToolResult tool;
+    double height_m;
+    Mat3 turn;
+};
+
+std::vector<Slider> sliders() {
+    const Mat3 on_its_rim = rotation_exp(Vec3(0.0, 0.0, 0.5 * std::numbers::pi));
+    return {{"ball", make_sphere(0.012), 0.012, Mat3(1.0)},
+            {"pad", make_pad(0.012, 0.003, 0.003), 0.003, Mat3(1.0)},
+            {"pad on its rim", make_pad(0.012, 0.003, 0.003), 0.012, on_its_rim},
+            {"sharp pad on its rim", make_pad(0.012, 0.003, 0.0005), 0.012, on_its_rim},
+            {"box", make_tool(*box(Vec3(0.03, 0.01, 0.02))), 0.01, Mat3(1.0)}};
+}
+
+// Presses the slider with 4 N on what the rig has at height 0, beginning at this x.
+void press(Rig &rig, const Slider &slider, double x_m) {
+    rig.add_tool(slider.tool, ToolMount::grip, {Vec3(0.0), slider.turn});
+    rig.start_at(at(Vec3(x_m, slider.height_m + 0.002, -0.01)));
+    rig.move_to(at(Vec3(x_m, slider.height_m - 0.004, -0.01)), 20);
+}
+
+} // namespace
+
+TEST_CASE("proxy: seams between bodies are not felt: no ripple, nothing sideways, no turn") {
+    for (const Slider &slider : sliders()) {
+        for (const double speed_m_s : {0.1, 0.4}) {
+            // Tiles at float32 coordinates lie flush within some 1e-8 m.
+            for (const double uneven_m : {0.0, 3e-8}) {
+                CAPTURE(slider.name);
+                CAPTURE(speed_m_s);
+                CAPTURE(uneven_m);
+                Rig rig;
+                const auto tile = box(Vec3(0.02));
+                for (int i = -3; i < 4; ++i) {
+                    for (int j = -1; j < 2; ++j) {
+                        const Vec3 off_m = uneven_m * Vec3(i % 2, (i + 2 * j) % 3, j % 2);
+                        rig.add(tile, {Vec3(0.04 * i + 0.013, -0.02, 0.04 * j + 0.007) + off_m,
+                                       Mat3(1.0)});
+                    }
                 }
+                press(rig, slider, -0.06);
+                const int ticks = static_cast<int>(0.12 / speed_m_s / kTick_s);
+                double off_n = 0.0;
+                double turned_nm = 0.0;
+                for (int i = 0; i < ticks; ++i) {
+                    rig.device.position_m += Vec3(1.0, 0.0, 0.3) * (speed_m_s * kTick_s);
+                    rig.tick();
+                    const Wrench felt = rig.proxy.wrench();
+                    off_n = std::max(off_n, glm::distance(felt.force_n, Vec3(0.0, 4.0, 0.0)));
+                    turned_nm = std::max(turned_nm, glm::length(felt.moment_nm));
+                }
+                CHECK(off_n < 1e-3);
+                CHECK(turned_nm < 1e-4);
             }
-            rig.start_at(at(Vec3(-0.06, height_m + 0.002, -0.01)));
-            rig.move_to(at(Vec3(-0.06, height_m - 0.004, -0.01)), 20);
-            const int ticks = static_cast<int>(0.12 / speed_m_s / kTick_s);
-            for (int i = 0; i < ticks; ++i) {
-                rig.device.position_m += Vec3(1.0, 0.0, 0.3) * (speed_m_s * kTick_s);
-                rig.tick();
-                const Vec3 force_n = rig.proxy.wrench().force_n;
-                CHECK(force_n.y == doctest::Approx(4.0).epsilon(0.01));
-                CHECK(std::hypot(force_n.x, force_n.z) < 0.02 * force_n.y);
+        }
+    }
+}
+
+TEST_CASE("proxy: a wall and a step are no seam: a tool that slides on the floor stops there") {
+    for (const Slider &slider : sliders()) {
+        for (const double step_m : {2e-5, 1e-3, 0.1}) {
+            // Beside the floor, or on it.
+            for (const double foot_m : {-0.04, 0.0}) {
+                CAPTURE(slider.name);
+                CAPTURE(step_m);
+                CAPTURE(foot_m);
+                Rig rig;
+                const double floor_end_m = foot_m < 0.0 ? 0.0 : 0.2;
+                rig.add(box(Vec3(0.1, 0.02, 0.1)),
+                        {Vec3(floor_end_m - 0.1, -0.02, 0.0), Mat3(1.0)});
+                const double half_m = 0.5 * (step_m - foot_m);
+                rig.add(box(Vec3(0.05, half_m, 0.1)),
+                        {Vec3(0.05, foot_m + half_m, 0.0), Mat3(1.0)});
+                press(rig, slider, -0.06);
+                double most_n = 0.0;
+                for (int i = 0; i < 1000; ++i) {
+                    rig.device.position_m.x += 1e-4;
+                    rig.tick();
+                    most_n = std::max(most_n, -rig.proxy.wrench().force_n.x);
+                }
+                // A round rim climbs a low step.
+                const bool is_wall = step_m > slider.height_m;
+                CHECK(most_n > (is_wall ? 30.0 : 0.1));
+                CHECK((!is_wall || rig.proxy.pose().position_m.x < 0.0));
             }
         }
     }
