@@ -31,12 +31,17 @@ struct HidCountersOf {
 using HidCounters = HidCountersOf<std::uint64_t>;
 
 struct HidTimes {
+    std::uint64_t round_trips = 0;
     double round_trip_p50_us = 0.0; // command written -> a state report that names it is read
     double round_trip_p99_us = 0.0;
     double round_trip_max_us = 0.0;
     double write_p99_us = 0.0;
     double write_max_us = 0.0;
 };
+
+// From a count being taken to the tensions made from it acting, as the round trips tell: a command is named in the first
+// report after it came, which is half a report's period later in the mean. 0 while there are few of them.
+[[nodiscard]] double link_latency_s(const HidTimes &times, double report_rate_hz) noexcept;
 
 class HidStatistics : public HidCountersOf<std::atomic<std::uint64_t>> {
 public:

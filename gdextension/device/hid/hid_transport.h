@@ -54,6 +54,8 @@ public:
     // From any thread.
     [[nodiscard]] HidCounters counters() const noexcept;
     [[nodiscard]] HidTimes times() const noexcept;
+    // Measured (link_latency_s); 0 while it is not known.
+    [[nodiscard]] double latency_s() const noexcept;
 
 private:
     struct Impl;

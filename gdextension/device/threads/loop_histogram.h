@@ -30,17 +30,22 @@ public:
         max_ns_.store(0, std::memory_order_relaxed);
     }
 
+    [[nodiscard]] std::uint64_t total() const noexcept {
+        std::uint64_t all = 0;
+        for (const auto &bucket : buckets_) {
+            all += bucket.load(std::memory_order_relaxed);
+        }
+        return all;
+    }
+
     // The time below which this part (0..1) of all samples lies, to a factor of 2^(1/4): the bucket's middle.
     // 0 when there are no samples; never above max_us().
     [[nodiscard]] double quantile_us(double part) const noexcept {
-        std::uint64_t total = 0;
-        for (const auto &bucket : buckets_) {
-            total += bucket.load(std::memory_order_relaxed);
-        }
-        if (total == 0) {
+        const std::uint64_t all = total();
+        if (all == 0) {
             return 0.0;
         }
-        const double wanted = std::clamp(part, 0.0, 1.0) * static_cast<double>(total);
+        const double wanted = std::clamp(part, 0.0, 1.0) * static_cast<double>(all);
         double sum = 0.0;
         int index = kBuckets - 1;
         for (int i = 0; i < kBuckets; ++i) {

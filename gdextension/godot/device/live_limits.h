@@ -17,6 +17,16 @@ namespace spidar {
             settings.render.max_grasp_stiffness_nm_rad};
 }
 
+// As those, and no gain above what latency and rate of the settings allow: the open device may have been told of another.
+[[nodiscard]] inline LiveLimits limits_by_latency(const ServoSettings &settings) noexcept {
+    const GainCaps caps = gain_caps(settings.render, settings.rate_hz);
+    LiveLimits limits = live_limits(settings);
+    limits.max_stiffness_n_m = caps.stiffness_n_m;
+    limits.max_turn_stiffness_nm_rad = caps.turn_stiffness_nm_rad;
+    limits.max_grasp_stiffness_nm_rad = caps.grasp_stiffness_nm_rad;
+    return limits;
+}
+
 // share 0: a, 1: b.
 [[nodiscard]] inline LiveLimits between(const LiveLimits &a, const LiveLimits &b,
                                         double share) noexcept {

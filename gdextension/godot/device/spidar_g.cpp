@@ -319,6 +319,7 @@ void SpidarG::physics_tick() {
     if (!loop_) {
         return;
     }
+    watch_latency();
     move_limits(spidar::physics_tick_s());
     if (requests_.wrench_changes(snapshot_.time_s)) {
         publish_wrench();

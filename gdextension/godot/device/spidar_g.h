@@ -249,6 +249,8 @@ private:
     void resource_changed();
     // What an open device takes over of a changed config; false: it has to be opened anew.
     bool change_live(const std::string &problem);
+    void want_limits(const spidar::LiveLimits &limits);
+    void watch_latency();
     void move_limits(double dt_s);
     [[nodiscard]] std::uint64_t resources_revision() const;
     // The project's settings as they are now; they count from the next opening on.

@@ -218,6 +218,7 @@ godot::Dictionary SpidarG::get_device_info() const {
     info["found_again"] = whole(count.replugs);
     info["round_trip_p50_us"] = times.round_trip_p50_us;
     info["round_trip_p99_us"] = times.round_trip_p99_us;
+    info["latency_s"] = hid_->latency_s();
     info["write_p99_us"] = times.write_p99_us;
     return info;
 }

@@ -2,13 +2,18 @@
 #include "godot/device/spidar_g.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+
+#include <godot_cpp/variant/utility_functions.hpp>
 
 #include "godot/base/type_conversions.h"
 #include "godot/device/live_limits.h"
 
 using godot::Ref;
 using godot::String;
+using godot::UtilityFunctions;
 
 namespace {
 
@@ -49,13 +54,40 @@ bool SpidarG::change_live(const std::string &problem) {
     if (resources_revision() != opened_revision_) {
         return false;
     }
-    limits_from_ = spidar::between(limits_from_, limits_wanted_, limits_share_);
-    limits_wanted_ = spidar::live_limits(settings_);
-    limits_share_ = 0.0;
+    want_limits(spidar::live_limits(settings_));
     if (simulated_ != nullptr) {
         simulated_->set_hand_firmness(plant_.firmness);
     }
     return true;
+}
+
+void SpidarG::want_limits(const spidar::LiveLimits &limits) {
+    limits_from_ = spidar::between(limits_from_, limits_wanted_, limits_share_);
+    limits_wanted_ = limits;
+    limits_share_ = 0.0;
+}
+
+// A link that is slower than the config says makes every wall softer; a faster one makes none stiffer, as the device's own
+// delays are not in what its echoes tell.
+void SpidarG::watch_latency() {
+    constexpr double kNoticed = 1.1;
+    if (hid_ == nullptr || !loop_ || !settings_.render.caps_from_latency) {
+        return;
+    }
+    const double measured_s = hid_->latency_s();
+    if (measured_s <= kNoticed * settings_.render.latency_s) {
+        return;
+    }
+    std::array<char, 200> text{};
+    std::snprintf(
+        text.data(), text.size(),
+        ": the link's latency is %.2f ms, and link_latency in the SpidarGConfig says %.2f ms. "
+        "Stiffness is kept within what that allows.",
+        1e3 * measured_s, 1e3 * settings_.render.latency_s);
+    UtilityFunctions::push_warning(
+        spidar::to_godot("SpidarG \"" + name_for_messages() + "\"" + text.data()));
+    settings_.render.latency_s = measured_s;
+    want_limits(spidar::limits_by_latency(settings_));
 }
 
 void SpidarG::move_limits(double dt_s) {

@@ -103,6 +103,8 @@ TEST_CASE("hid transport: readings come, commands go, and both are matched by th
     CHECK(counters.lost + counters.skipped_commands + counters.superseded == 0);
     CHECK(link.device->firmware.counters().lost == 0);
     CHECK(link.transport.times().round_trip_max_us == doctest::Approx(1000.0));
+    // Each command is named a whole period later: half of it is the wait for the report.
+    CHECK(link.transport.latency_s() == doctest::Approx(0.0005).epsilon(0.2));
     CHECK(link.transport.capabilities().max_force_mn == 8000);
     CHECK(link.transport.limits().max_tension_mn == 10000);
     link.transport.close();
