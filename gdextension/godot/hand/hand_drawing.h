@@ -1,5 +1,6 @@
 // Lines in the scene that show what a hand works with: the shapes in its reach, where it touches them and with which force,
-// the tool's proxy and the device. Main thread only.
+// the tool's proxy and the device. They have the same width on the screen at any distance; what something hides is drawn pale.
+// Main thread only.
 #pragma once
 
 #include <vector>
@@ -12,6 +13,7 @@
 #include "device/contact/proxy/tool.h"
 #include "device/contract/servo_snapshot.h"
 #include "godot/base/world_frame.h"
+#include "godot/hand/grasp/held_shapes.h"
 #include "godot/hand/scene/surroundings.h"
 
 namespace godot {
@@ -20,23 +22,50 @@ class MeshInstance3D;
 
 namespace spidar {
 
+// What is to be seen in a tick. Device frame.
+struct HandPicture {
+    WorldFrame frame;
+    const std::vector<NearShape> &shapes;
+    const TouchReport &touch;
+    ToolPose proxy;
+    ToolPose device;
+    Jaws jaws;
+    const std::vector<HeldShapes::Part> &held; // empty while nothing is held
+    Placement in_grip;                         // of the held body
+};
+
 class HandDrawing {
 public:
     // Makes its mesh, an internal child of `hand`, when there is none.
-    void draw(godot::Node3D &hand, const WorldFrame &frame, const std::vector<NearShape> &shapes,
-              const TouchReport &touch, const ToolPose &proxy, const ToolPose &device,
-              const Jaws &jaws);
+    void draw(godot::Node3D &hand, const HandPicture &picture);
     void hide();
 
 private:
+    // How lines look.
+    struct Pen {
+        godot::Color color;
+        double width_px; // on a screen 720 pixels high; more on a higher one
+    };
+
     void prepare(godot::Node3D &hand);
-    void line(const Vec3 &from_m, const Vec3 &to_m, const godot::Color &colour);
-    void box(const Placement &at, const Vec3 &lower_m, const Vec3 &upper_m,
-             const godot::Color &colour);
-    void tool(const ToolPose &pose, const Jaws &jaws, const godot::Color &colour);
+    void line(const Vec3 &from_m, const Vec3 &to_m, const Pen &pen);
+    void lines(const Placement &at, const std::vector<Vec3> &ends_m, const Pen &pen);
+    void ring(const Placement &at, double radius_m, const Pen &pen); // about its x axis
+    void arrow(const Vec3 &from_m, const Vec3 &along_m, const Pen &pen);
+    void shapes(const HandPicture &picture);
+    void tool(const ToolPose &pose, const Jaws &jaws, const Pen &pen);
+    void points(const TouchReport &touch);
+
+    static const Pen kByPads;
+    static const Pen kByHeld;
+    static const Pen kProxy;
+    static const Pen kDevice;
+    static const Pen kForce;
+    static const Pen kNormal;
 
     godot::MeshInstance3D *instance_ = nullptr; // owned by the hand
     godot::Ref<godot::ImmediateMesh> mesh_;
+    std::vector<Vec3> ends_m_; // of one outline
     WorldFrame frame_;
     bool shown_ = false;
 };

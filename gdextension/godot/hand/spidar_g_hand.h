@@ -72,11 +72,13 @@ class SpidarGHand : public godot::Node3D {
     SPIDAR_G_HAND_FLAG(render_width, true);
     SPIDAR_G_HAND_FLAG(render_weight, true);
     SPIDAR_G_HAND_FLAG(render_inertia, true);
-    SPIDAR_G_HAND_FLAG(debug_draw, false);
 
 public:
     void set_collision_mask(std::int64_t mask);
     [[nodiscard]] std::int64_t get_collision_mask() const { return collision_mask_; }
+
+    void set_debug_draw(bool wanted);
+    [[nodiscard]] bool is_debug_draw() const { return debug_draw_; }
 
     // Told in the output: an argument of a type that a method does not take.
     void refuse(const std::string &message) const;
@@ -184,5 +186,6 @@ private:
     spidar::Jaws published_jaws_;
     spidar::HeldLoad::Pull pull_; // in the last scene
     std::uint64_t seen_sequence_ = 0;
+    bool debug_draw_ = false;
     spidar::HandDrawing drawing_;
 };

@@ -220,8 +220,17 @@ void SpidarGHand::draw() {
         drawing_.hide();
         return;
     }
-    drawing_.draw(*this, spidar_->world(), surroundings_.shapes(), spidar_->snapshot().touch,
-                  proxy_pose(), device_pose(), jaws());
+    drawing_.draw(*this, {spidar_->world(), surroundings_.shapes(), spidar_->snapshot().touch,
+                          proxy_pose(), device_pose(), jaws(), held_shapes_.parts(),
+                          hold_.holds() ? held_in_grip() : Placement()});
+}
+
+// At once: a hand in a paused tree has no tick that would hide it.
+void SpidarGHand::set_debug_draw(bool wanted) {
+    debug_draw_ = wanted;
+    if (!wanted) {
+        drawing_.hide();
+    }
 }
 
 godot::Array SpidarGHand::get_shapes_in_reach() const {
