@@ -25,7 +25,8 @@ PHYSICS = {
     "thread": "3d/run_on_separate_thread=true",
 }
 # What runs under those: what is felt of shapes.
-PHYSICS_TESTS = ("test_hand_shapes", "test_hand_colliders", "test_hand_moments", "test_hand_piles")
+PHYSICS_TESTS = ("test_hand_shapes", "test_hand_colliders", "test_hand_moments", "test_hand_piles",
+                 "test_hand_belts")
 LEAKS = re.compile(r"^(Leaked instance|WARNING: ObjectDB instances leaked|Orphan StringName"
                    r"|ERROR: \d+ resources still in use).*", re.M)
 SCRIPT_ERRORS = re.compile(r"^SCRIPT ERROR.*(?:\n   .*)*", re.M)

@@ -70,6 +70,8 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
         part.at = shape.at;
         part.velocity_m_s = shape.velocity_m_s;
         part.angular_rad_s = shape.angular_rad_s;
+        part.belt_m_s = shape.belt_m_s;
+        part.belt_rad_s = shape.belt_rad_s;
         part.stiffness_n_m = softness_of(shape, feel);
         part.friction = friction_of(shape.facts, feel.friction);
         part.id = shape.id;

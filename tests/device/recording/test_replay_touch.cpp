@@ -34,6 +34,8 @@ public:
         }
         ScenePart &floor = add(*touch, floor_, {Vec3(0.0, -0.02, 0.0), Mat3(1.0)});
         floor.friction = 0.5;
+        floor.belt_m_s = Vec3(0.05, 0.0, -0.02);
+        floor.belt_rad_s = Vec3(0.0, 0.3, 0.0);
         for (int i = 0; i < still_; ++i) {
             add(*touch, box_,
                 {Vec3(0.02 * (i % 4) - 0.03, -0.02, 0.03 + 0.02 * (i / 4)), Mat3(1.0)})
@@ -331,6 +333,8 @@ TEST_CASE("recording: a scene comes back to the bit, NaN too, and shapes that no
         for (ScenePart &part : touch->scene.parts) {
             part.at.origin_m = Vec3(random.nasty());
             part.friction = random.nasty();
+            part.belt_m_s = Vec3(random.nasty());
+            part.belt_rad_s = Vec3(random.nasty());
             part.id = static_cast<std::int32_t>(random.bits());
         }
         touch->tool.stop_rad = random.nasty();

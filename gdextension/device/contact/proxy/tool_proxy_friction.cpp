@@ -92,7 +92,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
         contact.rubs = other.friction > 0.0 && pair_pushes(contact);
         if (contact.rubs) {
             const ToolPart &part = tool.parts[contact.tool_part];
-            const Vec3 surface_m_s = surface_velocity(other, contact.point_m);
+            const Vec3 surface_m_s = rubbing_velocity(other, contact.point_m);
             const Vec3 slid_m =
                 point_velocity(part, tool.jaws, device, step, contact.point_m) - dt_s * surface_m_s;
             const ProxyContact *last = nearest_before(contact, false);

@@ -163,6 +163,7 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
         part.friction =
             capped(part.friction, kMaxFriction, GainClamp::Gain::friction, s, false, clamp);
         part.velocity_m_s = capped_speed(part.velocity_m_s, s, clamp);
+        part.belt_m_s = capped_speed(part.belt_m_s, s, clamp);
         shape_numbers_[k] = part.shape->number();
         Track track;
         track.velocity_m_s = part.velocity_m_s;

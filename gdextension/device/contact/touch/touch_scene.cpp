@@ -11,8 +11,8 @@ namespace {
 
 Status validate_part(const ScenePart &part) noexcept {
     if (!all_finite(part.at) ||
-        !all_finite(part.velocity_m_s, part.angular_rad_s, part.stiffness_n_m, part.damping_n_s_m,
-                    part.friction)) {
+        !all_finite(part.velocity_m_s, part.angular_rad_s, part.belt_m_s, part.belt_rad_s,
+                    part.stiffness_n_m, part.damping_n_s_m, part.friction)) {
         return Status::not_finite;
     }
     const bool good = part.shape != nullptr && part.stiffness_n_m >= 0.0 &&

@@ -11,7 +11,7 @@ static_assert(count_members<TouchScene>() == 9, "TouchScene changed: list its fi
 static_assert(count_members<Tool>() == 4, "Tool changed: list its fields here");
 static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
 static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
-static_assert(count_members<ScenePart>() == 9, "ScenePart changed: list its fields here");
+static_assert(count_members<ScenePart>() == 11, "ScenePart changed: list its fields here");
 
 namespace {
 
@@ -55,6 +55,8 @@ void visit_part(Part &part,
     visit_placement(part.at, visit);
     visit_vector("velocity_m_s", 0, part.velocity_m_s, visit);
     visit_vector("angular_rad_s", 0, part.angular_rad_s, visit);
+    visit_vector("belt_m_s", 0, part.belt_m_s, visit);
+    visit_vector("belt_rad_s", 0, part.belt_rad_s, visit);
     visit("stiffness_n_m", 0, part.stiffness_n_m);
     visit("damping_n_s_m", 0, part.damping_n_s_m);
     visit("friction", 0, part.friction);

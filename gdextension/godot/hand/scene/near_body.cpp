@@ -130,6 +130,8 @@ void NearBody::read_moved(const Moment &moment) {
 
 void NearBody::read_place(const Moment &moment) {
     mode_ = PhysicsServer3D::get_singleton()->body_get_mode(rid_);
+    belt_m_s_ = Vec3(0.0);
+    belt_rad_s_ = Vec3(0.0);
     if (moved_by_physics()) {
         read_moved(moment);
         return;
@@ -151,6 +153,31 @@ void NearBody::read_place(const Moment &moment) {
     motion_.note({at.rotation, at.origin_m, 1.0}, moment.tick_s);
     velocity_m_s_ = motion_.velocity_at(Vec3(0.0));
     angular_rad_s_ = motion_.angular_rad_s();
+    read_belt(moment);
+}
+
+// Jolt does not tell the server's state of them, so a node is asked. A static body without a node is asked in the server,
+// where only GodotPhysics answers; of an animated one the server mixes them with its motion.
+void NearBody::read_belt(const Moment &moment) {
+    Vec3 velocity(0.0);
+    Vec3 turning(0.0);
+    if (is_node_) {
+        const auto *node = Object::cast_to<godot::StaticBody3D>(ObjectDB::get_instance(object_));
+        if (node == nullptr) {
+            return;
+        }
+        velocity = to_core(node->get_constant_linear_velocity());
+        turning = to_core(node->get_constant_angular_velocity());
+    } else if (mode_ == PhysicsServer3D::BODY_MODE_STATIC) {
+        velocity = to_core(state_->get_linear_velocity());
+        turning = to_core(state_->get_angular_velocity());
+    }
+    if (turning != Vec3(0.0)) {
+        // The engines turn it about the centre of mass.
+        velocity -= glm::cross(turning, to_core(state_->get_center_of_mass()));
+    }
+    belt_m_s_ = frame_.velocity_to_device(moment.time_scale * velocity);
+    belt_rad_s_ = frame_.turn_to_device(moment.time_scale * turning);
 }
 
 void NearBody::read_list(ShapeShelf &shelf, std::int32_t &next_id, int count) {

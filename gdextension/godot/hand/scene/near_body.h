@@ -113,6 +113,11 @@ public:
         return velocity_m_s_ + glm::cross(angular_rad_s_, point_m - center_m_);
     }
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_rad_s_; }
+    // How its surface runs along itself, as its constant velocities say. Zero for what physics moves. Device frame.
+    [[nodiscard]] Vec3 belt_velocity_at(const Vec3 &point_m) const noexcept {
+        return belt_m_s_ + glm::cross(belt_rad_s_, point_m - center_m_);
+    }
+    [[nodiscard]] const Vec3 &belt_rad_s() const noexcept { return belt_rad_s_; }
 
     std::int64_t near_tick = 0;  // last time that one of its shapes was near
     std::int64_t facts_tick = 0; // when its facts are to be read again
@@ -124,6 +129,7 @@ private:
     void read_owners();
     static void bound(BodyShape &shape);
     void read_moved(const Moment &moment);
+    void read_belt(const Moment &moment);
     void set_place(const godot::Transform3D &place);
 
     godot::RID rid_;
@@ -143,6 +149,8 @@ private:
     Vec3 center_m_{0.0};
     Vec3 velocity_m_s_{0.0};
     Vec3 angular_rad_s_{0.0};
+    Vec3 belt_m_s_{0.0}; // at center_m_
+    Vec3 belt_rad_s_{0.0};
 };
 
 // Axes of one length each and at right angles, taken apart.

@@ -297,6 +297,8 @@ void Surroundings::list_nearest() {
         near.at = candidate.at;
         near.velocity_m_s = body.velocity_at(candidate.at.origin_m);
         near.angular_rad_s = body.angular_rad_s();
+        near.belt_m_s = body.belt_velocity_at(candidate.at.origin_m);
+        near.belt_rad_s = body.belt_rad_s();
         near.mass_kg = body.mass_kg();
         near.seen_by = candidate.seen_by;
         near.facts = body.facts();

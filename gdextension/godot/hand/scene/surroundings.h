@@ -61,6 +61,9 @@ struct NearShape {
     Placement at;             // device frame
     Vec3 velocity_m_s{0.0};   // of at.origin_m, device frame, a second of device time
     Vec3 angular_rad_s{0.0};  // device frame
+    // As ScenePart's: how its surface runs along itself.
+    Vec3 belt_m_s{0.0};
+    Vec3 belt_rad_s{0.0};
     double mass_kg = 0.0;     // 0 unless physics moves the body
     std::uint8_t seen_by = 0; // SeenBy
     BodyFacts facts;
