@@ -1,8 +1,8 @@
 @tool
 class_name SpidarGPanel
 extends PanelContainer
-## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, how punctual its servo thread is, and
-## what happened; starts and stops recordings.
+## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, what a [SpidarGHand] below it touches, how
+## punctual its servo thread is, and what happened; starts and stops recordings.
 ##
 ## Add [code]spidar_g_panel.tscn[/code] to a scene, under a CanvasLayer or as a child of the device, and set [member
 ## device]. It only reads. While it is hidden it computes nothing.
@@ -19,6 +19,9 @@ const FORCE_COLOURS: PackedColorArray = [
 	Color(0.95, 0.35, 0.30), Color(0.40, 0.80, 0.35), Color(0.35, 0.60, 1.0)
 ]
 const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
+const POINTS_COLOUR: Color = Color(0.80, 0.60, 1.0)
+const PUSH_COLOUR: Color = Color(0.95, 0.35, 0.65)
+const FELT_COLOUR: Color = Color(0.85, 0.87, 0.90)
 ## The level of events that the log shows: something that should be looked at, but stopped nothing.
 const WARNING: int = 1
 ## Given values are drawn paler than asked ones.
@@ -40,11 +43,15 @@ var recording_path: String = ""
 var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []
+## Whose contacts are shown: the first hand among the device's children.
+var _hand: SpidarGHand = null
 
 @onready var _state: Label = get_node_or_null(^"%State")
 @onready var _tensions: PlotStrip = get_node_or_null(^"%Tensions")
 @onready var _force: PlotStrip = get_node_or_null(^"%Force")
 @onready var _moment: PlotStrip = get_node_or_null(^"%Moment")
+@onready var _points: PlotStrip = get_node_or_null(^"%Points")
+@onready var _push: PlotStrip = get_node_or_null(^"%Push")
 @onready var _jitter: JitterPlot = get_node_or_null(^"%Jitter")
 @onready var _numbers: Label = get_node_or_null(^"%Numbers")
 @onready var _log: RichTextLabel = get_node_or_null(^"%Events")
@@ -72,6 +79,11 @@ func _ready() -> void:
 	_moment.least_low = -0.02
 	_moment.least_high = 0.02
 	_moment.colours = _pairs(FORCE_COLOURS + PackedColorArray([GRASP_COLOUR]))
+	_points.title = "Contact points: that push, near pale"
+	_points.least_high = 4.0
+	_points.colours = _pairs([POINTS_COLOUR])
+	_push.title = "Largest push of a contact (pink), force felt (white), N"
+	_push.colours = [PUSH_COLOUR, FELT_COLOUR]
 	_record.pressed.connect(toggle_recording)
 	visibility_changed.connect(_visibility_changed)
 	if device == null and get_parent() is SpidarG:
@@ -111,6 +123,8 @@ func _process(_delta: float) -> void:
 	_moment.add_sample(asked.slice(3, 7) + given.slice(3, 7))
 	if _frames % FRAMES_PER_REPORT == 0:
 		_report()
+	if is_instance_valid(_hand) and _hand.get_parent() == device:
+		_add_contacts(Vector3(given[0], given[1], given[2]).length())
 	_frames += 1
 
 
@@ -146,10 +160,39 @@ func toggle_recording() -> void:
 	_report()
 
 
+func _add_contacts(felt_n: float) -> void:
+	var points: Array = _hand.get_touch_points()
+	var pushing: int = 0
+	var most_n: float = 0.0
+	for point: Dictionary in points:
+		var force: Vector3 = point["force"]
+		var normal: Vector3 = point["normal"]
+		var push_n: float = force.dot(normal)
+		pushing += int(push_n > 0.0)
+		most_n = maxf(most_n, push_n)
+	_points.add_sample([pushing, points.size()])
+	_push.add_sample([most_n, felt_n])
+
+
+## A device without a hand has no contacts to show.
+func _find_hand() -> void:
+	var found: SpidarGHand = null
+	for child: Node in device.get_children():
+		if found == null and child is SpidarGHand:
+			found = child
+	if found != _hand:
+		_hand = found
+		_points.clear()
+		_push.clear()
+	_points.visible = _hand != null
+	_push.visible = _hand != null
+
+
 ## State, numbers and histogram.
 func _report() -> void:
 	if not is_instance_valid(device) or not is_visible_in_tree() or _state == null:
 		return
+	_find_hand()
 	_state.text = "%s   %s" % [device.get_state_text(), device.get_fault_text()]
 	var numbers: Dictionary = device.get_statistics()
 	_numbers.text = (
