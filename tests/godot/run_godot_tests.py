@@ -26,7 +26,7 @@ PHYSICS = {
 }
 # What runs under those: what is felt of shapes.
 PHYSICS_TESTS = ("test_hand_shapes", "test_hand_colliders", "test_hand_moments", "test_hand_piles",
-                 "test_hand_belts")
+                 "test_hand_belts", "test_hand_torus")
 LEAKS = re.compile(r"^(Leaked instance|WARNING: ObjectDB instances leaked|Orphan StringName"
                    r"|ERROR: \d+ resources still in use).*", re.M)
 SCRIPT_ERRORS = re.compile(r"^SCRIPT ERROR.*(?:\n   .*)*", re.M)

@@ -175,3 +175,42 @@ static func ball(kind: String) -> Node3D:
 	var sphere := SphereShape3D.new()
 	sphere.radius = BALL_RADIUS_M
 	return server_body(sphere, down) if kind == "server" else static_body(sphere, down)
+
+
+## Mesh.create_trimesh_shape() moves every corner to the next tenth of a millimetre; here each stays.
+static func exact_faces(mesh: Mesh, two_sided: bool = false) -> ConcavePolygonShape3D:
+	var corners: PackedVector3Array = []
+	var arrays: Array = mesh.surface_get_arrays(0)
+	var points: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
+	for index: int in arrays[Mesh.ARRAY_INDEX] as PackedInt32Array:
+		corners.append(points[index])
+	var shape := ConcavePolygonShape3D.new()
+	shape.set_faces(corners)
+	shape.backface_collision = two_sided
+	return shape
+
+
+## A ring about the y axis. Kinds: "trimesh N", whose triangles' edges are about N mm long at the outer rim, "two-sided N",
+## and "csg N".
+static func torus(kind: String, middle_radius_m: float, tube_radius_m: float) -> Node3D:
+	var around: int = edges_around(middle_radius_m + tube_radius_m, kind)
+	var of_tube: int = edges_around(tube_radius_m, kind)
+	if kind.begins_with("csg"):
+		var csg := CSGTorus3D.new()
+		csg.inner_radius = middle_radius_m - tube_radius_m
+		csg.outer_radius = middle_radius_m + tube_radius_m
+		csg.sides = around
+		csg.ring_sides = of_tube
+		csg.use_collision = true
+		return csg
+	var mesh := TorusMesh.new()
+	mesh.inner_radius = middle_radius_m - tube_radius_m
+	mesh.outer_radius = middle_radius_m + tube_radius_m
+	mesh.rings = around
+	mesh.ring_segments = of_tube
+	return static_body(exact_faces(mesh, kind.begins_with("two-sided")))
+
+
+## Edges of a circle; a multiple of four, so that a torus has corners on both rims.
+static func edges_around(radius_m: float, kind: String) -> int:
+	return maxi(8, 4 * roundi(0.25 * TAU * radius_m / (1e-3 * kind.get_slice(" ", 1).to_int())))
