@@ -1,0 +1,86 @@
+// The serial motor boards B1M to B5M as bytes on a wire (docs/serial_boards.md): numbers of commands, and how long each
+// command and reply of a board is. All lengths count the header. Facts from public sources; none was tried on hardware.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace spidar {
+
+inline constexpr std::uint32_t kBoardBaud = 2'000'000;
+inline constexpr std::size_t kMostBoards = 8; // ids 0 to 7
+inline constexpr std::size_t kMostBoardMotors = 8;
+inline constexpr std::size_t kBoardCommandCount = 12; // 0 to 11, as SET_CMDLEN wants them
+
+enum class BoardCommand : std::uint8_t {
+    none = 0, // a byte of padding
+    info = 1,
+    set_command_lengths = 2,
+    all = 3,
+    sensor = 4,
+    direct = 5,
+    current = 6,
+    interpolate = 7,
+    force_control = 8,
+    set_parameter = 9,
+    reset = 10,
+    get_parameter = 11,
+};
+
+enum class BoardParameter : std::uint8_t {
+    position_gains = 0,
+    current_gains = 1,
+    torque_limits = 2,
+    board_id = 3,
+    heat_limits = 5,
+    magnets = 6,
+    quadrature_mask = 7, // u32, bit i: motor i is read by its quadrature encoder
+    pwm_period = 8,
+};
+
+enum class BoardModel : std::uint8_t { b1m = 1, b1f, b2m, b2f, b3m, b3f, b5m };
+
+// What a board says of itself: the payload of INFO's reply.
+struct BoardInfo {
+    std::uint8_t model = 0;
+    std::uint8_t targets = 0;
+    std::uint8_t motors = 0;
+    std::uint8_t currents = 0;
+    std::uint8_t forces = 0;
+    std::uint8_t touches = 0;
+
+    friend bool operator==(const BoardInfo &, const BoardInfo &) = default;
+};
+
+// "B5M"; "model 9" for one that is not known. The pointer is to a static text.
+[[nodiscard]] const char *name_of_model(std::uint8_t model) noexcept;
+
+struct BoardLayout {
+    std::uint8_t id = 0;
+    BoardInfo info;
+    // CURRENT's reply ends with this many words more than the model's table says: some builds add the currents.
+    std::uint8_t extra_words = 0;
+
+    [[nodiscard]] std::size_t motors() const noexcept { return info.motors; }
+    // Of the firmware's control loop, the unit of speeds (unit: Hz).
+    [[nodiscard]] double control_rate_hz() const noexcept {
+        return info.model == static_cast<std::uint8_t>(BoardModel::b5m) ? 11'100.0 : 3'000.0;
+    }
+};
+
+[[nodiscard]] constexpr std::uint8_t board_header(BoardCommand command, std::uint8_t id) noexcept {
+    return static_cast<std::uint8_t>(static_cast<unsigned>(command) << 3U | (id & 7U));
+}
+
+// Of a command, and of its reply; 0: none. The lengths follow from the numbers of motors, currents and forces.
+[[nodiscard]] std::size_t command_length(const BoardLayout &board, BoardCommand command) noexcept;
+[[nodiscard]] std::size_t reply_length(const BoardLayout &board, BoardCommand command) noexcept;
+// Zeros behind a command: they clock the reply out and bring the board's receiver to its interrupt.
+[[nodiscard]] std::size_t padding(const BoardLayout &board, BoardCommand command) noexcept;
+
+// A board that the host can drive: a known model, with counts that fit the largest command.
+[[nodiscard]] bool is_plausible(const BoardInfo &info) noexcept;
+
+} // namespace spidar

@@ -1,0 +1,66 @@
+// Is a step of a board's counts one that a string can make? And 16 bits of a count unwrapped to 32.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "device/serial/protocol/board_layout.h"
+
+namespace spidar {
+
+struct CountLimits {
+    // 5 m/s at 25 um a count. No string is faster.
+    double fastest_counts_s = 200'000.0;
+    // 100 m/s^2: more than a hand or a motor gives.
+    double acceleration_counts_s2 = 4'000'000.0;
+    // False: the speeds that the boards report are not looked at. For firmware that counts them in another unit.
+    bool check_speeds = true;
+};
+
+// What one reply of CURRENT says of the motors.
+struct BoardMotion {
+    std::array<std::uint16_t, kMostBoardMotors> positions{}; // low 16 bits of the counts
+    std::array<std::int16_t, kMostBoardMotors> speeds{};     // counts a cycle of the control loop
+};
+
+[[nodiscard]] constexpr std::int32_t signed_step(std::uint16_t from, std::uint16_t to) noexcept {
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
+}
+
+// Replies come through a USB bridge: their times are known no better than this (unit: s).
+inline constexpr double kArrivalJitter_s = 0.002;
+// A reported speed is a whole number of counts a control cycle, so it is wrong by one; and a margin of one.
+inline constexpr double kSpeedRounding_counts = 2.0;
+
+[[nodiscard]] inline bool speeds_are_possible(const BoardMotion &motion, const BoardLayout &board,
+                                              const CountLimits &limits) noexcept {
+    const double most = limits.fastest_counts_s / board.control_rate_hz() + kSpeedRounding_counts;
+    return !limits.check_speeds ||
+           std::all_of(motion.speeds.begin(),
+                       motion.speeds.begin() + static_cast<std::ptrdiff_t>(board.motors()),
+                       [most](std::int16_t speed) { return std::abs(speed) <= most; });
+}
+
+// dt_s: between the arrivals of the two.
+[[nodiscard]] inline bool step_is_possible(const BoardMotion &before, const BoardMotion &now,
+                                           double dt_s, const BoardLayout &board,
+                                           const CountLimits &limits) noexcept {
+    const double time_s = std::max(dt_s, 0.0) + kArrivalJitter_s;
+    for (std::size_t i = 0; i < board.motors(); ++i) {
+        double most_s = limits.fastest_counts_s;
+        if (limits.check_speeds) {
+            const double reported = std::max(std::abs(before.speeds[i]), std::abs(now.speeds[i])) +
+                                    kSpeedRounding_counts;
+            most_s = std::min(most_s, reported * board.control_rate_hz() +
+                                          limits.acceleration_counts_s2 * time_s);
+        }
+        if (std::abs(signed_step(before.positions[i], now.positions[i])) > most_s * time_s) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace spidar

@@ -1,0 +1,38 @@
+// How often a bus of boards can be asked: what one round of CURRENT commands takes on the wire.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "device/serial/protocol/board_layout.h"
+
+namespace spidar {
+
+inline constexpr double kBitsPerByte = 10.0; // start, eight of data, stop
+// Part of the wire's time that commands may fill: a USB bridge sends in packets, with gaps between them.
+inline constexpr double kWireShare = 0.9;
+
+// Bytes of one round to all boards, with their zeros.
+[[nodiscard]] inline std::size_t round_bytes(std::span<const BoardLayout> boards) noexcept {
+    std::size_t bytes = 0;
+    for (const BoardLayout &board : boards) {
+        bytes +=
+            command_length(board, BoardCommand::current) + padding(board, BoardCommand::current);
+    }
+    return bytes;
+}
+
+[[nodiscard]] inline double round_time_s(std::span<const BoardLayout> boards,
+                                         std::uint32_t baud) noexcept {
+    return static_cast<double>(round_bytes(boards)) * kBitsPerByte / baud;
+}
+
+// The highest rate of rounds (unit: Hz); 0 without boards.
+[[nodiscard]] inline double highest_rate_hz(std::span<const BoardLayout> boards,
+                                            std::uint32_t baud) noexcept {
+    const double time_s = round_time_s(boards, baud);
+    return time_s > 0.0 ? kWireShare / time_s : 0.0;
+}
+
+} // namespace spidar
