@@ -1,0 +1,86 @@
+// A bus of simulated boards on a pseudo-terminal, in a thread of its own: what a serial port with a SPIDAR behind it is
+// to a host. Its motors pull the strings of the same plant as the simulated device's.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "device/simulation/simulated_plant.h"
+#include "serial/board_firmware.h"
+
+namespace spidar::test {
+
+struct BusSettings {
+    std::vector<BoardLayout> boards;
+    PlantSettings plant;
+    double units_per_a = 100.0; // of the boards' currents
+};
+
+// What happens to the bytes of the boards' answers; shares of the reads of the bus thread.
+struct LineFaults {
+    std::atomic<double> lost_bytes{0.0};
+    std::atomic<double> garbage{0.0};
+    std::atomic<bool> silent{false}; // the host hears nothing
+};
+
+struct BusSeen {
+    std::int64_t last_pull_ns = 0; // when a current was last not zero; 0: never
+    std::int64_t strongest = 0;    // of the currents now, in units
+    std::int64_t strongest_ever = 0;
+    std::uint64_t heard_bytes = 0;
+    std::uint64_t currents = 0; // CURRENT commands carried out, by all boards
+    std::uint64_t cut_replies = 0;
+};
+
+class BoardBus {
+public:
+    // Plugged in, at `link`, a symbolic link to the pseudo-terminal.
+    BoardBus(const BusSettings &settings, std::string link);
+    ~BoardBus();
+    BoardBus(const BoardBus &) = delete;
+    BoardBus &operator=(const BoardBus &) = delete;
+
+    // The cable of the bridge: the boards keep their power, and their currents.
+    void unplug();
+    bool plug();
+    // The board's supply, for a moment.
+    void restart_boards();
+
+    [[nodiscard]] const std::string &link() const { return link_; }
+    [[nodiscard]] BusSeen seen();
+    void set_hand_target(const HandTarget &target);
+    [[nodiscard]] PlantTruth truth();
+    template <typename Work>
+    auto with_boards(const Work &work) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return work(boards_);
+    }
+    LineFaults faults;
+
+private:
+    void run();
+    // Returns whether something was heard.
+    bool serve(std::vector<std::uint8_t> &answer);
+    void move_on(std::int64_t now_ns);
+    void damage(std::vector<std::uint8_t> &answer);
+
+    const BusSettings settings_;
+    const std::string link_;
+    std::mutex mutex_; // all below
+    int master_ = -1;
+    std::vector<BoardFirmware> boards_;
+    SimulatedPlant plant_;
+    std::int64_t moved_ns_ = 0;
+    CountArray counts_{};
+    BusSeen seen_;
+    std::uint64_t random_ = 1;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+} // namespace spidar::test
