@@ -37,11 +37,14 @@ BoardBus::BoardBus(const BusSettings &settings, std::string link)
     : settings_(settings), link_(std::move(link)),
       boards_(settings.boards.begin(), settings.boards.end()), plant_(settings.plant) {
     counts_ = plant_.counts();
+    home_ = counts_;
     moved_ns_ = monotonic_ns();
-    for (auto &board : boards_) { // counted from power-up
-        for (std::size_t i = 0; i < kMostBoardMotors; ++i) {
-            board.turn(i, 0, 0.0);
+    std::size_t string = 0;
+    for (BoardFirmware &board : boards_) { // counted from power-up, which is at home
+        for (std::size_t i = 0; i < board.layout().motors() && string < counts_.size(); ++i) {
+            board.turn(i, counts_[string++], 0.0);
         }
+        board.restart();
     }
     plug();
     thread_ = std::thread([this] { run(); });
@@ -88,6 +91,15 @@ BusSeen BoardBus::seen() {
 void BoardBus::set_hand_target(const HandTarget &target) {
     const std::lock_guard<std::mutex> lock(mutex_);
     plant_.set_hand_target(target);
+}
+
+CountArray BoardBus::counts() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    CountArray since = counts_;
+    for (std::size_t i = 0; i < since.size(); ++i) {
+        since[i] -= home_[i];
+    }
+    return since;
 }
 
 PlantTruth BoardBus::truth() {

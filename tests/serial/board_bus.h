@@ -55,6 +55,7 @@ public:
     [[nodiscard]] BusSeen seen();
     void set_hand_target(const HandTarget &target);
     [[nodiscard]] PlantTruth truth();
+    [[nodiscard]] CountArray counts(); // of the strings since power-up
     template <typename Work>
     auto with_boards(const Work &work) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -77,6 +78,7 @@ private:
     SimulatedPlant plant_;
     std::int64_t moved_ns_ = 0;
     CountArray counts_{};
+    CountArray home_{}; // counts at power-up
     BusSeen seen_;
     std::uint64_t random_ = 1;
     std::atomic<bool> stop_{false};

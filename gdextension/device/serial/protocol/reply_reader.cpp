@@ -20,6 +20,10 @@ std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) noexcept {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
+double seconds(std::uint64_t time_us) noexcept {
+    return static_cast<double>(time_us) * kSecondsPerMicrosecond;
+}
+
 BoardMotion motion_of(BoardBytes reply, std::size_t motors) noexcept {
     BoardMotion motion;
     for (std::size_t i = 0; i < motors; ++i) {
@@ -68,16 +72,30 @@ bool ReplyReader::runs_on(std::size_t start, const Board &board) const noexcept 
            std::any_of(stray, stray + left, [](std::uint8_t byte) { return byte != 0; });
 }
 
+void ReplyReader::note_elsewhere(Board &board, const BoardMotion &motion,
+                                 std::uint64_t now_us) noexcept {
+    const bool agrees =
+        board.agreeing_elsewhere > 0 &&
+        step_is_possible(board.elsewhere, motion, seconds(now_us - board.elsewhere_us),
+                         board.layout, limits_);
+    board.agreeing_elsewhere = agrees ? board.agreeing_elsewhere + 1 : 1;
+    board.elsewhere = motion;
+    board.elsewhere_us = now_us;
+}
+
 bool ReplyReader::could_be(Board &board, const BoardMotion &motion, std::uint64_t asked,
                            std::uint64_t now_us) noexcept {
-    const double dt_s = static_cast<double>(now_us - board.last_us) * kSecondsPerMicrosecond;
+    const bool possible = speeds_are_possible(motion, board.layout, limits_);
     const bool fits =
-        speeds_are_possible(motion, board.layout, limits_) &&
-        (board.agreeing == 0 || step_is_possible(board.last, motion, dt_s, board.layout, limits_));
+        possible && (board.agreeing == 0 ||
+                     step_is_possible(board.last, motion, seconds(now_us - board.last_us),
+                                      board.layout, limits_));
     if (!fits) {
         ++counters_.implausible;
         if (board.agreeing < kAgreeing) {
             board.agreeing = 0; // one of the two was wrong
+        } else if (possible) {
+            note_elsewhere(board, motion, now_us);
         }
         return false;
     }
@@ -98,8 +116,9 @@ void ReplyReader::believe(Board &board, const BoardMotion &motion, std::uint64_t
     }
     board.last = motion;
     board.last_us = now_us;
+    board.agreeing_elsewhere = 0;
     board.agreeing = std::min(board.agreeing + 1, kAgreeing);
-    board.answered = std::max(board.answered + 1, asked > kInFlight ? asked - kInFlight : 0);
+    board.answered = std::max(board.answered + 1, asked > kMostOwed ? asked - kMostOwed : 0);
 }
 
 bool ReplyReader::completes_round(std::size_t board) noexcept {
@@ -194,12 +213,13 @@ int ReplyReader::take(BoardBytes bytes, std::uint64_t asked, std::uint64_t now_u
 
 bool ReplyReader::reference_lost(std::uint64_t now_us) const noexcept {
     const double sure_s = kSureStep_counts / limits_.fastest_counts_s - kArrivalJitter_s;
-    return std::any_of(
-        boards_.begin(), boards_.begin() + static_cast<std::ptrdiff_t>(count_),
-        [now_us, sure_s](const Board &board) {
-            return board.agreeing == kAgreeing && now_us > board.last_us &&
-                   static_cast<double>(now_us - board.last_us) * kSecondsPerMicrosecond > sure_s;
-        });
+    return std::any_of(boards_.begin(), boards_.begin() + static_cast<std::ptrdiff_t>(count_),
+                       [now_us, sure_s](const Board &board) {
+                           const bool silent = board.agreeing == kAgreeing &&
+                                               now_us > board.last_us &&
+                                               seconds(now_us - board.last_us) > sure_s;
+                           return silent || board.agreeing_elsewhere >= kElsewhere;
+                       });
 }
 
 } // namespace spidar

@@ -34,10 +34,14 @@ class ReplyReader {
 public:
     // Replies that agree before the first one is believed: there is nothing else to compare them with.
     static constexpr int kAgreeing = 3;
+    // So many that agree with each other and not with the counts before: the board counts from elsewhere.
+    static constexpr int kElsewhere = 5;
     // The rest of a reply comes within this time, or it does not come.
     static constexpr std::uint64_t kRest_us = 3'000;
-    // Rounds on their way at once; older ones are lost.
+    // Rounds on their way at once; more are counted as lost until they come.
     static constexpr std::uint64_t kInFlight = 3;
+    // Answers that a board may still owe: so many wait where a system's queue was not read for a while.
+    static constexpr std::uint64_t kMostOwed = 64;
 
     // Everything anew, for these boards, at most kMostBoards, in the order in which they are asked.
     void configure(std::span<const BoardLayout> boards, const CountLimits &limits) noexcept;
@@ -50,7 +54,8 @@ public:
     [[nodiscard]] std::int32_t count(std::size_t board, std::size_t motor) const noexcept {
         return boards_[board].shown[motor];
     }
-    // A board has been silent for so long that its counts may have turned round unseen: the zero is lost.
+    // A board has been silent for so long that its counts may have turned round unseen, or it counts from elsewhere: the
+    // zero is lost.
     [[nodiscard]] bool reference_lost(std::uint64_t now_us) const noexcept;
     [[nodiscard]] const ReplyCounters &counters() const noexcept { return counters_; }
     // Rounds asked and never answered in full, beside those that may still be on their way.
@@ -69,6 +74,10 @@ private:
         BoardMotion last;
         std::uint64_t last_us = 0;
         int agreeing = 0; // replies so far that fit together; kAgreeing: believed
+        // Replies that fit each other and not the counts before: a board that was switched off and on.
+        BoardMotion elsewhere;
+        std::uint64_t elsewhere_us = 0;
+        int agreeing_elsewhere = 0;
         std::uint64_t answered = 0;
         std::array<std::int32_t, kMostBoardMotors> counts{};
         std::array<std::int32_t, kMostBoardMotors> shown{};
@@ -80,6 +89,7 @@ private:
     bool parse_front(std::uint64_t asked, std::uint64_t now_us, int &rounds) noexcept;
     [[nodiscard]] bool could_be(Board &board, const BoardMotion &motion, std::uint64_t asked,
                                 std::uint64_t now_us) noexcept;
+    void note_elsewhere(Board &board, const BoardMotion &motion, std::uint64_t now_us) noexcept;
     void believe(Board &board, const BoardMotion &motion, std::uint64_t asked,
                  std::uint64_t now_us) noexcept;
     bool completes_round(std::size_t board) noexcept;

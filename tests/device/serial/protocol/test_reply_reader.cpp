@@ -209,6 +209,16 @@ TEST_CASE("reply reader: after a long silence the counts have no reference") {
     CHECK(host.reader.reference_lost(host.now_us + 90'000));
 }
 
+TEST_CASE("reply reader: a board that counts from elsewhere is not followed there") {
+    OneBoard host(kB5m);
+    host.settle({700, 700, 700, 700, 700, 700, 700, 700});
+    for (int i = 0; i < ReplyReader::kElsewhere; ++i) {
+        CHECK(!host.reader.reference_lost(host.now_us));
+        CHECK(host.hear(Counts{}) == 0);
+    }
+    CHECK(host.reader.reference_lost(host.now_us));
+}
+
 TEST_CASE("reply reader: more bytes than there is room for are counted") {
     OneBoard host(kB5m);
     host.settle({});

@@ -1,0 +1,203 @@
+#include "device/serial/board_session.h"
+
+#include <algorithm>
+#include <array>
+
+#include "device/threads/real_time_thread.h"
+
+namespace spidar {
+
+namespace {
+
+constexpr int kAnswer_ms = 10;
+constexpr int kWrite_ms = 50;
+constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+constexpr int kTries = 3;
+constexpr int kScans = 4;
+
+// Everything that comes within the time, or until there are `enough` bytes.
+std::vector<std::uint8_t> listen(SerialPort &port, std::size_t enough, int time_ms) {
+    std::vector<std::uint8_t> heard;
+    const std::int64_t end_ns = monotonic_ns() + time_ms * kNanosecondsPerMillisecond;
+    std::array<std::uint8_t, 256> bytes{};
+    for (std::int64_t now_ns = monotonic_ns(); now_ns < end_ns && heard.size() < enough;
+         now_ns = monotonic_ns()) {
+        const int count = port.read(bytes, 1);
+        if (count < 0) {
+            break;
+        }
+        heard.insert(heard.end(), bytes.begin(), bytes.begin() + count);
+    }
+    return heard;
+}
+
+void forget_input(SerialPort &port) {
+    std::array<std::uint8_t, 256> bytes{};
+    for (int i = 0; i < 64 && port.read(bytes, 0) > 0; ++i) {
+    }
+}
+
+bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
+    BoardFrame frame;
+    append_info(frame, id);
+    forget_input(port);
+    if (!port.write(frame.bytes(), kWrite_ms)) {
+        return false;
+    }
+    const std::size_t length = reply_length(board, BoardCommand::info);
+    const auto heard = listen(port, length, kAnswer_ms);
+    board.id = id;
+    // The line may have been idle or noisy before: the reply is looked for.
+    for (std::size_t at = 0; at + length <= heard.size(); ++at) {
+        if (decode_info(BoardBytes(heard).subspan(at, length), id, board.info)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Some builds add the currents to CURRENT's reply. With no current asked for, its length is what comes.
+bool measure_reply(SerialPort &port, BoardLayout &board) {
+    const std::size_t usual = reply_length(board, BoardCommand::current);
+    BoardLayout longer = board;
+    longer.extra_words = board.info.motors;
+    for (int i = 0; i < kTries; ++i) {
+        BoardFrame frame;
+        append_current(frame, longer, {});
+        forget_input(port);
+        if (!port.write(frame.bytes(), kWrite_ms)) {
+            return false;
+        }
+        const auto heard = listen(port, usual + 2U * board.info.motors, kAnswer_ms);
+        const bool begins =
+            !heard.empty() && heard[0] == board_header(BoardCommand::current, board.id);
+        if (begins && heard.size() >= usual + 2U * board.info.motors) {
+            board.extra_words = board.info.motors;
+            return true;
+        }
+        if (begins && heard.size() >= usual) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool read_quadrature_mask(SerialPort &port, const BoardLayout &board, std::uint32_t &mask) {
+    const std::size_t length = reply_length(board, BoardCommand::get_parameter);
+    for (int i = 0; i < kTries; ++i) { // the first answer is to an earlier question
+        BoardFrame frame;
+        append_get_parameter(frame, board, BoardParameter::quadrature_mask);
+        forget_input(port);
+        if (!port.write(frame.bytes(), kWrite_ms)) {
+            return false;
+        }
+        const auto heard = listen(port, length, kAnswer_ms);
+        BoardBytes data;
+        if (heard.size() >= length && decode_parameter(BoardBytes(heard).first(length), board,
+                                                       BoardParameter::quadrature_mask, data)) {
+            mask = 0;
+            for (std::size_t byte = 0; byte < sizeof(mask); ++byte) {
+                mask |= std::uint32_t{data[byte]} << 8U * byte;
+            }
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string name_of(const BoardLayout &board) {
+    return std::string(name_of_model(board.info.model)) + " with id " + std::to_string(board.id);
+}
+
+std::vector<BoardLayout> scan(SerialPort &port) {
+    std::vector<BoardLayout> boards;
+    for (std::uint8_t id = 0; id < kMostBoards; ++id) {
+        BoardLayout board;
+        if (find_board(port, id, board)) {
+            boards.push_back(board);
+        }
+    }
+    return boards;
+}
+
+// An answer may come too late on a busy computer: two scans in a row must find the same boards.
+bool find_boards(SerialPort &port, BoardSession &session) {
+    BoardFrame frame;
+    frame.zeros(kResyncZeros);
+    (void)port.write(frame.bytes(), kWrite_ms);
+    bool same = false;
+    for (int i = 0; i < kScans && (!same || session.boards.empty()); ++i) {
+        std::vector<BoardLayout> found = scan(port);
+        same = i > 0 &&
+               std::equal(found.begin(), found.end(), session.boards.begin(), session.boards.end(),
+                          [](const BoardLayout &a, const BoardLayout &b) {
+                              return a.id == b.id && a.info == b.info;
+                          });
+        session.boards = std::move(found);
+    }
+    frame.clear();
+    for (const BoardLayout &board : session.boards) {
+        append_command_lengths(frame, board);
+    }
+    return !session.boards.empty() && port.write(frame.bytes(), kWrite_ms);
+}
+
+// What every board must be able to say before its motors are used.
+bool question(SerialPort &port, BoardSession &session, std::string &problem) {
+    for (BoardLayout &board : session.boards) {
+        std::uint32_t mask = 0;
+        if (!measure_reply(port, board)) {
+            problem = name_of(board) + " does not answer to CURRENT; check the wiring of the bus.";
+            return false;
+        }
+        if (!read_quadrature_mask(port, board, mask)) {
+            session.remarks += name_of(board) + " does not tell how its encoders are read. ";
+        }
+        const std::uint32_t all = (1U << board.info.motors) - 1U;
+        if ((mask & all) != all) {
+            session.remarks += name_of(board) + " reads not all of its motors by their quadrature "
+                                                "encoders, which a SPIDAR needs. ";
+        }
+        session.quadrature_masks.push_back(mask);
+    }
+    return true;
+}
+
+} // namespace
+
+Status open_session(const std::string &path, std::uint32_t baud, BoardSession &session,
+                    std::string &problem) {
+    Status status = Status::ok;
+    std::shared_ptr<SerialPort> port = open_serial_port(path, baud, status, problem);
+    if (!port) {
+        return status;
+    }
+    BoardSession opened;
+    opened.path = path;
+    std::string latency;
+    if (shorten_latency(path, port->descriptor(), latency) == BridgeLatency::long_one) {
+        opened.remarks += latency + " ";
+    }
+    if (!find_boards(*port, opened)) {
+        problem = "Port " + path +
+                  ": no motor board answers; check its power, the cable, and that "
+                  "the bus runs at " +
+                  std::to_string(baud) + " baud.";
+        return Status::protocol_mismatch;
+    }
+    if (!question(*port, opened, problem)) {
+        return Status::protocol_mismatch;
+    }
+    forget_input(*port);
+    opened.writer = port->another();
+    opened.reader = std::move(port);
+    if (!opened.writer) {
+        problem = "Port " + path + ": the system gives no second handle on it.";
+        return Status::open_failed;
+    }
+    session = std::move(opened);
+    problem.clear();
+    return Status::ok;
+}
+
+} // namespace spidar

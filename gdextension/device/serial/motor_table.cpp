@@ -1,0 +1,56 @@
+#include "device/serial/motor_table.h"
+
+#include <algorithm>
+
+namespace spidar {
+
+SerialMotorTable motors_in_order(std::span<const BoardLayout> boards) noexcept {
+    SerialMotorTable table;
+    std::size_t string = 0;
+    for (const BoardLayout &board : boards) {
+        for (std::size_t i = 0; i < board.motors() && string < table.size(); ++i) {
+            table[string].board_id = board.id;
+            table[string].motor = static_cast<int>(i);
+            ++string;
+        }
+    }
+    return table;
+}
+
+std::string validate(const SerialMotorTable &motors, std::span<const BoardLayout> boards) {
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        const SerialMotor &one = motors[i];
+        const std::string name = "String " + std::to_string(i) + ": board " +
+                                 std::to_string(one.board_id) + ", motor " +
+                                 std::to_string(one.motor);
+        const bool exists =
+            std::any_of(boards.begin(), boards.end(), [&one](const BoardLayout &board) {
+                return board.id == one.board_id && one.motor >= 0 &&
+                       static_cast<std::size_t>(one.motor) < board.motors();
+            });
+        if (!exists) {
+            return name + " is not on the bus; correct the table of motors, or the boards' ids.";
+        }
+        for (std::size_t other = 0; other < i; ++other) {
+            if (motors[other].board_id == one.board_id && motors[other].motor == one.motor) {
+                return name + " pulls string " + std::to_string(other) +
+                       " already; give each string a motor of its own.";
+            }
+        }
+        if (std::abs(one.count_sign) != 1 || std::abs(one.current_sign) != 1) {
+            return name + ": its signs must be 1 or -1.";
+        }
+    }
+    return {};
+}
+
+std::int16_t board_units(double current_a, double units_per_a, int most, int sign) noexcept {
+    const double units = current_a * units_per_a;
+    if (!(units > 0.0)) {
+        return 0; // strings only pull
+    }
+    const double bounded = std::min(units + 0.5, static_cast<double>(most));
+    return static_cast<std::int16_t>(sign * static_cast<int>(bounded));
+}
+
+} // namespace spidar
