@@ -142,7 +142,7 @@ def use_mingw(env):
     # Headers alone, shared with the host; its /usr/include as a whole would bring the wrong C library.
     folder = "build/host_headers"
     os.makedirs(folder, exist_ok=True)
-    for name in ("glm", "doctest"):
+    for name in ("glm", "doctest", "asio"):
         source = os.path.join("/usr/include", name)
         link = os.path.join(folder, name)
         if os.path.isdir(source) and not os.path.islink(link):

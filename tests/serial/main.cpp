@@ -1,8 +1,47 @@
-// spidar_serial_tests: the serial transport against boards on a pseudo-terminal.
+// spidar_serial_tests: the serial transport against boards on a pseudo-terminal. With `--host LINK` it is the game that
+// the tests kill: it brings the device at LINK to pull, says so on its standard output, and goes on for ever.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
+#include <cstdio>
+#include <cstring>
+
+#include "serial/serial_rig.h"
+
+namespace {
+
+using namespace spidar;
+using namespace spidar::test;
+
+void say(char what, int number) {
+    std::printf("%c%d\n", what, number);
+    std::fflush(stdout);
+}
+
+int play_host(const char *link) {
+    SerialHost host(settings_for(link));
+    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
+    if (!usable(host.start()) || !host.activate([](double) {})) { // the test moves the hand
+        std::fprintf(stderr, "host: %s %s %s\n", describe(host.now.state), describe(host.now.fault),
+                     host.transport->problem().c_str());
+        return 1;
+    }
+    say('g', host.transport->guard_process());
+    for (DeviceState told = DeviceState::closed;;) {
+        host.tick();
+        if (host.now.state != told) {
+            told = host.now.state;
+            say('s', static_cast<int>(told));
+        }
+    }
+}
+
+} // namespace
+
 int main(int count, char **words) {
+    if (count == 3 && std::strcmp(words[1], "--host") == 0) {
+        return play_host(words[2]);
+    }
     doctest::Context context(count, words);
     return context.run();
 }

@@ -109,7 +109,9 @@ public:
         ++command.zero_count;
         const std::int64_t start_ns = monotonic_ns();
         bool armed = false;
-        for (int i = 0; i < 10'000 && now.state != DeviceState::active; ++i) {
+        for (int i = 0;
+             i < 5'000 && now.state != DeviceState::active && now.state != DeviceState::fault;
+             ++i) {
             tick();
             move(1e-9 * static_cast<double>(monotonic_ns() - start_ns));
             if (!armed && now.state == DeviceState::calibrated && now.zero_known) {
@@ -127,9 +129,9 @@ public:
     ServoSnapshot now;
 };
 
-// A motion that confirms a zero: still for a second, then round and round.
+// A motion that confirms a zero: still at first, then round and round.
 inline HandTarget wave(double time_s) {
-    const double way = std::max(0.0, time_s - 1.0);
+    const double way = 1.5 * std::max(0.0, time_s - 1.0);
     HandTarget target;
     target.position_m =
         0.045 * Vec3(std::sin(4.0 * way), std::sin(3.0 * way), -std::sin(3.5 * way));

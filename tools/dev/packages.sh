@@ -2,7 +2,7 @@
 
 # What a probe finds, and the Debian package that brings it.
 build_needs=(g++:g++ scons:scons python3:python3 glm/glm.hpp:libglm-dev doctest/doctest.h:doctest-dev
-    hidapi/hidapi.h:libhidapi-dev)
+    hidapi/hidapi.h:libhidapi-dev asio/serial_port.hpp:libasio-dev)
 test_needs=(git:git clang-format:clang-format)
 picture_needs=(Xvfb:xvfb)
 windows_needs=(x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix)

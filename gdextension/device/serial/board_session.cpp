@@ -61,6 +61,7 @@ bool measure_reply(SerialPort &port, BoardLayout &board) {
     const std::size_t usual = reply_length(board, BoardCommand::current);
     BoardLayout longer = board;
     longer.extra_words = board.info.motors;
+    const std::size_t with_currents = reply_length(longer, BoardCommand::current);
     for (int i = 0; i < kTries; ++i) {
         BoardFrame frame;
         append_current(frame, longer, {});
@@ -68,10 +69,10 @@ bool measure_reply(SerialPort &port, BoardLayout &board) {
         if (!port.write(frame.bytes(), kWrite_ms)) {
             return false;
         }
-        const auto heard = listen(port, usual + 2U * board.info.motors, kAnswer_ms);
+        const auto heard = listen(port, with_currents, kAnswer_ms);
         const bool begins =
             !heard.empty() && heard[0] == board_header(BoardCommand::current, board.id);
-        if (begins && heard.size() >= usual + 2U * board.info.motors) {
+        if (begins && heard.size() >= with_currents) {
             board.extra_words = board.info.motors;
             return true;
         }

@@ -44,6 +44,17 @@ std::string validate(const SerialMotorTable &motors, std::span<const BoardLayout
     return {};
 }
 
+std::array<std::size_t, kStringCount> boards_of(const SerialMotorTable &motors,
+                                                std::span<const BoardLayout> boards) noexcept {
+    std::array<std::size_t, kStringCount> places{};
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        for (std::size_t board = 0; board < boards.size(); ++board) {
+            places[i] = boards[board].id == motors[i].board_id ? board : places[i];
+        }
+    }
+    return places;
+}
+
 std::int16_t board_units(double current_a, double units_per_a, int most, int sign) noexcept {
     const double units = current_a * units_per_a;
     if (!(units > 0.0)) {
@@ -51,6 +62,22 @@ std::int16_t board_units(double current_a, double units_per_a, int most, int sig
     }
     const double bounded = std::min(units + 0.5, static_cast<double>(most));
     return static_cast<std::int16_t>(sign * static_cast<int>(bounded));
+}
+
+void append_currents(BoardFrame &frame, std::span<const BoardLayout> boards,
+                     const SerialMotorTable &motors, const StringArray &currents_a,
+                     double units_per_a, int most) noexcept {
+    for (const BoardLayout &board : boards) {
+        BoardCurrents currents{};
+        for (std::size_t i = 0; i < kStringCount; ++i) {
+            const SerialMotor &motor = motors[i];
+            if (motor.board_id == board.id) {
+                currents[static_cast<std::size_t>(motor.motor)] =
+                    board_units(currents_a[i], units_per_a, most, motor.current_sign);
+            }
+        }
+        append_current(frame, board, currents);
+    }
 }
 
 } // namespace spidar

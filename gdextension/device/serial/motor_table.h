@@ -25,6 +25,10 @@ using SerialMotorTable = std::array<SerialMotor, kStringCount>;
 [[nodiscard]] std::string validate(const SerialMotorTable &motors,
                                    std::span<const BoardLayout> boards);
 
+// Of each string: the place of its board among these. For a table that was validated.
+[[nodiscard]] std::array<std::size_t, kStringCount>
+boards_of(const SerialMotorTable &motors, std::span<const BoardLayout> boards) noexcept;
+
 // What the usual host sends: 4096 / 3.3 units a volt. With the voltages that are published for the X5R's motors this is
 // about as many for an ampere of this project's default motor.
 inline constexpr double kUsualUnitsPerAmpere = 618.0;
@@ -32,5 +36,10 @@ inline constexpr double kUsualUnitsPerAmpere = 618.0;
 // Unit: the board's. Never more than `most`, whatever is asked: a B5M keeps no limit of its own here. NaN gives 0.
 [[nodiscard]] std::int16_t board_units(double current_a, double units_per_a, int most,
                                        int sign) noexcept;
+
+// CURRENT for every board. Motors without a string get none.
+void append_currents(BoardFrame &frame, std::span<const BoardLayout> boards,
+                     const SerialMotorTable &motors, const StringArray &currents_a,
+                     double units_per_a, int most) noexcept;
 
 } // namespace spidar

@@ -60,11 +60,11 @@ std::vector<SerialPortInfo> list_serial_ports(const std::string &sys, const std:
     for (const auto &entry : fs::directory_iterator(sys + "/class/tty", error)) {
         const std::string name = entry.path().filename().string();
         fs::path device = fs::canonical(entry.path() / "device", error);
-        if (error || !fs::exists(dev + "/" + name, error)) {
+        if (error || !fs::exists(fs::path(dev) / name, error)) {
             continue; // a console, or a port that has no hardware
         }
         SerialPortInfo port;
-        port.path = dev + "/" + name;
+        port.path = (fs::path(dev) / name).string();
         for (int level = 0; level < kLevelsToBridge && !port.usb; ++level) {
             port.usb = fs::exists(device / "idVendor", error);
             if (port.usb) {
@@ -84,6 +84,29 @@ std::vector<SerialPortInfo> list_serial_ports(const std::string &sys, const std:
 std::string describe(const SerialPortInfo &port) {
     const std::string name = port.product.empty() ? "serial port" : port.product;
     return name + (port.serial.empty() ? "" : " (serial " + port.serial + ")") + " at " + port.path;
+}
+
+Status choose_serial_port(const std::string &wanted, std::string &path, std::string &problem,
+                          const std::string &sys, const std::string &dev) {
+    path = wanted;
+    if (!path.empty()) {
+        return Status::ok;
+    }
+    std::string names;
+    int found = 0;
+    for (const SerialPortInfo &port : list_serial_ports(sys, dev)) {
+        if (port.usb) {
+            path = found == 0 ? port.path : path;
+            names += (found == 0 ? "" : ", ") + describe(port);
+            ++found;
+        }
+    }
+    if (found == 1) {
+        return Status::ok;
+    }
+    problem = found == 0 ? "No serial port of a USB bridge is plugged in."
+                         : "Several serial ports are plugged in (" + names + "): choose one.";
+    return found == 0 ? Status::no_device : Status::invalid_settings;
 }
 
 BridgeLatency shorten_latency(const std::string &path, int descriptor, std::string &problem,

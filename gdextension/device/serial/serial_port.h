@@ -45,6 +45,11 @@ open_serial_port(const std::string &path, std::uint32_t baud, Status &status, st
 // Empty on systems other than Linux: there a port is given by its name.
 [[nodiscard]] std::vector<SerialPortInfo> list_serial_ports(const std::string &sys = "/sys",
                                                             const std::string &dev = "/dev");
+// `wanted`, or if that is empty the only port of a USB bridge. no_device, invalid_settings: none, or several; `problem` names
+// them.
+[[nodiscard]] Status choose_serial_port(const std::string &wanted, std::string &path,
+                                        std::string &problem, const std::string &sys = "/sys",
+                                        const std::string &dev = "/dev");
 // "FT232R (serial A50285BI) at /dev/ttyUSB0".
 [[nodiscard]] std::string describe(const SerialPortInfo &port);
 

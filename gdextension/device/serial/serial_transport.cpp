@@ -1,16 +1,12 @@
 #include "device/serial/serial_transport.h"
 
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <utility>
 
-#include "device/serial/board_session.h"
-#include "device/serial/port_guard.h"
 #include "device/serial/protocol/wire_rate.h"
+#include "device/serial/serial_transport_impl.h"
 #include "device/threads/real_time_thread.h"
 
 namespace spidar {
@@ -28,81 +24,11 @@ constexpr std::int64_t kNanosecondsPerMicrosecond = 1000;
 
 } // namespace
 
-struct SerialTransport::Impl {
-    explicit Impl(const SerialTransportSettings &settings_in) : settings(settings_in) {}
-
-    // What a thread works with, of the present plug-in; null handles when there is none.
-    struct Borrowed {
-        std::shared_ptr<SerialPort> port;
-        std::uint32_t session = 0;
-        std::vector<BoardLayout> boards;
-        SerialMotorTable motors{};
-    };
-    [[nodiscard]] Borrowed borrow(std::shared_ptr<SerialPort> BoardSession::*which) const;
-    void refresh(Borrowed &mine, std::uint32_t &link_seen,
-                 std::shared_ptr<SerialPort> BoardSession::*which) const noexcept;
-    void lose(std::uint32_t which) noexcept;
-    Status find_port(std::string &path, std::string &why) const;
-    Status connect(const std::string &path, std::string &why);
-    void start_guard();
-    void end_guard() noexcept;
-    void watch();
-    void guard_the_port() noexcept;
-    [[nodiscard]] bool append_command(BoardFrame &frame, const DriveCommand &command,
-                                      bool pull) const noexcept;
-    [[nodiscard]] bool may_pull(const DriveCommand &command) noexcept;
-    Status send(const DriveCommand &command) noexcept;
-    void fill(DeviceReading &reading) noexcept;
-
-    const SerialTransportSettings settings;
-    std::string problem; // the controlling thread's own
-
-    // Held only to copy or swap; ports are closed outside, by whoever drops the last reference.
-    mutable std::mutex mutex;
-    BoardSession session;
-    SerialMotorTable motors{};
-    std::string guard_remark;
-    std::uint32_t session_number = 0;
-    std::atomic<std::uint32_t> link_number{0}; // counts connects and losses: when to borrow anew
-    bool connected = false;
-    bool stop_watcher = false;
-    std::condition_variable wake;
-    std::thread watcher;
-    std::atomic<bool> is_open{false};
-
-    // The guard is used by the writer and replaced by the watcher: whoever has this flag may touch it.
-    PortGuard guard;
-    std::atomic_flag guard_busy = ATOMIC_FLAG_INIT;
-    std::atomic<bool> guard_wanted{false}; // it is lost: the watcher starts another
-    std::atomic<bool> tripped{false};      // latched until faults are cleared with the motors off
-
-    SerialStatistics statistics;
-    std::atomic<std::uint64_t> asked{0}; // rounds of this session
-
-    // Reader's own.
-    Borrowed reader;
-    std::uint32_t link_read = 0;
-    std::uint32_t session_read = 0;
-    ReplyReader replies;
-    ReplyCounters replies_seen;
-    std::uint64_t lost_seen = 0;
-    std::uint64_t asked_seen = 0;
-    DeviceReading first; // that open() heard
-    bool first_waits = false;
-
-    // Writer's own.
-    std::atomic<bool> write_busy{false};
-    Borrowed writer;
-    std::uint32_t link_written = 0;
-    std::int64_t wire_free_ns = 0;
-    bool last_pulled = false;
-    bool guard_was_alive = false;
-};
-
 SerialTransport::Impl::Borrowed
 SerialTransport::Impl::borrow(std::shared_ptr<SerialPort> BoardSession::*which) const {
     const std::lock_guard<std::mutex> lock(mutex);
-    return {session.*which, session_number, session.boards, motors};
+    return {session.*which, session_number, session.boards, motors,
+            boards_of(motors, session.boards)};
 }
 
 // Only after the link has changed, so that the loop meets no lock.
@@ -137,27 +63,6 @@ void SerialTransport::Impl::lose(std::uint32_t which) noexcept {
     wake.notify_all();
 }
 
-Status SerialTransport::Impl::find_port(std::string &path, std::string &why) const {
-    path = settings.port;
-    if (!path.empty()) {
-        return Status::ok;
-    }
-    std::string names;
-    int found = 0;
-    for (const SerialPortInfo &port : list_serial_ports()) {
-        if (port.usb) {
-            path = found++ == 0 ? port.path : path;
-            names += (names.empty() ? "" : ", ") + describe(port);
-        }
-    }
-    if (found == 1) {
-        return Status::ok;
-    }
-    why = found == 0 ? "No serial port of a USB bridge is plugged in."
-                     : "Several serial ports are plugged in (" + names + "): choose one.";
-    return found == 0 ? Status::no_device : Status::invalid_settings;
-}
-
 Status SerialTransport::Impl::connect(const std::string &path, std::string &why) {
     BoardSession fresh;
     const Status status = open_session(path, settings.baud, fresh, why);
@@ -182,32 +87,12 @@ Status SerialTransport::Impl::connect(const std::string &path, std::string &why)
 
 // From the controlling thread before the watcher runs, then from the watcher.
 void SerialTransport::Impl::start_guard() {
-    Borrowed mine = borrow(&BoardSession::writer);
-    if (!mine.port) {
-        return;
+    const Borrowed mine = borrow(&BoardSession::writer);
+    if (mine.port) {
+        std::string remark = guard.start(settings.guard, mine.port->descriptor(), mine.boards);
+        const std::lock_guard<std::mutex> lock(mutex);
+        guard_remark = std::move(remark);
     }
-    BoardFrame off;
-    off.zeros(kResyncZeros);
-    for (const BoardLayout &board : mine.boards) {
-        append_current(off, board, {});
-    }
-    const std::string program = settings.guard.empty() ? guard_beside_library() : settings.guard;
-    while (guard_busy.test_and_set(std::memory_order_acquire)) { // the writer beats: microseconds
-        std::this_thread::yield();
-    }
-    std::string remark = guard.start(program, mine.port->descriptor(), off.bytes());
-    guard_busy.clear(std::memory_order_release);
-    guard_wanted.store(false);
-    const std::lock_guard<std::mutex> lock(mutex);
-    guard_remark = std::move(remark);
-}
-
-void SerialTransport::Impl::end_guard() noexcept {
-    while (guard_busy.test_and_set(std::memory_order_acquire)) {
-        std::this_thread::yield();
-    }
-    guard.end();
-    guard_busy.clear(std::memory_order_release);
 }
 
 // Looks for the device while it is gone, and for a guard while there is none.
@@ -224,12 +109,12 @@ void SerialTransport::Impl::watch() {
         lock.unlock();
         try {
             if (reconnects) {
-                end_guard(); // it holds the port that is gone, and nobody else may open it
+                guard.end(); // it holds the port that is gone, and nobody else may open it
                 if (usable(connect(path, why))) {
                     SerialStatistics::add(statistics.replugs);
                     start_guard();
                 }
-            } else if (guard_wanted.load()) {
+            } else if (guard.is_wanted()) {
                 start_guard();
             }
         } catch (const std::exception &) { // no memory: the next look may have some
@@ -254,13 +139,13 @@ Status SerialTransport::open() noexcept {
     close();
     try {
         std::string path;
-        Status status = m.find_port(path, m.problem);
+        Status status = choose_serial_port(m.settings.port, path, m.problem);
         status = usable(status) ? m.connect(path, m.problem) : status;
         if (!usable(status)) {
             return status;
         }
-        m.tripped.store(false);
         m.start_guard();
+        m.guard.allow();
         m.stop_watcher = false;
         m.is_open.store(true);
         m.watcher = std::thread([&m] { m.watch(); });
@@ -294,7 +179,7 @@ void SerialTransport::close() noexcept {
     if (m.watcher.joinable()) {
         m.watcher.join();
     }
-    m.end_guard();
+    m.guard.end();
     BoardSession dropped;
     const std::lock_guard<std::mutex> lock(m.mutex);
     m.first_waits = false;
@@ -312,21 +197,16 @@ void SerialTransport::Impl::fill(DeviceReading &reading) noexcept {
     }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const SerialMotor &motor = reader.motors[i];
-        for (std::size_t board = 0; board < reader.boards.size(); ++board) {
-            if (reader.boards[board].id == motor.board_id) {
-                const std::int32_t count =
-                    replies.count(board, static_cast<std::size_t>(motor.motor));
-                reading.counts[i] = motor.count_sign < 0 ? -count : count;
-            }
-        }
+        const std::int32_t count =
+            replies.count(reader.board_of[i], static_cast<std::size_t>(motor.motor));
+        reading.counts[i] = motor.count_sign < 0 ? -count : count;
     }
     reading.device_time_us = 0; // the boards have no clock that they tell
     reading.sequence =
         static_cast<std::uint16_t>((replies.counters().rounds + lost_seen) % kSequences);
     reading.buttons = 0;
     reading.zeroed = false; // their counts begin anywhere
-    const bool guarded = guard.alive() && !tripped.load(std::memory_order_acquire);
-    reading.device_status = guarded ? Status::ok : Status::device_watchdog;
+    reading.device_status = guard.allows() ? Status::ok : Status::device_watchdog;
     reading.fault_strings = 0;
 }
 
@@ -382,64 +262,26 @@ Status SerialTransport::read(DeviceReading &reading) noexcept {
     return Status::ok;
 }
 
-// Tells the guard that this process lives, and hears whether the guard does.
-void SerialTransport::Impl::guard_the_port() noexcept {
-    if (guard_busy.test_and_set(std::memory_order_acquire)) {
-        return; // another one is being started
-    }
-    guard.beat(monotonic_ns());
-    if (guard.take_tripped() && last_pulled) {
-        tripped.store(true, std::memory_order_release);
-        SerialStatistics::add(statistics.guard_trips);
-    }
-    const bool alive = guard.alive();
-    guard_busy.clear(std::memory_order_release);
-    if (guard_was_alive && !alive) {
-        SerialStatistics::add(statistics.guard_losses);
-        tripped.store(true, std::memory_order_release);
-        guard_wanted.store(true);
-    }
-    guard_was_alive = alive;
-}
-
 bool SerialTransport::Impl::may_pull(const DriveCommand &command) noexcept {
-    if (!command.motors_on) {
-        if (command.clear_faults && guard.alive()) {
-            tripped.store(false, std::memory_order_release);
-        }
-        return false;
+    if (!command.motors_on && command.clear_faults) {
+        guard.allow();
     }
-    return guard.alive() && !tripped.load(std::memory_order_acquire);
-}
-
-bool SerialTransport::Impl::append_command(BoardFrame &frame, const DriveCommand &command,
-                                           bool pull) const noexcept {
-    for (const BoardLayout &board : writer.boards) {
-        BoardCurrents currents{};
-        for (std::size_t i = 0; i < kStringCount && pull; ++i) {
-            const SerialMotor &motor = writer.motors[i];
-            if (motor.board_id == board.id) {
-                currents[static_cast<std::size_t>(motor.motor)] =
-                    board_units(command.currents_a[i], settings.units_per_a, settings.most_units,
-                                motor.current_sign);
-            }
-        }
-        append_current(frame, board, currents);
-    }
-    return frame.whole();
+    return command.motors_on && guard.allows();
 }
 
 Status SerialTransport::Impl::send(const DriveCommand &command) noexcept {
-    guard_the_port();
-    const bool pull = may_pull(command);
     const std::int64_t now_ns = monotonic_ns();
+    guard.beat(now_ns, last_pulled);
+    const bool pull = may_pull(command);
     // Only what changes nothing for the worse waits for the wire: never the command that stops the pull.
     if (now_ns < wire_free_ns && pull == last_pulled) {
         SerialStatistics::add(statistics.postponed);
         return Status::ok;
     }
     BoardFrame frame;
-    if (!append_command(frame, command, pull)) {
+    append_currents(frame, writer.boards, writer.motors, pull ? command.currents_a : StringArray{},
+                    settings.units_per_a, settings.most_units);
+    if (!frame.whole()) {
         return Status::write_failed;
     }
     last_pulled = last_pulled || pull;

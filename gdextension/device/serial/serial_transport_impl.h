@@ -1,0 +1,81 @@
+// The inside of SerialTransport: what its threads (reader, writer, watcher, controlling thread) share and what is theirs.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "device/serial/board_session.h"
+#include "device/serial/guard_link.h"
+#include "device/serial/protocol/reply_reader.h"
+#include "device/serial/serial_transport.h"
+
+namespace spidar {
+
+struct SerialTransport::Impl {
+    explicit Impl(const SerialTransportSettings &settings_in) : settings(settings_in) {}
+
+    // What a thread works with, of the present plug-in; null handles when there is none.
+    struct Borrowed {
+        std::shared_ptr<SerialPort> port;
+        std::uint32_t session = 0;
+        std::vector<BoardLayout> boards;
+        SerialMotorTable motors{};
+        std::array<std::size_t, kStringCount> board_of{}; // each string's place in `boards`
+    };
+    [[nodiscard]] Borrowed borrow(std::shared_ptr<SerialPort> BoardSession::*which) const;
+    void refresh(Borrowed &mine, std::uint32_t &link_seen,
+                 std::shared_ptr<SerialPort> BoardSession::*which) const noexcept;
+    void lose(std::uint32_t which) noexcept;
+    Status connect(const std::string &path, std::string &why);
+    void start_guard();
+    void watch();
+    [[nodiscard]] bool may_pull(const DriveCommand &command) noexcept;
+    Status send(const DriveCommand &command) noexcept;
+    void fill(DeviceReading &reading) noexcept;
+
+    const SerialTransportSettings settings;
+    std::string problem; // the controlling thread's own
+
+    // Held only to copy or swap; ports are closed outside, by whoever drops the last reference.
+    mutable std::mutex mutex;
+    BoardSession session;
+    SerialMotorTable motors{};
+    std::string guard_remark;
+    std::uint32_t session_number = 0;
+    std::atomic<std::uint32_t> link_number{0}; // counts connects and losses: when to borrow anew
+    bool connected = false;
+    bool stop_watcher = false;
+    std::condition_variable wake;
+    std::thread watcher;
+    std::atomic<bool> is_open{false};
+
+    SerialStatistics statistics;
+    GuardLink guard{statistics};
+    std::atomic<std::uint64_t> asked{0}; // rounds of this session
+
+    // Reader's own.
+    Borrowed reader;
+    std::uint32_t link_read = 0;
+    std::uint32_t session_read = 0;
+    ReplyReader replies;
+    ReplyCounters replies_seen;
+    std::uint64_t lost_seen = 0;
+    std::uint64_t asked_seen = 0;
+    DeviceReading first; // that open() heard
+    bool first_waits = false;
+
+    // Writer's own.
+    std::atomic<bool> write_busy{false};
+    Borrowed writer;
+    std::uint32_t link_written = 0;
+    std::int64_t wire_free_ns = 0;
+    bool last_pulled = false;
+};
+
+} // namespace spidar
