@@ -21,9 +21,18 @@ void say(char what, int number) {
 int play_host(const char *link) {
     SerialHost host(settings_for(link));
     host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
-    if (!usable(host.start()) || !host.activate([](double) {})) { // the test moves the hand
+    if (!usable(host.start()) || !host.activate([](double) {}, 1)) { // the test moves the hand
+        const SerialCounters c = host.transport->counters();
         std::fprintf(stderr, "host: %s %s %s\n", describe(host.now.state), describe(host.now.fault),
                      host.transport->problem().c_str());
+        std::fprintf(
+            stderr,
+            "host: asked %llu, answered %llu, lost %llu, implausible %llu, damaged %llu, "
+            "unasked %llu, guard trips %llu\n",
+            static_cast<unsigned long long>(c.asked), static_cast<unsigned long long>(c.rounds),
+            static_cast<unsigned long long>(c.lost), static_cast<unsigned long long>(c.implausible),
+            static_cast<unsigned long long>(c.damaged), static_cast<unsigned long long>(c.unasked),
+            static_cast<unsigned long long>(c.guard_trips));
         return 1;
     }
     say('g', host.transport->guard_process());

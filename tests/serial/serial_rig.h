@@ -100,23 +100,16 @@ public:
         }
         return now.state == DeviceState::connected;
     }
-    // zero_at_home() and arm(), while somebody moves the hand by wave(): then the motors pull.
+    // zero_at_home() and arm(), while somebody moves the hand by wave(): then the motors pull. The kernel hands the bytes of
+    // a pseudo-terminal on by threads of its own, which a busy machine may hold up for 20 ms: then the loop is in FAULT, and
+    // it is tried again.
     template <typename Move>
-    bool activate(const Move &move) {
-        if (!run_until(DeviceState::connected, 1000)) {
-            return false;
-        }
-        ++command.zero_count;
-        const std::int64_t start_ns = monotonic_ns();
-        bool armed = false;
-        for (int i = 0;
-             i < 5'000 && now.state != DeviceState::active && now.state != DeviceState::fault;
-             ++i) {
-            tick();
-            move(1e-9 * static_cast<double>(monotonic_ns() - start_ns));
-            if (!armed && now.state == DeviceState::calibrated && now.zero_known) {
-                ++command.arm_count;
-                armed = true;
+    bool activate(const Move &move, int tries = 10) {
+        for (int i = 0; i < tries && !pulls_after(move); ++i) {
+            if (i + 1 < tries) {
+                move(0.0);
+                sleep_ms(500);
+                (void)recover();
             }
         }
         return now.state == DeviceState::active;
@@ -127,6 +120,28 @@ public:
     ServoSettings servo;
     HapticCommand command;
     ServoSnapshot now;
+
+private:
+    template <typename Move>
+    bool pulls_after(const Move &move) {
+        if (!run_until(DeviceState::connected, 1000)) {
+            return false;
+        }
+        ++command.zero_count;
+        const std::int64_t start_ns = monotonic_ns();
+        bool armed = false;
+        for (int i = 0; i < 5'000 && now.state != DeviceState::active &&
+                        now.state != DeviceState::fault && now.state != DeviceState::closed;
+             ++i) {
+            tick();
+            move(1e-9 * static_cast<double>(monotonic_ns() - start_ns));
+            if (!armed && now.state == DeviceState::calibrated && now.zero_known) {
+                ++command.arm_count;
+                armed = true;
+            }
+        }
+        return now.state == DeviceState::active;
+    }
 };
 
 // A motion that confirms a zero: still at first, then round and round.

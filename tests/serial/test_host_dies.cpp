@@ -97,7 +97,7 @@ double off_after(int signal_number) {
     // A busy machine may hold a game up for so long that it stops itself before it pulls: then another one plays.
     std::unique_ptr<Game> playing;
     bool pulls = false;
-    for (int tries = 0; tries < 5 && !pulls; ++tries) {
+    for (int tries = 0; tries < 20 && !pulls; ++tries) {
         playing.reset();
         bus.set_hand_target(HandTarget());
         sleep_ms(tries == 0 ? 0 : 300);
@@ -116,6 +116,7 @@ double off_after(int signal_number) {
     const BusSeen seen = bus.seen();
     CHECK(seen.strongest == 0); // and stay so
     const double off_ms = 1e-6 * static_cast<double>(seen.last_pull_ns - killed_ns);
+    CHECK(off_ms > -5.0); // it pulled until then
 
     if (signal_number == SIGSTOP) {
         CHECK(exists(game.guard)); // the game may go on: then it finds itself in FAULT

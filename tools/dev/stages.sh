@@ -75,6 +75,16 @@ stage_godot_tests() {
     counted python3 tests/godot/check_class_reference.py "$GODOT"
 }
 
+stage_serial() {
+    scons -Q -j"$jobs" spidar_serial_tests
+    doctest build/bin/spidar_serial_tests --test-suite=quick
+}
+
+stage_serial_long() {
+    scons -Q -j"$jobs" spidar_serial_tests
+    doctest build/bin/spidar_serial_tests --test-suite=long
+}
+
 stage_play() {
     counted python3 tests/play/run_play_tests.py "$GODOT" --seeds 3
     counted python3 tests/play/run_experiment_tests.py "$GODOT" "$(plotting_python)" --participants 1
