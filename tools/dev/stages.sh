@@ -120,9 +120,10 @@ sanitizer() { # sanitizer NAMES [doctest filter]
     doctest "build/${1//,/-}/bin/spidar_tests" "${@:2}"
 }
 
-# Threads are watched at fifty times the price: long searches and simulated hours in one thread are left to the others.
-one_thread='fault table: each*,recording: a flipped bit*,recording: cut at every*,touch: thrown*,touch: a plate*'
-one_thread+=',tension problem: the best of all*'
+# Threads are watched at fifty times the price: where all is done in one thread, long searches and simulated hours are left
+# to the others.
+one_thread='fault table: each*,recording: a flipped bit*,recording: cut at every*,replay: a memory*,touch: *,string faults: *'
+one_thread+=',tension problem: the best of all*,mesh contacts: as every*,closest points: any tool*,proxy: *'
 stage_sanitize() {
     local folder folders=()
     for folder in loop threads recording hid simulation; do folders+=("*tests/device/$folder/*"); done

@@ -12,77 +12,10 @@
 #include <glm/matrix.hpp>
 
 #include "core/geometry/rotation_log.h"
-#include "device/contact/proxy/tool_proxy.h"
-#include "support/touch_scenes.h"
+#include "support/proxy_rig.h"
 
 using namespace spidar;
-using spidar::test::box;
-using spidar::test::cooked_half_space;
-
-namespace {
-
-constexpr double kTick_s = 0.001;
-
-// A tool, a scene, and a hand that holds the device anywhere.
-struct Rig {
-    ProxySettings settings;
-    Tool tool;
-    ContactScene scene;
-    ProxyMemory memory;
-    ToolProxy proxy;
-    ToolPose device;
-    std::vector<std::shared_ptr<const void>> keep;
-
-    Rig() {
-        settings.damping_s = 0.0;
-        proxy.configure(settings);
-    }
-    void add_tool(const ToolResult &made, ToolMount mount = ToolMount::grip,
-                  const Placement &at = {}) {
-        REQUIRE(usable(made.status));
-        keep.push_back(made.tool);
-        ToolPart &part = tool.parts[static_cast<std::size_t>(tool.count++)];
-        part = {made.tool.get(), mount, at, tool.count};
-    }
-    ScenePart &add(const std::shared_ptr<const CookedShape> &shape, const Placement &at = {}) {
-        keep.push_back(shape);
-        ScenePart &part = scene.parts[static_cast<std::size_t>(scene.count++)];
-        part.shape = shape.get();
-        part.at = at;
-        part.id = scene.count;
-        return part;
-    }
-    void start_at(const ToolPose &pose) {
-        proxy.configure(settings);
-        device = pose;
-        proxy.put(pose);
-    }
-    void tick(const Twist &velocity = {}) {
-        proxy.update(tool, scene, device, velocity, kTick_s, memory);
-    }
-    // The device goes there at this speed and stays.
-    void move_to(const ToolPose &target, int ticks) {
-        const Displacement whole = between(device, target);
-        const ToolPose from = device;
-        for (int i = 1; i <= ticks; ++i) {
-            const double part = static_cast<double>(i) / ticks;
-            device = moved(
-                from, {part * whole.linear_m, part * whole.angular_rad, part * whole.grasp_rad});
-            tick();
-        }
-        for (int i = 0; i < 20; ++i) {
-            tick();
-        }
-    }
-};
-
-ToolPose at(const Vec3 &position_m) {
-    ToolPose pose;
-    pose.position_m = position_m;
-    return pose;
-}
-
-} // namespace
+using namespace spidar::test;
 
 TEST_CASE("tool pose: between() is the inverse of moved()") {
     std::mt19937_64 random(3);
@@ -132,7 +65,7 @@ TEST_CASE("tool: how a point of it moves is the derivative of where it is") {
 }
 
 TEST_CASE("proxy: in free space it is where the device is, however fast, and nothing pushes") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_sphere(0.012));
     rig.add(box(Vec3(0.5, 0.1, 0.5)), {Vec3(0.0, -0.2, 0.0), Mat3(1.0)});
     rig.start_at(at(Vec3(0.0)));
@@ -146,7 +79,7 @@ TEST_CASE("proxy: in free space it is where the device is, however fast, and not
 }
 
 TEST_CASE("proxy: a sphere on a plane is pushed by stiffness times depth, and stays on it") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_sphere(0.012));
     rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
@@ -161,7 +94,7 @@ TEST_CASE("proxy: a sphere on a plane is pushed by stiffness times depth, and st
 }
 
 TEST_CASE("proxy: a face of four points pushes like one plane, with and without a turn") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.03))));
     rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
@@ -183,7 +116,7 @@ TEST_CASE("proxy: a face of four points pushes like one plane, with and without 
 TEST_CASE("proxy: a bar pressed on an edge far from the hand turns the hand") {
     for (const double lever_m : {0.075, 0.05, 0.0}) {
         for (const double side : {1.0, -1.0}) {
-            Rig rig;
+            ProxyRig rig;
             rig.add_tool(make_tool(*box(Vec3(0.1, 0.01, 0.01))));
             // A block from the lever outwards, its top at y = 0; about the middle: one wide block.
             const Vec3 half = lever_m > 0.0 ? Vec3(0.01, 0.02, 0.02) : Vec3(0.15, 0.02, 0.02);
@@ -207,7 +140,7 @@ TEST_CASE("proxy: a bar pressed on an edge far from the hand turns the hand") {
 
 TEST_CASE("proxy: a body between the jaws stops the fingers, and what is pressed is felt as grasp "
           "torque") {
-    Rig rig;
+    ProxyRig rig;
     for (const ToolMount mount : {ToolMount::jaw_minus, ToolMount::jaw_plus}) {
         const double out = mount == ToolMount::jaw_plus ? 0.012 : -0.012;
         rig.add_tool(make_sphere(0.012), mount, {Vec3(out, 0.0, 0.0), Mat3(1.0)});
@@ -233,7 +166,7 @@ TEST_CASE("proxy: a body between the jaws stops the fingers, and what is pressed
 }
 
 TEST_CASE("proxy: friction holds within the cone and slips at it; a face holds a turn too") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_tool(*box(Vec3(0.02, 0.01, 0.02))));
     rig.add(cooked_half_space()).friction = 0.5;
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
@@ -263,7 +196,7 @@ TEST_CASE("proxy: nothing is passed by throws, and force rises to the end") {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int round = 0; round < 200; ++round) {
-        Rig rig;
+        ProxyRig rig;
         rig.add_tool(make_pad(0.012, 0.003, 0.001));
         const double thickness_m = 0.001 + 0.019 * 0.5 * (1.0 + uniform(random));
         const double top_m = 0.0;
@@ -276,8 +209,8 @@ TEST_CASE("proxy: nothing is passed by throws, and force rises to the end") {
         const double speed_m_s = 0.1 + 1.9 * 0.5 * (1.0 + uniform(random));
         const Vec3 along = glm::normalize(Vec3(0.3 * uniform(random), -1.0, 0.3 * uniform(random)));
         double worst_m = 1.0;
-        for (int i = 0; start.y + i * kTick_s * speed_m_s * along.y > -0.05; ++i) {
-            rig.device.position_m = start + (i * kTick_s * speed_m_s) * along;
+        for (int i = 0; start.y + i * kProxyTick_s * speed_m_s * along.y > -0.05; ++i) {
+            rig.device.position_m = start + (i * kProxyTick_s * speed_m_s) * along;
             rig.tick();
             worst_m = std::min(worst_m, rig.proxy.pose().position_m.y - top_m);
         }
@@ -290,7 +223,7 @@ TEST_CASE("proxy: nothing is passed by throws, and force rises to the end") {
 TEST_CASE("proxy: a plate that moves into a resting tool pushes it along") {
     for (const double speed_m_s : {0.05, 0.2, 0.5, 1.0, 2.0}) {
         for (const double thickness_m : {0.001, 0.005, 0.02}) {
-            Rig rig;
+            ProxyRig rig;
             rig.add_tool(make_sphere(0.012));
             ScenePart &plate =
                 rig.add(box(Vec3(0.1, 0.5 * thickness_m, 0.1)), {Vec3(0.0, -0.1, 0.0), Mat3(1.0)});
@@ -331,7 +264,7 @@ std::vector<Slider> sliders() {
 }
 
 // Presses the slider with 4 N on what the rig has at height 0, beginning at this x.
-void press(Rig &rig, const Slider &slider, double x_m) {
+void press(ProxyRig &rig, const Slider &slider, double x_m) {
     rig.add_tool(slider.tool, ToolMount::grip, {Vec3(0.0), slider.turn});
     rig.start_at(at(Vec3(x_m, slider.height_m + 0.002, -0.01)));
     rig.move_to(at(Vec3(x_m, slider.height_m - 0.004, -0.01)), 20);
@@ -347,7 +280,7 @@ TEST_CASE("proxy: seams between bodies are not felt: no ripple, nothing sideways
                 CAPTURE(slider.name);
                 CAPTURE(speed_m_s);
                 CAPTURE(uneven_m);
-                Rig rig;
+                ProxyRig rig;
                 const auto tile = box(Vec3(0.02));
                 for (int i = -3; i < 4; ++i) {
                     for (int j = -1; j < 2; ++j) {
@@ -357,11 +290,11 @@ TEST_CASE("proxy: seams between bodies are not felt: no ripple, nothing sideways
                     }
                 }
                 press(rig, slider, -0.06);
-                const int ticks = static_cast<int>(0.12 / speed_m_s / kTick_s);
+                const int ticks = static_cast<int>(0.12 / speed_m_s / kProxyTick_s);
                 double off_n = 0.0;
                 double turned_nm = 0.0;
                 for (int i = 0; i < ticks; ++i) {
-                    rig.device.position_m += Vec3(1.0, 0.0, 0.3) * (speed_m_s * kTick_s);
+                    rig.device.position_m += Vec3(1.0, 0.0, 0.3) * (speed_m_s * kProxyTick_s);
                     rig.tick();
                     const Wrench felt = rig.proxy.wrench();
                     off_n = std::max(off_n, glm::distance(felt.force_n, Vec3(0.0, 4.0, 0.0)));
@@ -382,7 +315,7 @@ TEST_CASE("proxy: a wall and a step are no seam: a tool that slides on the floor
                 CAPTURE(slider.name);
                 CAPTURE(step_m);
                 CAPTURE(foot_m);
-                Rig rig;
+                ProxyRig rig;
                 const double floor_end_m = foot_m < 0.0 ? 0.0 : 0.2;
                 rig.add(box(Vec3(0.1, 0.02, 0.1)),
                         {Vec3(floor_end_m - 0.1, -0.02, 0.0), Mat3(1.0)});
@@ -406,7 +339,7 @@ TEST_CASE("proxy: a wall and a step are no seam: a tool that slides on the floor
 }
 
 TEST_CASE("proxy: a way round in contact without friction gives back what it took") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_tool(*box(Vec3(0.05, 0.01, 0.02))));
     rig.add(box(Vec3(0.04, 0.02, 0.04)), {Vec3(0.0, -0.02, 0.0), Mat3(1.0)});
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
@@ -446,7 +379,7 @@ TEST_CASE("proxy: another shape under the same id is looked at anew") {
                                      static_cast<float>(height_m));
         return cook(std::move(description)).shape;
     };
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_sphere(0.012));
     rig.add(field(100, 0.0)); // triangle numbers up to 20,000
     rig.start_at(at(Vec3(0.09, 0.02, 0.09)));
@@ -463,7 +396,7 @@ TEST_CASE("proxy: another shape under the same id is looked at anew") {
 }
 
 TEST_CASE("proxy: what is not finite pushes nothing, and the proxy waits") {
-    Rig rig;
+    ProxyRig rig;
     rig.add_tool(make_sphere(0.012));
     rig.add(cooked_half_space());
     rig.start_at(at(Vec3(0.0, 0.02, 0.0)));
