@@ -83,30 +83,6 @@ void BoardBus::restart_boards() {
     }
 }
 
-BusSeen BoardBus::seen() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return seen_;
-}
-
-void BoardBus::set_hand_target(const HandTarget &target) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    plant_.set_hand_target(target);
-}
-
-CountArray BoardBus::counts() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    CountArray since = counts_;
-    for (std::size_t i = 0; i < since.size(); ++i) {
-        since[i] -= home_[i];
-    }
-    return since;
-}
-
-PlantTruth BoardBus::truth() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return plant_.truth();
-}
-
 void BoardBus::damage(std::vector<std::uint8_t> &answer) {
     const auto draw = [this] {
         random_ = random_ * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -153,6 +129,10 @@ bool BoardBus::serve(std::vector<std::uint8_t> &answer) {
 }
 
 void BoardBus::move_on(std::int64_t now_ns) {
+    HandTarget target;
+    if (targets_.read(target)) {
+        plant_.set_hand_target(target);
+    }
     const std::int64_t step_ns = std::min(now_ns - moved_ns_, kLongestStep_ns);
     moved_ns_ = now_ns;
     StringArray currents_a{};
@@ -185,6 +165,11 @@ void BoardBus::move_on(std::int64_t now_ns) {
         }
     }
     counts_ = counts;
+    News news{seen_, counts};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        news.counts[i] -= home_[i];
+    }
+    news_.write(news);
 }
 
 void BoardBus::run() {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "device/simulation/simulated_plant.h"
+#include "device/threads/triple_buffer.h"
 #include "serial/board_firmware.h"
 
 namespace spidar::test {
@@ -52,10 +53,10 @@ public:
     void restart_boards();
 
     [[nodiscard]] const std::string &link() const { return link_; }
-    [[nodiscard]] BusSeen seen();
-    void set_hand_target(const HandTarget &target);
-    [[nodiscard]] PlantTruth truth();
-    [[nodiscard]] CountArray counts(); // of the strings since power-up
+    // From one thread, without a lock: a test that is held up must not hold the bus up.
+    [[nodiscard]] BusSeen seen() { return newest().seen; }
+    [[nodiscard]] CountArray counts() { return newest().counts; } // of the strings since power-up
+    void set_hand_target(const HandTarget &target) { targets_.write(target); }
     template <typename Work>
     auto with_boards(const Work &work) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -64,6 +65,14 @@ public:
     LineFaults faults;
 
 private:
+    struct News {
+        BusSeen seen;
+        CountArray counts{};
+    };
+    const News &newest() {
+        (void)news_.read(read_);
+        return read_;
+    }
     void run();
     // Returns whether something was heard.
     bool serve(std::vector<std::uint8_t> &answer);
@@ -72,6 +81,9 @@ private:
 
     const BusSettings settings_;
     const std::string link_;
+    TripleBuffer<HandTarget> targets_;
+    TripleBuffer<News> news_;
+    News read_;
     std::mutex mutex_; // all below
     int master_ = -1;
     std::vector<BoardFirmware> boards_;

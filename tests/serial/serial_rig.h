@@ -100,9 +100,8 @@ public:
         }
         return now.state == DeviceState::connected;
     }
-    // zero_at_home() and arm(), while somebody moves the hand by wave(): then the motors pull. The kernel hands the bytes of
-    // a pseudo-terminal on by threads of its own, which a busy machine may hold up for 20 ms: then the loop is in FAULT, and
-    // it is tried again.
+    // zero_at_home() and arm(), while somebody moves the hand by wave(): then the motors pull. A busy machine may hold the
+    // loop up for so long that it is in FAULT: then it is tried again.
     template <typename Move>
     bool activate(const Move &move, int tries = 10) {
         for (int i = 0; i < tries && !pulls_after(move); ++i) {
