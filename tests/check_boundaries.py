@@ -25,7 +25,7 @@ OUTSIDE = (
     (r"<(pthread|sched|windows)\.h>|<sys/prctl\.h>", ("device/threads",)),
     (r"<hidapi/|<(dlfcn|unistd)\.h>|<sys/types\.h>", ("device/hid",)),
     (r"<asio/|<linux/serial\.h>", ("device/serial",)),
-    (r"<(dlfcn|fcntl|poll|spawn|unistd)\.h>|<sys/(file|ioctl|socket|wait)\.h>", ("device/serial",)),
+    (r"<(dlfcn|fcntl|poll|spawn|unistd)\.h>|<sys/(file|ioctl|mman|socket|wait)\.h>", ("device/serial",)),
     (r"<Jolt/", ("device/contact/shapes",)),
     (r'"spidar_(version|sources)\.h"', ("device/recording", "godot")),
     (r"<godot_cpp/|<gdextension_interface\.h>", ("godot",)),

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "serial/serial_rig.h"
 
@@ -151,6 +152,20 @@ TEST_CASE("serial guard: killed while the motors pull, they are off and the loop
     sleep_ms(300);
     CHECK(host.recover());
     CHECK(host.transport->counters().guard_losses == 1);
+}
+
+TEST_CASE("serial guard: a file that lost its mark of a program is started all the same") {
+    const std::string file = link_of_this_test();
+    std::filesystem::copy_file(kGuardProgram, file);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+    BoardBus bus(one_b5m(), link_of_this_test());
+    SerialTransportSettings settings = settings_for(bus.link());
+    settings.guard = file;
+    SerialTransport transport(settings);
+    REQUIRE(usable(transport.open()));
+    CHECK(transport.remarks() == "");
+    CHECK(kill(transport.guard_process(), 0) == 0);
+    std::filesystem::remove(file);
 }
 
 TEST_CASE("serial guard: it ends with the transport") {

@@ -76,8 +76,9 @@ stage_godot_tests() {
 }
 
 stage_serial() {
-    scons -Q -j"$jobs" spidar_serial_tests
+    scons -Q -j"$jobs" addon spidar_serial_tests
     doctest build/bin/spidar_serial_tests --test-suite=quick
+    counted python3 tests/serial/run_serial_game.py "$GODOT" build/bin/spidar_serial_tests
 }
 
 stage_serial_long() {

@@ -6,11 +6,14 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,6 +39,38 @@ std::string hexadecimal(BoardBytes bytes) {
         text += kDigits[byte & 0xFU];
     }
     return text;
+}
+
+// Closed at its end.
+struct Descriptor {
+    int number = -1;
+    Descriptor() = default;
+    ~Descriptor() {
+        if (number >= 0) {
+            close(number);
+        }
+    }
+    Descriptor(const Descriptor &) = delete;
+    Descriptor &operator=(const Descriptor &) = delete;
+};
+
+// A game that was exported or unpacked may have lost the mark that makes a file a program: then a copy in memory is
+// started, which has it. Empty: there is no such file.
+std::string startable(const std::string &program, Descriptor &copy) {
+    if (access(program.c_str(), X_OK) == 0) {
+        return program;
+    }
+    std::ifstream file(program, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    copy.number = memfd_create("spidar_g_guard", MFD_CLOEXEC);
+    if (bytes.empty() || copy.number < 0 ||
+        write(copy.number, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
+        return {};
+    }
+    const int away = fcntl(copy.number, F_DUPFD_CLOEXEC, kOutOfTheWay);
+    close(copy.number);
+    copy.number = away;
+    return "/proc/self/fd/" + std::to_string(away);
 }
 
 int moved_away(int descriptor) {
@@ -78,7 +113,9 @@ int spawn(const std::string &program, const std::string &off, int port, int sock
 std::string PortGuard::start(const std::string &program, int port, BoardBytes off) {
     end();
     std::array<int, 2> ends = {-1, -1};
-    if (access(program.c_str(), X_OK) != 0) {
+    Descriptor copy;
+    const std::string start_from = startable(program, copy);
+    if (start_from.empty()) {
         return "The guard " + program +
                " is missing: without it nothing switches the motors off "
                "when the game dies, so they stay off. It belongs beside "
@@ -87,7 +124,7 @@ std::string PortGuard::start(const std::string &program, int port, BoardBytes of
     if (port < 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         return "The guard cannot be given the port on this system: the motors stay off.";
     }
-    process_ = spawn(program, hexadecimal(off), port, ends[1]);
+    process_ = spawn(start_from, hexadecimal(off), port, ends[1]);
     close(ends[1]);
     socket_ = ends[0];
     pollfd answer{socket_, POLLIN, 0};

@@ -136,6 +136,9 @@ SerialTransport::~SerialTransport() {
 
 Status SerialTransport::open() noexcept {
     Impl &m = *impl_;
+    if (m.first_waits && m.is_open.load()) {
+        return Status::ok;
+    }
     close();
     try {
         std::string path;
@@ -190,11 +193,6 @@ void SerialTransport::close() noexcept {
 }
 
 void SerialTransport::Impl::fill(DeviceReading &reading) noexcept {
-    const std::uint64_t lost = replies.lost(asked_seen);
-    if (lost > lost_seen) {
-        SerialStatistics::add(statistics.lost, lost - lost_seen);
-        lost_seen = lost;
-    }
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const SerialMotor &motor = reader.motors[i];
         const std::int32_t count =
@@ -249,6 +247,11 @@ Status SerialTransport::read(DeviceReading &reading) noexcept {
         }
     }
     m.statistics.take(m.replies.counters(), m.replies_seen);
+    const std::uint64_t lost = m.replies.lost(m.asked_seen);
+    if (lost > m.lost_seen) {
+        SerialStatistics::add(m.statistics.lost, lost - m.lost_seen);
+        m.lost_seen = lost;
+    }
     if (m.replies.reference_lost(now_us)) { // silent for too long, or a board began anew
         m.lose(m.reader.session);
         return Status::read_failed;

@@ -36,7 +36,8 @@ public:
     explicit SerialTransport(const SerialTransportSettings &settings);
     ~SerialTransport() override;
 
-    // no_device, no_permission, device_in_use, protocol_mismatch, invalid_settings, open_failed. Opens without a guard too:
+    // no_device, no_permission, device_in_use, protocol_mismatch, invalid_settings, open_failed. One that was opened and
+    // not read yet stays open. Opens without a guard too:
     // then readings come, and say device_watchdog, so that nothing arms.
     Status open() noexcept override;
     void close() noexcept override;

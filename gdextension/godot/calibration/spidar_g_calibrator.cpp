@@ -89,6 +89,10 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
         return problem;
     }
     const int transport = used->get_transport();
+    if (transport == SpidarGConfig::TRANSPORT_SERIAL) {
+        return "SpidarGConfig.transport = Serial: the calibrator does not work on serial boards yet. "
+               "Calibrate with the simulated device or a device on USB HID.";
+    }
     target_ = {};
     target_.try_real = transport != SpidarGConfig::TRANSPORT_SIMULATED;
     target_.try_simulated = transport != SpidarGConfig::TRANSPORT_DEVICE;

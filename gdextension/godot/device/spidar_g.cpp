@@ -196,8 +196,7 @@ void SpidarG::open_device() {
                                                        : loop_->start_threaded(settings_);
     if (!spidar::usable(status)) {
         change_loop(nullptr);
-        simulated_ = nullptr;
-        hid_ = nullptr;
+        forget_transport();
         claim_.release();
         refuse_to_open(status, spidar::describe(status));
         return;
@@ -242,8 +241,7 @@ void SpidarG::close_device(const char *why) {
     if (loop_) {
         loop_->stop(); // motors off, thread joined, then the handle
         change_loop(nullptr);
-        simulated_ = nullptr;
-        hid_ = nullptr;
+        forget_transport();
         replay_ = nullptr;
     }
     claim_.release();

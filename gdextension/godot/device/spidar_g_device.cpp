@@ -50,12 +50,17 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
     }
     fallback_.clear();
     tried_.clear();
-    if (choice == Choice::TRANSPORT_DEVICE && drive_mode_ == DRIVE_STEPPED) {
+    const bool serial = choice == Choice::TRANSPORT_SERIAL;
+    if ((choice == Choice::TRANSPORT_DEVICE || serial) && drive_mode_ == DRIVE_STEPPED) {
         status = Status::invalid_settings;
-        problem = "SpidarGConfig.transport = Device with drive_mode = Stepped: only a simulated "
+        problem = "SpidarGConfig.transport = " + std::string(serial ? "Serial" : "Device") +
+                  " with drive_mode = Stepped: only a simulated "
                   "device can live "
                   "in simulated time. Set drive_mode to Threaded.";
         return nullptr;
+    }
+    if (serial) {
+        return serial_transport(status, problem);
     }
     if (choice != Choice::TRANSPORT_SIMULATED && drive_mode_ != DRIVE_STEPPED) {
         // Before it is opened: what comes later is new to the watch.
@@ -117,6 +122,10 @@ String SpidarG::get_device_text() const {
             (device.serial.empty() ? ", no serial number" : ", serial " + device.serial) + ", " +
             device.path + ".");
     }
+    if (serial_ != nullptr) {
+        return spidar::to_godot("Serial device: " + serial_boards_text() + ", " +
+                                serial_->device_name() + ".");
+    }
     return replay_ != nullptr ? "Replay of a recording." : "No device is open.";
 }
 
@@ -145,6 +154,7 @@ godot::Array SpidarG::list_devices() {
     godot::Array list;
     for (const spidar::HidDeviceInfo &device : spidar::plugged_in_devices()) {
         godot::Dictionary shown;
+        shown["kind"] = "hid";
         shown["product"] = spidar::to_godot(device.product);
         shown["serial"] = spidar::to_godot(device.serial);
         shown["path"] = spidar::to_godot(device.path);
@@ -154,6 +164,7 @@ godot::Array SpidarG::list_devices() {
             spidar::to_godot(spidar::DeviceClaim::owner_of(spidar::claim_name(device)));
         list.push_back(shown);
     }
+    list_serial_ports(list);
     return list;
 }
 
@@ -193,6 +204,9 @@ godot::Dictionary SpidarG::get_device_info() const {
     info["product"] = spidar::to_godot(device.product);
     info["serial"] = spidar::to_godot(device.serial);
     info["path"] = spidar::to_godot(device.path);
+    if (serial_ != nullptr) {
+        describe_serial(info);
+    }
     if (!real) {
         return info;
     }

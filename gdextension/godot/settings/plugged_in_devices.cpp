@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "device/hid/hid_device_filter.h"
+#include "device/serial/serial_port.h"
 
 namespace spidar {
 
@@ -19,6 +20,14 @@ const std::vector<HidDeviceInfo> &plugged_in_devices() {
         ever = true;
     }
     return devices;
+}
+
+std::string names_of_serial_ports() {
+    std::string names;
+    for (const SerialPortInfo &port : list_serial_ports()) {
+        names += (names.empty() ? "" : ",") + port.path;
+    }
+    return names;
 }
 
 } // namespace spidar

@@ -62,9 +62,12 @@ std::string SpidarGConfig::own_problem() const {
                              "give the frame's outer size along this axis, above zero.");
         }
     }
-    if (transport_ < TRANSPORT_AUTOMATIC || transport_ > TRANSPORT_DEVICE) {
+    if (transport_ < TRANSPORT_AUTOMATIC || transport_ > TRANSPORT_SERIAL) {
         return complaint("transport", transport_, "",
-                         "choose Automatic (0), Simulated (1) or Device (2).");
+                         "choose Automatic (0), Simulated (1), Device (2) or Serial (3).");
+    }
+    if (std::string serial = serial_problem(); !serial.empty()) {
+        return serial;
     }
     constexpr int kLargestUsbNumber = 0xFFFF;
     if (device_vendor_id_ < 0 || device_vendor_id_ > kLargestUsbNumber) {
@@ -136,8 +139,14 @@ double SpidarGConfig::get_effective_pole_half_length() const {
 }
 
 void SpidarGConfig::_validate_property(godot::PropertyInfo &property) const {
-    if (!godot::Engine::get_singleton()->is_editor_hint() ||
-        property.name != godot::StringName("device_serial")) {
+    if (!godot::Engine::get_singleton()->is_editor_hint()) {
+        return;
+    }
+    if (property.name == godot::StringName("serial_port")) {
+        property.hint = godot::PROPERTY_HINT_ENUM_SUGGESTION;
+        property.hint_string = spidar::to_godot(spidar::names_of_serial_ports());
+    }
+    if (property.name != godot::StringName("device_serial")) {
         return;
     }
     std::string serials;
@@ -286,11 +295,16 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
                         "0.005,0.2,0.0001,or_greater,suffix:m");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, transport, godot::PROPERTY_HINT_ENUM,
-                        "Automatic,Simulated,Device");
+                        "Automatic,Simulated,Device,Serial");
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_product, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_serial, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_vendor_id, PROPERTY_HINT_RANGE, "0,65535,1");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, device_product_id, PROPERTY_HINT_RANGE, "0,65535,1");
+    SPIDAR_G_BIND_FIELD(Self, Variant::STRING, serial_port, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, Variant::PACKED_INT32_ARRAY, serial_motors, PROPERTY_HINT_NONE, "");
+    SPIDAR_G_BIND_FIELD(Self, real, serial_units_per_ampere, PROPERTY_HINT_RANGE,
+                        "1,10000,0.1,or_greater");
+    SPIDAR_G_BIND_FIELD(Self, Variant::INT, serial_most_units, PROPERTY_HINT_RANGE, "1,4095,1");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, button_device, PROPERTY_HINT_RANGE, "0,31,1");
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
@@ -359,4 +373,5 @@ void SpidarGConfig::_bind_methods() {
     BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
     BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);
     BIND_ENUM_CONSTANT(TRANSPORT_DEVICE);
+    BIND_ENUM_CONSTANT(TRANSPORT_SERIAL);
 }

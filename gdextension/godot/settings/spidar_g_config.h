@@ -8,10 +8,12 @@
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
 #include "device/hid/hid_device_filter.h"
+#include "device/serial/serial_transport.h"
 #include "device/settings/servo_settings.h"
 #include "device/simulation/simulated_plant.h"
 #include "godot/base/resource_field.h"
@@ -24,7 +26,7 @@ class SpidarGConfig : public godot::Resource {
     SPIDAR_G_CHECKED_CALLS
 
 public:
-    enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE };
+    enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE, TRANSPORT_SERIAL };
 
     SPIDAR_G_REVISION;
 
@@ -40,6 +42,11 @@ public:
     SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
     SPIDAR_G_FIELD(int, device_vendor_id, 0);
     SPIDAR_G_FIELD(int, device_product_id, 0);
+    // Serial motor boards.
+    SPIDAR_G_ARRAY_FIELD(godot::String, serial_port);
+    SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors); // four numbers a string, or none
+    SPIDAR_G_FIELD(double, serial_units_per_ampere, spidar::kUsualUnitsPerAmpere);
+    SPIDAR_G_FIELD(int, serial_most_units, spidar::SerialTransportSettings{}.most_units);
     SPIDAR_G_LIVE_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
 
     // Servo loop.
@@ -113,6 +120,8 @@ public:
     [[nodiscard]] spidar::PlantSettings plant_settings() const;
     // Which of the plugged-in devices are meant.
     [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
+    // The port, the motors and their units; no guard: that of the library.
+    [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
     // What this resource checks on its own (the rest is checked with the whole ServoSettings).
     [[nodiscard]] std::string own_problem() const;
 
@@ -122,6 +131,9 @@ public:
 
     // Offers the serial numbers of the devices that are plugged in, in the editor.
     void _validate_property(godot::PropertyInfo &property) const;
+
+private:
+    [[nodiscard]] std::string serial_problem() const;
 
 protected:
     static void _bind_methods();

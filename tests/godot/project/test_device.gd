@@ -102,8 +102,36 @@ func test_settings_that_no_device_can_have_are_refused() -> void:
 	config.device_product_id = -1
 	check(config.get_problem().contains("device_product_id"), config.get_problem())
 	config.device_product_id = 0
-	config.transport = 3
-	check(config.get_problem().contains("transport = 3"), config.get_problem())
+	config.transport = 4
+	check(config.get_problem().contains("transport = 4"), config.get_problem())
+	config.transport = SpidarGConfig.TRANSPORT_SERIAL
+	check_equal(config.get_problem(), "", "serial boards")
+	config.serial_motors = PackedInt32Array([1, 0, 1, 1])
+	check(config.get_problem().contains("serial_motors has 4 numbers"), config.get_problem())
+	var motors := PackedInt32Array()
+	for string in 8:
+		motors.append_array([1, string, 1, -1])
+	config.serial_motors = motors
+	check_equal(config.get_problem(), "", "a motor for each string")
+	motors[2] = 0
+	config.serial_motors = motors
+	check(config.get_problem().contains("string 0"), config.get_problem())
+	config.serial_motors = PackedInt32Array()
+	config.serial_most_units = 5000
+	check(config.get_problem().contains("serial_most_units"), config.get_problem())
+	config.serial_most_units = 1024
+	config.serial_units_per_ampere = 0.0
+	check(config.get_problem().contains("serial_units_per_ampere"), config.get_problem())
+
+
+func test_a_serial_port_that_is_not_there_is_told() -> void:
+	var device := _device(SpidarGConfig.TRANSPORT_SERIAL)
+	device.config.serial_port = "/dev/spidar_no_such_port"
+	add(device)
+	await frames(3)
+	check_equal(device.get_state(), SpidarG.STATE_CLOSED, "closed")
+	check(device.get_fault_text().contains("/dev/spidar_no_such_port"), "names it: %s" % device.get_fault_text())
+	device.free()
 
 
 func test_zeroing_is_for_real_devices() -> void:

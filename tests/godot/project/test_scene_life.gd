@@ -288,7 +288,8 @@ func test_names_beyond_ascii_are_kept() -> void:
 func test_the_list_of_devices_can_be_asked_for() -> void:
 	var listed: Array = SpidarG.list_devices()
 	for device_listed: Dictionary in listed:
-		check(device_listed.has_all(["product", "serial", "path", "vendor_id", "product_id", "owner"]), "%s" % device_listed)
+		check(device_listed.has_all(["kind", "product", "serial", "path", "owner"]), "%s" % device_listed)
+		check_equal(device_listed.has("vendor_id"), device_listed["kind"] == "hid", "%s" % device_listed)
 	check(listed.size() < 20, "%d devices" % listed.size())
 
 

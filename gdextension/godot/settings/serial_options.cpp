@@ -1,0 +1,61 @@
+// What a SpidarGConfig says of serial motor boards.
+#include <cmath>
+
+#include "godot/settings/spidar_g_config.h"
+
+namespace {
+
+constexpr int kNumbersPerMotor = 4; // board, motor, sign of the counts, sign of the current
+constexpr int kMostBoard = 7;
+constexpr int kMostMotor = 7;
+constexpr int kMostUnits = 4095; // of any board
+
+} // namespace
+
+std::string SpidarGConfig::serial_problem() const {
+    const auto told = [](const std::string &field, const std::string &remedy) {
+        return "SpidarGConfig." + field + ": " + remedy;
+    };
+    if (!(serial_units_per_ampere_ > 0.0 && std::isfinite(serial_units_per_ampere_))) {
+        return told("serial_units_per_ampere = " + std::to_string(serial_units_per_ampere_),
+                    "give how many of the board's units make an ampere, above zero.");
+    }
+    if (serial_most_units_ < 1 || serial_most_units_ > kMostUnits) {
+        return told("serial_most_units = " + std::to_string(serial_most_units_),
+                    "choose 1 to 4095; 1024 is all that a B5M gives.");
+    }
+    const std::int64_t numbers = serial_motors_.size();
+    if (numbers == 0) {
+        return {};
+    }
+    if (numbers != std::int64_t{kNumbersPerMotor} * spidar::kStringCount) {
+        return told(
+            "serial_motors has " + std::to_string(numbers) + " numbers",
+            "give 4 for each of the 8 strings (board, motor, sign of the counts, sign of the "
+            "current), or none.");
+    }
+    for (std::int64_t i = 0; i < numbers; i += kNumbersPerMotor) {
+        const auto is_sign = [](int value) { return value == 1 || value == -1; };
+        if (serial_motors_[i] < 0 || serial_motors_[i] > kMostBoard || serial_motors_[i + 1] < 0 ||
+            serial_motors_[i + 1] > kMostMotor || !is_sign(serial_motors_[i + 2]) ||
+            !is_sign(serial_motors_[i + 3])) {
+            return told("serial_motors of string " + std::to_string(i / kNumbersPerMotor),
+                        "choose board 0 to 7, motor 0 to 7, and signs of 1 or -1.");
+        }
+    }
+    return {};
+}
+
+spidar::SerialTransportSettings SpidarGConfig::serial_settings() const {
+    spidar::SerialTransportSettings settings;
+    settings.port = serial_port_.utf8().get_data();
+    settings.units_per_a = serial_units_per_ampere_;
+    settings.most_units = serial_most_units_;
+    settings.motors_in_order = serial_motors_.size() == 0;
+    for (std::size_t i = 0; i < settings.motors.size() && !settings.motors_in_order; ++i) {
+        const auto at = static_cast<std::int64_t>(i) * kNumbersPerMotor;
+        settings.motors[i] = {serial_motors_[at], serial_motors_[at + 1], serial_motors_[at + 2],
+                              serial_motors_[at + 3]};
+    }
+    return settings;
+}
