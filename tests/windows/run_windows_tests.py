@@ -13,7 +13,7 @@ import tempfile
 
 WINE = "/usr/lib/wine/wine64"
 # Parts of every Windows. The C++ runtime must be inside.
-SYSTEM = {"kernel32.dll", "msvcrt.dll", "user32.dll", "advapi32.dll", "winmm.dll", "avrt.dll"}
+SYSTEM = {"kernel32.dll", "msvcrt.dll", "user32.dll", "advapi32.dll", "winmm.dll", "avrt.dll", "ws2_32.dll", "mswsock.dll"}
 LIMIT_S = 400
 
 passed = failed = 0

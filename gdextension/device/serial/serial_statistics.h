@@ -8,7 +8,7 @@
 
 namespace spidar {
 
-// Each only grows, over all plug-ins.
+// Each only grows, over all plug-ins; but `lost` falls again by what comes late.
 template <typename Count>
 struct SerialCountersOf {
     Count asked{0};         // rounds of CURRENT sent to all boards

@@ -1,5 +1,6 @@
 #include "device/serial/serial_transport.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <thread>
@@ -221,10 +222,7 @@ Status SerialTransport::read(DeviceReading &reading) noexcept {
     }
     if (m.session_read != m.reader.session) {
         m.session_read = m.reader.session;
-        if (m.asked_seen > m.replies_seen.rounds + m.lost_seen) { // nobody answers them any more
-            SerialStatistics::add(m.statistics.lost,
-                                  m.asked_seen - m.replies_seen.rounds - m.lost_seen);
-        }
+        m.lost_before += m.asked_seen - std::min(m.asked_seen, m.replies_seen.rounds);
         m.asked_seen = 0;
         m.replies.configure(m.reader.boards, m.settings.counts);
         m.replies_seen = {};
@@ -247,11 +245,10 @@ Status SerialTransport::read(DeviceReading &reading) noexcept {
         }
     }
     m.statistics.take(m.replies.counters(), m.replies_seen);
+    // What comes late after all is not lost; the sequence of readings has told its gap by then.
     const std::uint64_t lost = m.replies.lost(m.asked_seen);
-    if (lost > m.lost_seen) {
-        SerialStatistics::add(m.statistics.lost, lost - m.lost_seen);
-        m.lost_seen = lost;
-    }
+    m.statistics.lost.store(m.lost_before + lost, std::memory_order_relaxed);
+    m.lost_seen = std::max(m.lost_seen, lost);
     if (m.replies.reference_lost(now_us)) { // silent for too long, or a board began anew
         m.lose(m.reader.session);
         return Status::read_failed;

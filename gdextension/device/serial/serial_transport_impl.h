@@ -66,6 +66,7 @@ struct SerialTransport::Impl {
     ReplyReader replies;
     ReplyCounters replies_seen;
     std::uint64_t lost_seen = 0;
+    std::uint64_t lost_before = 0; // in earlier sessions
     std::uint64_t asked_seen = 0;
     DeviceReading first; // that open() heard
     bool first_waits = false;
