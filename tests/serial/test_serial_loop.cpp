@@ -154,6 +154,28 @@ TEST_CASE("serial guard: killed while the motors pull, they are off and the loop
     CHECK(host.transport->counters().guard_losses == 1);
 }
 
+TEST_CASE("serial guard: one that hangs counts as lost") {
+    BoardBus bus(one_b5m(), link_of_this_test());
+    SerialHost host(settings_for(bus.link()));
+    REQUIRE(usable(host.start()));
+    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
+    REQUIRE(host.activate([&](double time_s) { bus.set_hand_target(wave(time_s)); }));
+    const int guard = host.transport->guard_process();
+    REQUIRE(kill(guard, SIGSTOP) == 0);
+    const std::int64_t stopped_ns = monotonic_ns();
+    CHECK(wait_for(
+        [&] {
+            host.tick();
+            return host.now.state == DeviceState::fault;
+        },
+        1000));
+    const double fault_ms = 1e-6 * static_cast<double>(monotonic_ns() - stopped_ns);
+    MESSAGE("FAULT " << fault_ms << " ms after the guard was stopped");
+    CHECK(fault_ms <= 60.0); // it may be silent for 40 ms
+    CHECK(wait_for([&] { return bus.seen().strongest == 0; }, 100));
+    CHECK(wait_for([&] { return host.transport->guard_process() != guard; }, 2000));
+}
+
 TEST_CASE("serial guard: a file that lost its mark of a program is started all the same") {
     const std::string file = link_of_this_test();
     std::filesystem::copy_file(kGuardProgram, file);
