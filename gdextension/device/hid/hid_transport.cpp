@@ -397,8 +397,4 @@ HidTimes HidTransport::times() const noexcept {
     return impl_->statistics.times();
 }
 
-double HidTransport::latency_s() const noexcept {
-    return link_latency_s(times(), capabilities().report_rate_hz);
-}
-
 } // namespace spidar

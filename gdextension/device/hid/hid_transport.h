@@ -55,7 +55,9 @@ public:
     [[nodiscard]] HidCounters counters() const noexcept;
     [[nodiscard]] HidTimes times() const noexcept;
     // Measured (link_latency_s); 0 while it is not known.
-    [[nodiscard]] double latency_s() const noexcept;
+    [[nodiscard]] double latency_s() const noexcept {
+        return link_latency_s(times(), capabilities().report_rate_hz);
+    }
 
 private:
     struct Impl;
