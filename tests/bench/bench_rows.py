@@ -5,7 +5,7 @@ import json
 import statistics
 
 PROBLEMS = ("fk", "tension", "step")
-APART = ("contacts",) # ./dev bench NAME runs each of these by itself; no bar is set for them
+APART = ("contacts", "motions")  # ./dev bench NAME of the first runs them; no bar is set for them
 FIGURES = ("median_ns", "p99_ns", "p999_ns", "max_ns", "ratio_to_daqp", "worst_error")
 COLUMNS = ("method", "set", "mode", *FIGURES, "failures")
 DAQP = "DAQP"

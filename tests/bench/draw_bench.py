@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""draw_bench.py FOLDER: fk.png, tension.png and step.png beside the JSON files of run_bench.py. Needs matplotlib.
+"""draw_bench.py FOLDER [motions]: fk.png, tension.png and step.png, or motions.png alone, beside the JSON files of
+run_bench.py. Needs matplotlib.
 
 Time against error, a panel a set. Best is the lower left corner. Of several builds of a method, the fastest is shown.
 """
@@ -148,8 +149,51 @@ def draw_step(folder):
     save(figure, folder, "step")
 
 
+MOTIONS = {"planes of the game": ("#1f77b4", "o"), "real shapes": ("#d62728", "*"), "without a game": ("#2ca02c", "D")}
+
+
+def draw_motions(folder):
+    """Time against error; a mark a frame rate, the larger the faster the game."""
+    rows = bench_rows.read_rows(os.path.join(folder, "motions.json"))
+    names = list(dict.fromkeys(row["set"].rpartition(", ")[0] for row in rows))
+    panels = [(name, "force") for name in names] + [(names[-1], "moment")]
+    figure, axes = plt.subplots(2, 3, figsize=(13, 8))
+    least = {"force": 1e-5, "moment": 1e-6}
+    for axis, (name, mode) in zip(axes.flat, panels):
+        for method, (colour, marker) in MOTIONS.items():
+            for row in rows:
+                if row["method"] != method or row["mode"] != mode or row["set"].rpartition(", ")[0] != name:
+                    continue
+                rate = row["set"].rpartition(", ")[2].partition(" ")[0]
+                size = 6 + (float(rate) / 12 if rate.isdigit() else 4)
+                error = max(row["worst_error"], least[mode])
+                axis.plot([1e-3 * row["median_ns"], 1e-3 * row["p99_ns"]], [error, error], color=colour, linewidth=1, alpha=0.4)
+                axis.plot(1e-3 * row["median_ns"], error, marker=marker, color=colour, linestyle="none", markersize=size,
+                          markerfacecolor="none" if rate.isdigit() else colour)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_title(f"{name}: {mode}", fontsize=10)
+        axis.set_xlabel("time of one servo cycle (\u00b5s)")
+        axis.set_ylabel("error, root mean square (" + {"force": "N", "moment": "N m"}[mode] + ")", fontsize=9)
+        axis.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        axis.set_axisbelow(True)
+    marks_of = [Line2D([], [], color=colour, marker=marker, linestyle="none", markersize=9, label=method)
+                for method, (colour, marker) in MOTIONS.items()]
+    marks_of.append(Line2D([], [], color="#555555", marker="o", markerfacecolor="none", linestyle="none", markersize=7,
+                           label="size: games of 30, 60, 90 and 144 frames a second"))
+    marks_of.append(Line2D([], [], color="#555555", linewidth=1, label="line: from the median to p99"))
+    axes.flat[-1].axis("off")
+    axes.flat[-1].legend(handles=marks_of, loc="center", fontsize=10, frameon=False)
+    figure.suptitle("What the hand feels of shapes: time against error (best: lower left)", fontsize=12)
+    figure.tight_layout(rect=(0, 0, 1, 0.98))
+    save(figure, folder, "motions")
+
+
 def main():
     folder = sys.argv[1]
+    if sys.argv[2:] == ["motions"]:
+        draw_motions(folder)
+        return
     errors_against_times(
         folder, "fk",
         [("T1 clean", None, "exact lengths"), ("T1 counts", None, "lengths in encoder counts of 0.025 mm"),

@@ -1,4 +1,4 @@
-// spidar_bench contacts|fk|recording|tension|step|touch [--json FILE] [--rows N]: times against error, peers in the same process.
+// spidar_bench contacts|fk|motions|recording|tension|step|touch [--json FILE] [--rows N]: times against error, peers in the same process.
 // Times come from a shared machine: read the ratios between rows of one run.
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +8,7 @@
 
 #include "bench/bench_contacts.h"
 #include "bench/bench_fk.h"
+#include "bench/bench_motions.h"
 #include "bench/bench_recording.h"
 #include "bench/bench_report.h"
 #include "bench/bench_step.h"
@@ -26,7 +27,8 @@ struct Problem {
 constexpr Problem kProblems[] = {
     {"contacts", spidar::bench::bench_contacts},   {"fk", spidar::bench::bench_fk},
     {"recording", spidar::bench::bench_recording}, {"step", spidar::bench::bench_step},
-    {"tension", spidar::bench::bench_tension},     {"touch", spidar::bench::bench_touch},
+    {"motions", spidar::bench::bench_motions},     {"tension", spidar::bench::bench_tension},
+    {"touch", spidar::bench::bench_touch},
 };
 
 int usage() {

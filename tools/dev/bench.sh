@@ -2,17 +2,23 @@
 
 bench_limit_s=300
 
-# bench contacts [publish] [--runs N] [--rows N]: closest points of shapes, beside those peers that are installed
+# bench contacts [publish] [--runs N] [--rows N]: closest points of shapes, beside those peers that are installed; hand
+# motions over shapes, beside contacts as planes of the game
 bench_contacts() {
-    local publish=""
+    local publish="" python problem
     [[ ${1:-} != publish ]] || { publish=yes && shift; }
     need "${build_needs[@]}"
     find_jolt
     scons -Q -j"$jobs" bench
     python3 tests/bench/peers/fetch_peers.py --contacts
-    python3 tests/bench/run_bench.py build/bench --problem contacts "$@"
+    need pip3:python3-pip
+    python=$(plotting_python)
+    for problem in contacts motions; do
+        python3 tests/bench/run_bench.py build/bench --problem "$problem" "$@"
+    done
+    "$python" tests/bench/draw_bench.py build/bench motions
     if [[ -n $publish ]]; then
-        cp build/bench/contacts.{json,csv} tests/bench/results/
+        cp build/bench/{contacts,motions}.{json,csv} build/bench/motions.png tests/bench/results/
         python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md
     fi
 }
