@@ -19,7 +19,7 @@ import godot_project  # noqa: E402
 
 ADDON = "addons/spidar_g/"
 NEEDED = ["README.md", "LICENSE.md", "THIRDPARTY.md", "plugin.cfg", "spidar_g.gdextension",
-          "udev/70-spidar-g.rules"]
+          "udev/70-spidar-g.rules", "bin/spidar_g_guard"]
 # docs/building.md gives this number to the user.
 GLIBC_FLOOR = (2, 35)
 LIMIT_S = 120
@@ -65,7 +65,8 @@ def main():
         check(len(libraries) == 4, "the manifest names four libraries")
         for library in libraries:
             check(ADDON + library in names, f"holds {library}")
-        for library in (os.path.join(project, ADDON, name) for name in libraries if name.endswith(".so")):
+        programs = [name for name in libraries if name.endswith(".so")] + ["bin/spidar_g_guard"]
+        for library in (os.path.join(project, ADDON, name) for name in programs):
             found = needed_glibc(library)
             check(found <= GLIBC_FLOOR, f"{os.path.basename(library)} needs glibc {found[0]}.{found[1]}")
         with open(os.path.join(project, "project.godot"), "w", encoding="utf-8") as file:

@@ -109,4 +109,9 @@ func _another(setting: String, value: Variant) -> Variant:
 			return value + "x"
 		TYPE_PACKED_FLOAT64_ARRAY:
 			return PackedFloat64Array([1e-3, 0, 0, 0, 0, 0, 0, 0]) if setting != "simulated_tension_gains" else PackedFloat64Array([1, 1, 1, 1, 1, 1, 1, 0.99])
+		TYPE_PACKED_INT32_ARRAY: # serial_motors: board, motor, two signs
+			var motors := PackedInt32Array()
+			for string in 8:
+				motors.append_array([0, string, 1, 1])
+			return motors
 	return 1.01 * value
