@@ -24,6 +24,7 @@ struct FakeDevice {
     // As Windows does: a feature report is read into a buffer for the longest one, and all of it counts as read.
     bool wants_largest_buffer = false;
     std::atomic<bool> writes_hang{false};
+    std::atomic<bool> write_hangs{false}; // one does just now
     std::uint32_t generation = 0; // counts plug-ins: handles of an earlier one are dead
     std::mutex mutex;
     std::vector<std::deque<std::vector<std::uint8_t>>> queues; // one a handle
@@ -60,6 +61,7 @@ public:
     }
     int write(std::span<const std::uint8_t> bytes) noexcept override {
         while (device_->writes_hang.load()) {
+            device_->write_hangs.store(true);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         const std::lock_guard<std::mutex> lock(device_->mutex);

@@ -333,6 +333,9 @@ TEST_CASE("hid transport: a write that hangs keeps neither reading nor closing w
     link.cycle();
     link.device->writes_hang.store(true);
     std::thread writer([&] { link.transport.write(DriveCommand()); });
+    while (!link.device->write_hangs.load()) { // else ours would be the one that hangs
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     for (int i = 0; i < 20; ++i) {
         link.bus->tick();
         CHECK(link.transport.read(link.reading) == Status::ok);
