@@ -25,7 +25,7 @@ struct FakeDevice {
     bool wants_largest_buffer = false;
     std::atomic<bool> writes_hang{false};
     std::atomic<bool> write_hangs{false}; // one does just now
-    std::uint32_t generation = 0; // counts plug-ins: handles of an earlier one are dead
+    std::uint32_t generation = 0;         // counts plug-ins: handles of an earlier one are dead
     std::mutex mutex;
     std::vector<std::deque<std::vector<std::uint8_t>>> queues; // one a handle
     std::vector<bool> queue_open;

@@ -90,7 +90,8 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     }
     const int transport = used->get_transport();
     if (transport == SpidarGConfig::TRANSPORT_SERIAL) {
-        return "SpidarGConfig.transport = Serial: the calibrator does not work on serial boards yet. "
+        return "SpidarGConfig.transport = Serial: the calibrator does not work on serial boards "
+               "yet. "
                "Calibrate with the simulated device or a device on USB HID.";
     }
     target_ = {};

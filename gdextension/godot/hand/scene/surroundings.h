@@ -58,9 +58,9 @@ struct NearShape {
     // Of this shape of this body for as long as it stays near; another shape never has the same one.
     std::int32_t id = 0;
     std::shared_ptr<const CookedShape> shape;
-    Placement at;             // device frame
-    Vec3 velocity_m_s{0.0};   // of at.origin_m, device frame, a second of device time
-    Vec3 angular_rad_s{0.0};  // device frame
+    Placement at;            // device frame
+    Vec3 velocity_m_s{0.0};  // of at.origin_m, device frame, a second of device time
+    Vec3 angular_rad_s{0.0}; // device frame
     // As ScenePart's: how its surface runs along itself.
     Vec3 belt_m_s{0.0};
     Vec3 belt_rad_s{0.0};
