@@ -127,6 +127,9 @@ double off_after(int signal_number) {
                 return game.state != static_cast<int>(DeviceState::active);
             },
             500));
+        // One command may have been on its way into the port when the game was stopped.
+        CHECK(wait_for([&] { return bus.seen().strongest == 0; }, 20));
+        sleep_ms(60);
         CHECK(bus.seen().strongest == 0);
         REQUIRE(kill(game.process, SIGKILL) == 0);
     }

@@ -16,6 +16,8 @@ namespace {
 
 constexpr auto kWatch = std::chrono::milliseconds(100);
 constexpr auto kHangingWritePoll = std::chrono::milliseconds(1);
+// Less than the guard's patience, and far more than a command takes to be put together.
+constexpr std::int64_t kHeldUp_ns = 10'000'000;
 constexpr int kFirstRounds = 50; // ten times what a good line needs
 constexpr auto kFirstRound = std::chrono::milliseconds(2);
 constexpr int kMostReadsAtOnce = 8; // of kReadRoom bytes: what is left is for the next cycle
@@ -283,6 +285,11 @@ Status SerialTransport::Impl::send(const DriveCommand &command) noexcept {
                     settings.units_per_a, settings.most_units);
     if (!frame.whole()) {
         return Status::write_failed;
+    }
+    // Stopped and continued between the guard's word and here: the guard has zeroed the currents meanwhile.
+    if (pull && monotonic_ns() - now_ns > kHeldUp_ns) {
+        SerialStatistics::add(statistics.postponed);
+        return Status::ok;
     }
     last_pulled = last_pulled || pull;
     asked.fetch_add(1, std::memory_order_acq_rel); // before the boards can answer
