@@ -307,7 +307,8 @@ def run_some(godot, seeds):
         calls.append(lambda task=task: Play(godot, task, 1, 1, "--cut-output"))
         calls.append(lambda task=task: Play(godot, task, 1, 1, "--freeze-pose"))
     calls.append(lambda: Play(godot, TASKS[0], 1, 1, "--hand", "trembling"))
-    calls.append(lambda: Play(godot, TASKS[1], 1, 1, "--hand", "clumsy"))
+    # In layout 1 the leg that a clumsy hand knocks out of its fingers falls behind the robot, where the script cannot reach it.
+    calls.append(lambda: Play(godot, TASKS[1], 1, 2, "--hand", "clumsy"))
     plays = in_parallel(calls)
     first, again = plays[0], plays[len(good)]
     for run in plays[: len(good)] + plays[-2:]:
