@@ -157,10 +157,10 @@ stress() { # stress BIN_FOLDER PROBLEMS DEVICE_RUNS
 # What the short round left out: the stress programs, and all tests with threads watched.
 stage_sanitize_stress() {
     scons -Q -j"$jobs" tests sanitize=address,undefined
-    stress build/address-undefined/bin 2000 100
+    stress build/address-undefined/bin 1000 60
 }
-stage_sanitize_thread() {
-    sanitizer thread --test-case-exclude="$one_thread"
+stage_sanitize_thread() { # the core has no threads
+    sanitizer thread --source-file='*tests/device/*' --test-case-exclude="$one_thread"
 }
 
 # What the servo thread must not do: allocate, lock or wait inside a cycle. Only clang has this sanitizer, from 20 on;
@@ -196,12 +196,12 @@ stage_package() {
 }
 
 stage_stress() {
-    stress build/bin 200000 3000
+    stress build/bin 100000 1500
     # A case is five seconds of a device here; the whole is docs/calibration.md.
-    checked build/bin/string_faults --cases 60 --seed 5 --healthy_s 600
+    checked build/bin/string_faults --cases 30 --seed 5 --healthy_s 300
     checked build/bin/error_budget --cases 1 --seed 2
     # The long run is documented in docs/safety.md: an hour with each hand, ten thousand unplugs, a million commands.
-    checked build/bin/safety_hours --minutes 3 --cycles 500 --commands 50000 --stall_minutes 2
+    checked build/bin/safety_hours --minutes 2 --cycles 300 --commands 30000 --stall_minutes 1
     checked build/bin/soak --minutes 0.5
     checked build/bin/passivity_gates --cases 6 --seed 1
     checked build/bin/stiffness_limit --quick
