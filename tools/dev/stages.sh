@@ -144,7 +144,7 @@ stress() { # stress BIN_FOLDER PROBLEMS DEVICE_RUNS
         [[ $program != */stress_servo ]] || cases=$3
         [[ $program != */stress_replay ]] || cases=1
         [[ $program != */stress_shapes ]] || cases=200 # 1200 tools on 200 fields, against all triangles
-        [[ $program != */stress_recordings ]] || ((cases <= 100000)) || cases=100000
+        [[ $program != */stress_recordings ]] || ((cases <= 20000)) || cases=20000
         # A case is ten seconds of motion for each of six kinds of errors; the time of sanitized code is nobody's bar.
         [[ $program != */stress_tracking ]] || { [[ $1 == build/bin ]] && cases=20 || continue; }
         [[ $program != */stress_tension_quick ]] || ((cases *= 5)) # some us each
@@ -196,12 +196,12 @@ stage_package() {
 }
 
 stage_stress() {
-    stress build/bin 100000 1500
+    stress build/bin 200000 2000
     # A case is five seconds of a device here; the whole is docs/calibration.md.
-    checked build/bin/string_faults --cases 30 --seed 5 --healthy_s 300
+    checked build/bin/string_faults --cases 60 --seed 5 --healthy_s 600
     checked build/bin/error_budget --cases 1 --seed 2
     # The long run is documented in docs/safety.md: an hour with each hand, ten thousand unplugs, a million commands.
-    checked build/bin/safety_hours --minutes 2 --cycles 300 --commands 30000 --stall_minutes 1
+    checked build/bin/safety_hours --minutes 3 --cycles 500 --commands 50000 --stall_minutes 2
     checked build/bin/soak --minutes 0.5
     checked build/bin/passivity_gates --cases 6 --seed 1
     checked build/bin/stiffness_limit --quick
