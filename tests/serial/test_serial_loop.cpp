@@ -45,6 +45,32 @@ Rates run_for(const BusSettings &bus_settings, double time_s) {
     return rates;
 }
 
+// A force of 2 N, while somebody moves the hand.
+void pull(SerialHost &host, BoardBus &bus) {
+    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
+    REQUIRE(host.activate([&](double time_s) { bus.set_hand_target(wave(time_s)); }));
+}
+
+// Until the boards' currents show it.
+void wait_for_pull(SerialHost &host, BoardBus &bus) {
+    REQUIRE(wait_for(
+        [&] {
+            host.tick();
+            return bus.seen().strongest > 50;
+        },
+        500));
+}
+
+// The loop by itself, without a word of the game.
+bool comes_to(SerialHost &host, DeviceState state) {
+    return wait_for(
+        [&] {
+            (void)host.loop->latest(host.now);
+            return host.now.state == state;
+        },
+        1000);
+}
+
 } // namespace
 
 TEST_SUITE_BEGIN("quick");
@@ -59,23 +85,12 @@ TEST_CASE("serial loop: cable pulled while it pulls, and plugged in again") {
     BoardBus bus(one_b5m(), link_of_this_test());
     SerialHost host(settings_for(bus.link()));
     REQUIRE(usable(host.start()));
-    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
-    REQUIRE(host.activate([&](double time_s) { bus.set_hand_target(wave(time_s)); }));
-    REQUIRE(wait_for(
-        [&] {
-            host.tick();
-            return bus.seen().strongest > 50;
-        },
-        500));
+    pull(host, bus);
+    wait_for_pull(host, bus);
 
     const std::int64_t pulled_ns = monotonic_ns();
     bus.unplug();
-    const bool closed = wait_for(
-        [&] {
-            (void)host.loop->latest(host.now);
-            return host.now.state == DeviceState::closed;
-        },
-        1000);
+    const bool closed = comes_to(host, DeviceState::closed);
     const double closed_ms = 1e-6 * static_cast<double>(monotonic_ns() - pulled_ns);
     MESSAGE("CLOSED " << closed_ms << " ms after the cable was pulled");
     CHECK(closed);
@@ -123,26 +138,15 @@ TEST_CASE("serial guard: killed while the motors pull, they are off and the loop
     BoardBus bus(one_b5m(), link_of_this_test());
     SerialHost host(settings_for(bus.link()));
     REQUIRE(usable(host.start()));
-    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
-    REQUIRE(host.activate([&](double time_s) { bus.set_hand_target(wave(time_s)); }));
-    REQUIRE(wait_for(
-        [&] {
-            host.tick();
-            return bus.seen().strongest > 50;
-        },
-        500));
+    pull(host, bus);
+    wait_for_pull(host, bus);
     const int guard = host.transport->guard_process();
     REQUIRE(guard > 0);
     REQUIRE(kill(guard, SIGKILL) == 0);
     const std::int64_t killed_ns = monotonic_ns();
     CHECK(wait_for([&] { return bus.seen().strongest == 0; }, 1000));
     const double off_ms = 1e-6 * static_cast<double>(monotonic_ns() - killed_ns);
-    CHECK(wait_for(
-        [&] {
-            (void)host.loop->latest(host.now);
-            return host.now.state == DeviceState::fault;
-        },
-        1000));
+    CHECK(comes_to(host, DeviceState::fault));
     const double fault_ms = 1e-6 * static_cast<double>(monotonic_ns() - killed_ns);
     MESSAGE("motors off after " << off_ms << " ms, FAULT after " << fault_ms << " ms");
     CHECK(off_ms <= 25.0);
@@ -159,8 +163,7 @@ TEST_CASE("serial guard: one that hangs counts as lost") {
     BoardBus bus(one_b5m(), link_of_this_test());
     SerialHost host(settings_for(bus.link()));
     REQUIRE(usable(host.start()));
-    host.command.wrench.force_n = Vec3(0.0, 2.0, 0.0);
-    REQUIRE(host.activate([&](double time_s) { bus.set_hand_target(wave(time_s)); }));
+    pull(host, bus);
     const int guard = host.transport->guard_process();
     REQUIRE(kill(guard, SIGSTOP) == 0);
     const std::int64_t stopped_ns = monotonic_ns();

@@ -45,6 +45,10 @@ open_serial_port(const std::string &path, std::uint32_t baud, Status &status, st
 // Empty on systems other than Linux: there a port is given by its name.
 [[nodiscard]] std::vector<SerialPortInfo> list_serial_ports(const std::string &sys = "/sys",
                                                             const std::string &dev = "/dev");
+// Under which the boards on a port are known, as Transport::device_name().
+[[nodiscard]] inline std::string serial_device_name(const std::string &path) {
+    return "serial:" + path;
+}
 // `wanted`, or if that is empty the only port of a USB bridge. no_device, invalid_settings: none, or several; `problem` names
 // them.
 [[nodiscard]] Status choose_serial_port(const std::string &wanted, std::string &path,

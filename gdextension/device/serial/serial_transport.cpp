@@ -322,8 +322,13 @@ Status SerialTransport::write(const DriveCommand &command) noexcept {
 }
 
 std::string SerialTransport::device_name() const {
+    const std::string path = port();
+    return path.empty() ? std::string() : serial_device_name(path);
+}
+
+std::string SerialTransport::port() const {
     const std::lock_guard<std::mutex> lock(impl_->mutex);
-    return impl_->session.path.empty() ? std::string() : "serial:" + impl_->session.path;
+    return impl_->session.path;
 }
 
 std::vector<BoardLayout> SerialTransport::boards() const {

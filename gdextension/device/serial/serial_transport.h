@@ -45,6 +45,8 @@ public:
     Status write(const DriveCommand &command) noexcept override;
     [[nodiscard]] bool write_may_block() const noexcept override { return true; }
     [[nodiscard]] std::string device_name() const override;
+    // As chosen; empty while it is not open.
+    [[nodiscard]] std::string port() const;
 
     // From the controlling thread.
     [[nodiscard]] std::vector<BoardLayout> boards() const;

@@ -1,6 +1,7 @@
 // Every conversion between Godot's types and the core's, in one place.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <godot_cpp/variant/basis.hpp>
@@ -13,6 +14,11 @@
 #include "core/base/types.h"
 
 namespace spidar {
+
+// A counter, as Godot's int.
+[[nodiscard]] inline std::int64_t whole(std::uint64_t count) noexcept {
+    return static_cast<std::int64_t>(count);
+}
 
 // float, or double where Godot is built so.
 using GodotReal = decltype(godot::Vector3::x);

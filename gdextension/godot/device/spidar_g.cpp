@@ -203,8 +203,7 @@ void SpidarG::open_device() {
     }
     const std::string odd = transform_problem();
     if (!odd.empty()) {
-        UtilityFunctions::push_warning(
-            spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + odd));
+        UtilityFunctions::push_warning(named(odd));
     }
     watch_for_devices();
     set_process_internal(true);
@@ -212,8 +211,7 @@ void SpidarG::open_device() {
 
 void SpidarG::refuse_to_open(Status status, const std::string &message) {
     problem_ = message;
-    const String text = spidar::to_godot("SpidarG \"" + name_for_messages() +
-                                         "\": the device stays closed. " + message);
+    const String text = named("the device stays closed. " + message);
     UtilityFunctions::push_error(text);
     // Later in this frame: a node that opens as its scene enters the tree is not connected to anything yet.
     call_deferred("emit_signal", "fault_raised", static_cast<int>(status), text);

@@ -125,6 +125,8 @@ public:
     }
 
     // Tells what was not taken: by request_rejected and in the output.
+    // "SpidarG "name": message", as every message of the node begins.
+    [[nodiscard]] godot::String named(const std::string &message) const;
     void refuse(const std::string &message) const;
 
     // Device (spidar_g.cpp).

@@ -87,9 +87,7 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         }
         fallback_ = problem;
         if (status != Status::no_device) { // no device is the ordinary case of most who develop
-            UtilityFunctions::push_warning(spidar::to_godot("SpidarG \"" + name_for_messages() +
-                                                            "\": the simulated device is used. " +
-                                                            problem));
+            UtilityFunctions::push_warning(named("the simulated device is used. " + problem));
         }
     }
     auto transport = simulated_transport(status, problem);
@@ -132,8 +130,7 @@ String SpidarG::get_device_text() const {
 // In this frame, but after the scene's _ready().
 void SpidarG::tell_choice(const std::string &reason) {
     const String device = get_device_text();
-    UtilityFunctions::print(spidar::to_godot("SpidarG \"" + name_for_messages() + "\": ") + device +
-                            String(" ") + spidar::to_godot(reason));
+    UtilityFunctions::print(named("") + device + String(" ") + spidar::to_godot(reason));
     call_deferred("emit_signal", "device_chosen", is_simulated(), device, spidar::to_godot(reason));
 }
 
@@ -221,15 +218,14 @@ godot::Dictionary SpidarG::get_device_info() const {
         kMilli * spidar::Vec3(spec.workspace_mm[0], spec.workspace_mm[1], spec.workspace_mm[2]));
     const spidar::HidCounters count = hid_->counters();
     const spidar::HidTimes times = hid_->times();
-    const auto whole = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-    info["reports"] = whole(count.reports);
-    info["reports_lost"] = whole(count.lost);
-    info["reports_refused"] = whole(count.wrong_length + count.corrupt + count.replayed +
-                                    count.out_of_order + count.implausible + count.stale);
-    info["commands"] = whole(count.commands);
-    info["commands_skipped"] = whole(count.skipped_commands);
-    info["unplugged"] = whole(count.losses);
-    info["found_again"] = whole(count.replugs);
+    info["reports"] = spidar::whole(count.reports);
+    info["reports_lost"] = spidar::whole(count.lost);
+    info["reports_refused"] = spidar::whole(count.wrong_length + count.corrupt + count.replayed +
+                                            count.out_of_order + count.implausible + count.stale);
+    info["commands"] = spidar::whole(count.commands);
+    info["commands_skipped"] = spidar::whole(count.skipped_commands);
+    info["unplugged"] = spidar::whole(count.losses);
+    info["found_again"] = spidar::whole(count.replugs);
     info["round_trip_p50_us"] = times.round_trip_p50_us;
     info["round_trip_p99_us"] = times.round_trip_p99_us;
     info["latency_s"] = hid_->latency_s();

@@ -69,10 +69,8 @@ godot::Dictionary SpidarG::get_recording_statistics() const {
 }
 
 void SpidarG::tell_recording_failed() {
-    const String text = spidar::to_godot(
-        "SpidarG \"" + name_for_messages() +
-        "\": the recording could not be written any further. Is the disk full? What was written "
-        "before can be read.");
+    const String text = named("the recording could not be written any further. Is the disk full? "
+                              "What was written before can be read.");
     godot::UtilityFunctions::push_error(text);
     emit_signal("recording_failed", text);
 }
@@ -128,8 +126,7 @@ void SpidarG::open_replay() {
         return;
     }
     if (!replay->why_poses_only().empty()) {
-        godot::UtilityFunctions::push_warning(spidar::to_godot("SpidarG \"" + name_for_messages() +
-                                                               "\": " + replay->why_poses_only()));
+        godot::UtilityFunctions::push_warning(named(replay->why_poses_only()));
     }
     settings_ = replay->settings();
     requests_.clear();

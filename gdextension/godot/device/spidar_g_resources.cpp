@@ -81,11 +81,10 @@ void SpidarG::watch_latency() {
     std::array<char, 200> text{};
     std::snprintf(
         text.data(), text.size(),
-        ": the link's latency is %.2f ms, and link_latency in the SpidarGConfig says %.2f ms. "
+        "the link's latency is %.2f ms, and link_latency in the SpidarGConfig says %.2f ms. "
         "Stiffness is kept within what that allows.",
         1e3 * measured_s, 1e3 * settings_.render.latency_s);
-    UtilityFunctions::push_warning(
-        spidar::to_godot("SpidarG \"" + name_for_messages() + "\"" + text.data()));
+    UtilityFunctions::push_warning(named(text.data()));
     settings_.render.latency_s = measured_s;
     want_limits(spidar::limits_by_latency(settings_));
 }

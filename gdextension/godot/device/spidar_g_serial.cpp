@@ -14,7 +14,7 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
         problem = "SpidarGConfig.serial_port: " + problem;
         return nullptr;
     }
-    const std::string name = "serial:" + settings.port;
+    const std::string name = spidar::serial_device_name(settings.port);
     if (!claim_.take(name, name_for_messages())) {
         status = Status::device_in_use;
         problem = "Port " + settings.port + " belongs to SpidarG \"" +
@@ -33,14 +33,13 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
                 plant_.metres_per_count); // counts are 0 at the home pose, once it was zeroed there
     tell_choice("transport = Serial.");
     if (const std::string remarks = transport->remarks(); !remarks.empty()) {
-        godot::UtilityFunctions::push_warning(
-            spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + remarks));
+        godot::UtilityFunctions::push_warning(named(remarks));
     }
     if (transport->highest_rate_hz() < settings_.rate_hz) {
-        godot::UtilityFunctions::push_warning(spidar::to_godot(
-            "SpidarG \"" + name_for_messages() + "\": the wire lets its boards be asked " +
-            std::to_string(static_cast<int>(transport->highest_rate_hz())) +
-            " times a second, fewer than SpidarGConfig.rate_hz."));
+        godot::UtilityFunctions::push_warning(
+            named("the wire lets its boards be asked " +
+                  std::to_string(static_cast<int>(transport->highest_rate_hz())) +
+                  " times a second, fewer than SpidarGConfig.rate_hz."));
     }
     return transport;
 }
@@ -56,21 +55,20 @@ std::string SpidarG::serial_boards_text() const {
 
 void SpidarG::describe_serial(godot::Dictionary &info) const {
     const spidar::SerialCounters count = serial_->counters();
-    const auto whole = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
     info["product"] = spidar::to_godot(serial_boards_text());
-    info["path"] = spidar::to_godot(serial_->device_name().substr(sizeof("serial:") - 1));
+    info["path"] = spidar::to_godot(serial_->port());
     info["remarks"] = spidar::to_godot(serial_->remarks());
     info["highest_rate_hz"] = serial_->highest_rate_hz();
-    info["reports"] = whole(count.rounds);
-    info["reports_lost"] = whole(count.lost);
-    info["reports_refused"] = whole(count.implausible + count.damaged + count.unasked);
-    info["garbage_bytes"] = whole(count.garbage_bytes);
-    info["commands"] = whole(count.asked);
-    info["commands_skipped"] = whole(count.postponed);
-    info["unplugged"] = whole(count.losses);
-    info["found_again"] = whole(count.replugs);
-    info["guard_trips"] = whole(count.guard_trips);
-    info["guard_losses"] = whole(count.guard_losses);
+    info["reports"] = spidar::whole(count.rounds);
+    info["reports_lost"] = spidar::whole(count.lost);
+    info["reports_refused"] = spidar::whole(count.implausible + count.damaged + count.unasked);
+    info["garbage_bytes"] = spidar::whole(count.garbage_bytes);
+    info["commands"] = spidar::whole(count.asked);
+    info["commands_skipped"] = spidar::whole(count.postponed);
+    info["unplugged"] = spidar::whole(count.losses);
+    info["found_again"] = spidar::whole(count.replugs);
+    info["guard_trips"] = spidar::whole(count.guard_trips);
+    info["guard_losses"] = spidar::whole(count.guard_losses);
 }
 
 void SpidarG::list_serial_ports(godot::Array &list) {
@@ -83,7 +81,8 @@ void SpidarG::list_serial_ports(godot::Array &list) {
         shown["product"] = spidar::to_godot(port.product);
         shown["serial"] = spidar::to_godot(port.serial);
         shown["path"] = spidar::to_godot(port.path);
-        shown["owner"] = spidar::to_godot(spidar::DeviceClaim::owner_of("serial:" + port.path));
+        shown["owner"] =
+            spidar::to_godot(spidar::DeviceClaim::owner_of(spidar::serial_device_name(port.path)));
         list.push_back(shown);
     }
 }

@@ -106,8 +106,12 @@ void SpidarG::forget_player() {
     snapshot_.buttons = 0;
 }
 
+String SpidarG::named(const std::string &message) const {
+    return spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
+}
+
 void SpidarG::refuse(const std::string &message) const {
-    const String text = spidar::to_godot("SpidarG \"" + name_for_messages() + "\": " + message);
+    const String text = named(message);
     UtilityFunctions::push_error(text);
     const_cast<SpidarG *>(this)->emit_signal("request_rejected", text); // changes nothing of ours
 }

@@ -159,8 +159,7 @@ void HandDrawing::arrow(const Vec3 &from_m, const Vec3 &along_m, const Pen &pen)
     const double length = glm::length(along_m);
     const Vec3 ahead = along_m / length;
     const double head_m = std::min(kArrowHead * length, kLongestHead_m);
-    const Vec3 aside = std::abs(ahead.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    const Vec3 u = 0.5 * head_m * glm::normalize(glm::cross(ahead, aside));
+    const Vec3 u = 0.5 * head_m * any_across(ahead);
     const Vec3 v = glm::cross(ahead, u);
     const Vec3 tip_m = from_m + along_m;
     line(from_m, tip_m, pen);
@@ -199,9 +198,7 @@ void HandDrawing::points(const TouchReport &touch) {
         if (glm::length(point.force_n) > kLeastForce_n) {
             arrow(point.point_m, kForce_m_n * point.force_n, kForce);
         }
-        const Vec3 aside =
-            std::abs(point.normal.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-        const Vec3 u = glm::normalize(glm::cross(point.normal, aside));
+        const Vec3 u = any_across(point.normal);
         ring({point.point_m, Mat3(point.normal, u, glm::cross(point.normal, u))}, kNormalRing_m,
              kNormal);
         line(point.point_m, point.point_m + kNormal_m * point.normal, kNormal);

@@ -22,7 +22,6 @@ constexpr int kMostPasses = 3;
 // looked at again from where it stopped: of an edge it is only the tangent, which a proxy that slides over a seam must not
 // feel.
 constexpr double kAnticipated_m = 1e-6;
-constexpr double kTurned = 1.0 - 4.5e-6; // 3e-3 rad
 // Two points of a pair closer than this, with normals that agree, say the same.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree

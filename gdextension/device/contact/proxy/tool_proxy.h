@@ -87,6 +87,8 @@ private:
     using Rows = std::array<ConstraintRow, kMaxRows>;
     // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
     using Move = std::array<double, 8>;
+    // Normals further apart than this are of different surfaces (3e-3 rad).
+    static constexpr double kTurned = 1.0 - 4.5e-6;
     static constexpr double kOpen = -1.0; // depth of a row that never pushes
     // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
     static constexpr double kRowSoftness = 1e-7;

@@ -12,8 +12,6 @@ namespace {
 // A step that the tool is led over: what tiles stand out by when they are placed in single precision, a metre from the
 // origin, is a hundredth of it.
 constexpr double kStep_m = 5e-6;
-// Normals further apart than this are of different surfaces (3e-3 rad).
-constexpr double kTurned = 1.0 - 4.5e-6;
 constexpr int kMostRounds = 3; // at a corner where four tiles meet
 
 } // namespace

@@ -130,9 +130,7 @@ void add_grid(const ShapeDescription &plane, const Ball &ball, Lines &lines) {
     const Vec3 normal = plane.normal / length;
     const double above = glm::dot(normal, ball.middle) - plane.offset_m / length;
     const Vec3 foot = ball.middle - above * normal;
-    const Vec3 aside =
-        std::abs(normal.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 0.0, 1.0); // not along it
-    const Vec3 u = ball.radius * glm::normalize(glm::cross(normal, aside));
+    const Vec3 u = ball.radius * any_across(normal);
     const Vec3 v = glm::cross(normal, u);
     for (int i = 0; i <= kGridCells; ++i) {
         const double at = 2.0 * i / kGridCells - 1.0;

@@ -2,8 +2,11 @@
 // thread.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "device/contact/shapes/cooked_shape.h"
 
@@ -19,5 +22,12 @@ void add_outline(const CookedShape &shape, const Vec3 &ball_m, double ball_radiu
 
 // As add_outline, of a box about its own middle.
 void add_box_outline(const Vec3 &lower_m, const Vec3 &upper_m, std::vector<Vec3> &lines);
+
+// Some unit direction at right angles to this one, to draw round it. direction: not zero, of any length.
+[[nodiscard]] inline Vec3 any_across(const Vec3 &direction) noexcept {
+    const bool is_along_x = std::abs(direction.x) >= 0.7 * glm::length(direction);
+    return glm::normalize(
+        glm::cross(direction, is_along_x ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0)));
+}
 
 } // namespace spidar
