@@ -12,10 +12,14 @@ namespace {
 
 // A pad this near to a surface lies on it.
 constexpr double kTouch_m = 5e-5;
+// A body that one pad lies on is pinched when the other is this near: the fingers seldom close in its middle. Until then a
+// light body gives way, and would be felt a millimetre late.
+constexpr double kAlmost_m = 3e-4;
 // Where a pad lies without a force, all its points count alike.
 constexpr double kLeastWeight_n = 1e-6;
 
 struct Side {
+    bool is_near = false;
     bool touches = false;
     double force_n = 0.0; // towards the pad, along the jaws' axis
     Vec3 normal{0.0};     // weighted by force
@@ -27,7 +31,8 @@ struct Pressed {
 
     // Below 0: not between the pads.
     [[nodiscard]] double rank() const noexcept {
-        const bool is_between = sides[0].touches && sides[1].touches;
+        const bool is_between = sides[0].is_near && sides[1].is_near &&
+                                (sides[0].touches || sides[1].touches);
         return is_between ? std::max(std::min(sides[0].force_n, sides[1].force_n), 0.0) : -1.0;
     }
 };
@@ -42,7 +47,7 @@ Pinch find_pinch(const TouchReport &report, const TouchedBodies &bodies) noexcep
         const TouchPointReport &point = report.points[static_cast<std::size_t>(i)];
         const auto *const pad = std::find(kPadIds.begin(), kPadIds.end(), point.tool_id);
         const TouchedBody *const body = bodies.find(point.scene_id);
-        if (pad == kPadIds.end() || body == nullptr || point.gap_m > kTouch_m) {
+        if (pad == kPadIds.end() || body == nullptr || point.gap_m > kAlmost_m) {
             continue;
         }
         auto *const end = pressed.begin() + count;
@@ -55,7 +60,8 @@ Pinch find_pinch(const TouchReport &report, const TouchedBodies &bodies) noexcep
         }
         const double outward = pad == kPadIds.begin() ? -1.0 : 1.0;
         Side &side = place->sides[static_cast<std::size_t>(pad - kPadIds.begin())];
-        side.touches = true;
+        side.is_near = true;
+        side.touches = side.touches || point.gap_m <= kTouch_m;
         side.force_n += outward * glm::dot(point.force_n, axis);
         side.normal += (glm::length(point.force_n) + kLeastWeight_n) * point.normal;
     }

@@ -23,7 +23,7 @@ struct Pinch {
     double squeeze_nm_rad = 0.0; // what the body's metadata tell; 0: nothing
 };
 
-// The body that both pads lie on, the hardest pressed if there are several.
+// The body that one pad lies on and the other nearly, the hardest pressed if there are several.
 [[nodiscard]] Pinch find_pinch(const TouchReport &report, const TouchedBodies &bodies) noexcept;
 
 // What the fingers press with: the pull of the grasp's spring from the device to the proxy. The pads give it to what is
