@@ -108,6 +108,30 @@ func test_without_forces_a_thin_body_is_grasped_off_centre() -> void:
 
 
 ## A match lies anywhere on the pads: no gap between the rays that look for it is wider than it is thick.
+## A body of 8 g gives way to one finger. Fingers that close a little beside its middle must feel its width all the same.
+func test_a_light_thin_body_is_felt_at_its_width_off_centre() -> void:
+	await set_up(Vector3.ZERO)
+	for off: float in [0.0, 0.0001, -0.00013, 0.00015]:
+		var body: RigidBody3D = add_free_box(Vector3(0.003, 0.04, 0.03), 0.008)
+		await physics_frames(10)
+		await move_to(body.global_position + Vector3(off, 0.0, 0.0), 0.0, 60)
+		await move_to(at, device.get_grasp_angle_for_gap(0.006), 40)
+		await physics_frames(20)
+		var begins: float = NAN
+		for _i: int in 200:
+			await move_to(at, angle + deg_to_rad(0.1), 1)
+			if device.get_requested_wrench()[6] < -0.001:
+				begins = device.get_grasp_angle()
+				break
+		var late_mm: float = 80.0 * (begins - device.get_grasp_angle_for_gap(0.003)) / deg_to_rad(50.0)
+		print("INFO %.2f mm off centre: felt %.3f mm narrower than it is" % [1e3 * off, late_mm])
+		check_near(late_mm, 0.0, 0.6, "width felt with %.2f mm off centre" % [1e3 * off])
+		await move_to(at, 0.0, 30)
+		await move_to(Vector3.ZERO, 0.0, 40)
+		body.queue_free()
+		await physics_frames(2)
+
+
 func test_a_thin_stick_is_found_wherever_it_lies_on_the_pads() -> void:
 	await set_up(Vector3.ZERO, false)
 	for above_mm: int in range(-4, 5):
