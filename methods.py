@@ -272,7 +272,7 @@ class GodotApi:
         self.header_path = header_path
         with open(json_path, encoding="utf-8") as file:
             head = file.read(2000)
-        parts = [re.search(rf'"version_{name}":\s*(\d+)', head) for name in ("major", "minor")]
+        parts = [re.search(rf'"version_{name}":\s*(\d+)', head) for name in ("major", "minor", "patch")]
         if not all(parts):
             raise BuildError(f"{json_path}: holds no version; it is no Godot extension API dump")
         self.version = tuple(int(part.group(1)) for part in parts)
@@ -375,7 +375,7 @@ class GodotCpp:
         text = open(path, encoding="utf-8").read() if path else ""
         parts = [
             re.search(rf"#define\s+GODOT_VERSION_{name}\s+(\d+)", text)
-            for name in ("MAJOR", "MINOR")
+            for name in ("MAJOR", "MINOR", "PATCH")
         ]
         return tuple(int(part.group(1)) for part in parts) if all(parts) else None
 

@@ -118,7 +118,9 @@ class Api:
 
     def default(self, text, cpp, where):
         """A default value as C++."""
-        if cpp in ("bool", "float", "double") or cpp.endswith("_t"):
+        if cpp == "float":
+            return f"{text}F" if "." in text else text
+        if cpp in ("bool", "double") or cpp.endswith("_t"):
             return text
         if text == "null":
             return {"Variant": "Variant()"}.get(cpp, "nullptr" if cpp.endswith("*") else cpp + "()")

@@ -214,9 +214,9 @@ def generate(api, out):
         source += f"#include <godot_cpp/classes/{snake(name)}.hpp>\n"
         bodies += "".join(m.definition() for m in methods)
         if name in api.singletons:
-            bodies += (f"{name} *{name}::get_singleton() {{\n    static auto *singleton = "
-                       f"dynamic_cast<{name} *>(internal::wrap(internal::api.global_get_singleton("
-                       f'StringName("{name}")._native_ptr())));\n    return singleton;\n}}\n\n')
+            bodies += (f"{name} *{name}::get_singleton() {{\n"
+                       f'    static internal::Singleton singleton("{name}");\n'
+                       f"    return singleton.get<{name}>();\n}}\n\n")
 
     for name, listed in api.wanted["builtin"].items():
         methods = [Method(api, name, "builtin", m) for m in listed]

@@ -101,6 +101,13 @@ def script_tests(tally, godot, project, home):
     tally.check(not bad, "a sound run does not print:\n  " + "\n  ".join(bad))
 
 
+def unload_tests(tally, godot, project, home):
+    """The engine goes on when it unloads the library, and can load it again."""
+    code, output = run_godot(godot, project, home, "--script", "res://unload.gd")
+    tally.check(code == 0 and "\nunloaded 3 times\n" in output and not FORBIDDEN.search(output),
+                f"unloaded, loaded again and ended: exit code {code}\n{output}")
+
+
 def golden_tests(tally, godot, project, home, update):
     """The whole bound API, as Godot describes it."""
     out = home / "doc"
@@ -153,6 +160,7 @@ def main(arguments):
         home.mkdir()
         make_project(project, library)
         script_tests(tally, godot, project, home)
+        unload_tests(tally, godot, project, home)
         golden_tests(tally, godot, project, home, update)
         generator_cases.run(tally.check, folder)
     refusal_cases.run(tally.check, library)

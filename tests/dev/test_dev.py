@@ -237,7 +237,7 @@ def check_compilation(folder, api):
         check(not names_folder(content), f"{path} does not tell where it was built")
     manifest = os.path.join(folder, "addons/spidar_g/spidar_g.gdextension")
     text = open(manifest, encoding="utf-8").read() if os.path.isfile(manifest) else ""
-    check(re.search(r'^compatibility_minimum = "\d+\.\d+"$', text, re.M), "the manifest is written")
+    check(re.search(r'^compatibility_minimum = "\d+\.\d+\.\d+"$', text, re.M), "the manifest is written")
     database = os.path.join(folder, "compile_commands.json")
     entries = json.load(open(database, encoding="utf-8")) if os.path.isfile(database) else []
     check(len(entries) > 100 and all(entry["file"] in shlex.split(entry["command"]) for entry in entries),

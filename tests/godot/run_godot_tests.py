@@ -80,12 +80,12 @@ def processor_time_s(process):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def quits_cleanly(godot):
-    """A game that quits while devices are active. Prints one line; True when it did."""
-    output, code = run(godot, "res://quit_while_active.gd")
-    leaks = [match.group(0) for match in LEAKS.finditer(output)]
-    good = code == 0 and "quits while active" in output and not leaks
-    print("PASS" if good else "FAIL", f"quit while active: exit code {code}, leaks {leaks}")
+def ends_cleanly(godot, script, said):
+    """Whether a game of this script says `said` and ends well, with nothing left behind. Prints one line."""
+    output, code = run(godot, f"res://{script}")
+    problems = SCRIPT_ERRORS.findall(output) + [match.group(0) for match in LEAKS.finditer(output)]
+    good = code == 0 and said in output and not problems
+    print("PASS" if good else "FAIL", f"{script}: exit code {code}, problems {problems}")
     return good
 
 
@@ -176,7 +176,9 @@ def main(arguments):
         for physics in PHYSICS:
             good, bad = run_under(godot, physics)
             passed, failed = passed + good, failed + bad
-        for good in (quits_cleanly(godot), project_opens_and_closes(godot)):
+        for good in (ends_cleanly(godot, "quit_while_active.gd", "quits while active"),
+                     ends_cleanly(godot, "unload_extension.gd", "goes on without the add-on"),
+                     project_opens_and_closes(godot)):
             passed, failed = passed + good, failed + (not good)
     print(f"{passed} passed, {failed} failed")
     return 0 if passed and not failed else 1

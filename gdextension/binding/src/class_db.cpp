@@ -3,6 +3,8 @@
 #include <godot_cpp/core/class_db.hpp>
 
 #include <algorithm>
+#include <mutex>
+#include <set>
 #include <string>
 
 namespace godot {
@@ -60,8 +62,16 @@ void free_instance(void *, GDExtensionClassInstancePtr instance) {
 
 GDExtensionClassCallVirtual get_virtual(void *userdata, GDExtensionConstStringNamePtr name,
                                         uint32_t hash) {
-    return find_virtual(*static_cast<ClassRecord *>(userdata),
+    return find_virtual(*static_cast<const ClassRecord *>(userdata),
                         *static_cast<const StringName *>(name), hash);
+}
+
+// Any thread of the engine may be the first to ask for a virtual method.
+bool first_complaint_of(const std::string &method) {
+    static std::mutex mutex;
+    static std::set<std::string> told;
+    const std::lock_guard lock(mutex);
+    return told.insert(method).second;
 }
 
 } // namespace
@@ -72,20 +82,21 @@ const ClassRecord *find_class(const StringName &name) {
     return found == classes.end() ? nullptr : found->get();
 }
 
-GDExtensionClassCallVirtual find_virtual(ClassRecord &record, const StringName &wanted,
+GDExtensionClassCallVirtual find_virtual(const ClassRecord &record, const StringName &wanted,
                                          uint32_t hash) {
-    for (VirtualEntry &entry : record.virtuals) {
+    for (const VirtualEntry &entry : record.virtuals) {
         if (entry.name != wanted) {
             continue;
         }
         if (entry.hash == hash) {
             return entry.call;
         }
-        complain("The virtual method " + text_of(wanted) +
-                 " has other arguments in this Godot than in the one that the extension was built "
-                 "with: it is not called. Build the extension with the API of this Godot.");
-        entry.hash = hash; // said once
-        entry.call = nullptr;
+        if (first_complaint_of(text_of(record.name) + "." + text_of(wanted))) {
+            complain("The virtual method " + text_of(wanted) +
+                     " has other arguments in this Godot than in the one that the extension was "
+                     "built with: it is not called. Build the extension with the API of this "
+                     "Godot.");
+        }
         return nullptr;
     }
     return nullptr;

@@ -3,6 +3,7 @@
 #include <godot_cpp/core/version.hpp>
 #include <godot_cpp/godot.hpp>
 #include <godot_cpp/internal/class_record.hpp>
+#include <godot_cpp/internal/engine_classes.hpp>
 #include <godot_cpp/internal/interface.hpp>
 
 #include <cstdio>
@@ -47,12 +48,15 @@ bool version_serves(GDExtensionInterfaceGetProcAddress get_proc_address) {
     }
     RunningVersion running;
     reinterpret_cast<void (*)(RunningVersion *)>(found)(&running);
-    // Patch releases do not change the API, so the patch number does not count.
-    if (running.major == GODOT_VERSION_MAJOR && running.minor >= GODOT_VERSION_MINOR) {
+    // As godot-cpp compares, and as the add-on's manifest says to the engine.
+    if (running.major == GODOT_VERSION_MAJOR &&
+        std::pair(running.minor, running.patch) >=
+            std::pair<uint32_t, uint32_t>(GODOT_VERSION_MINOR, GODOT_VERSION_PATCH)) {
         return true;
     }
-    const std::string needed =
-        std::to_string(GODOT_VERSION_MAJOR) + "." + std::to_string(GODOT_VERSION_MINOR);
+    const std::string needed = std::to_string(GODOT_VERSION_MAJOR) + "." +
+                               std::to_string(GODOT_VERSION_MINOR) + "." +
+                               std::to_string(GODOT_VERSION_PATCH);
     refuse("it was built for the API of Godot " + needed + ", this is Godot " +
            std::to_string(running.major) + "." + std::to_string(running.minor) + "." +
            std::to_string(running.patch) + ". Use Godot " + needed +
@@ -177,6 +181,7 @@ void deinitialize(void *, GDExtensionInitializationLevel level) {
     }
     internal::unregister_classes(level);
     if (level == lowest_level) {
+        internal::release_wrappers();
         internal::release_persistent_names();
     }
 }

@@ -5,7 +5,9 @@
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 
 #include <cstring>
+#include <mutex>
 #include <string>
+#include <unordered_set>
 
 namespace godot {
 
@@ -37,6 +39,23 @@ const GDExtensionInstanceBindingCallbacks kOwnBinding = {
     [](void *, void *) -> void * { return nullptr; }, [](void *, void *, void *) {},
     [](void *, void *, GDExtensionBool) -> GDExtensionBool { return 1; }};
 
+std::mutex wrappers_mutex;
+std::unordered_set<GodotObject *> wrapped_objects; // the engine's own, not those of our classes
+std::vector<Singleton *> singletons;
+
+void remember_wrapper(GodotObject *owner) {
+    const std::lock_guard lock(wrappers_mutex);
+    wrapped_objects.insert(owner);
+}
+
+void end_wrapper(GodotObject *owner, Wrapped *wrapper) {
+    {
+        const std::lock_guard lock(wrappers_mutex);
+        wrapped_objects.erase(owner);
+    }
+    Access::destroy(wrapper);
+}
+
 Wrapped *make_wrapper(GodotObject *owner) {
     for (std::size_t i = 0; i < engine_class_count; ++i) {
         EngineClass &candidate = engine_classes[i]; // derived classes first
@@ -44,6 +63,7 @@ Wrapped *make_wrapper(GodotObject *owner) {
             candidate.tag = api.classdb_get_class_tag(StringName(candidate.name)._native_ptr());
         }
         if (candidate.tag != nullptr && api.object_cast_to(owner, candidate.tag) != nullptr) {
+            remember_wrapper(owner);
             return candidate.wrap(owner);
         }
     }
@@ -52,7 +72,7 @@ Wrapped *make_wrapper(GodotObject *owner) {
 
 const GDExtensionInstanceBindingCallbacks kWrapperBinding = {
     [](void *, void *owner) -> void * { return make_wrapper(owner); },
-    [](void *, void *, void *wrapper) { Access::destroy(static_cast<Wrapped *>(wrapper)); },
+    [](void *, void *owner, void *wrapper) { end_wrapper(owner, static_cast<Wrapped *>(wrapper)); },
     [](void *, void *, GDExtensionBool) -> GDExtensionBool { return 1; }};
 
 } // namespace
@@ -102,6 +122,30 @@ Wrapped *wrap(GodotObject *owner) {
     return owner == nullptr ? nullptr
                             : static_cast<Wrapped *>(api.object_get_instance_binding(
                                   owner, library, &kWrapperBinding));
+}
+
+Singleton::Singleton(const char *name) : name_(name) {
+    const std::lock_guard lock(wrappers_mutex);
+    singletons.push_back(this);
+}
+
+Wrapped *Singleton::look_up() const {
+    return wrap(api.global_get_singleton(StringName(name_)._native_ptr()));
+}
+
+void release_wrappers() {
+    std::unordered_set<GodotObject *> left;
+    {
+        const std::lock_guard lock(wrappers_mutex);
+        left.swap(wrapped_objects);
+        for (Singleton *singleton : singletons) {
+            singleton->forget();
+        }
+    }
+    // Without the lock: the engine calls end_wrapper() for each.
+    for (GodotObject *owner : left) {
+        api.object_free_instance_binding(owner, library);
+    }
 }
 
 GodotObject *construct_engine_object(const StringName &class_name) {

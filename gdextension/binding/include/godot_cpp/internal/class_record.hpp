@@ -61,7 +61,7 @@ void register_class(std::unique_ptr<ClassRecord> record);
 const ClassRecord *find_class(const StringName &name);
 // The class's own virtual method for the engine's; null when it has none, or when the engine's has
 // other arguments now (which is printed once).
-GDExtensionClassCallVirtual find_virtual(ClassRecord &record, const StringName &name,
+GDExtensionClassCallVirtual find_virtual(const ClassRecord &record, const StringName &name,
                                          uint32_t hash);
 // Registers; prints why when it cannot.
 void register_method(const StringName &class_name, std::unique_ptr<MethodRecord> method);

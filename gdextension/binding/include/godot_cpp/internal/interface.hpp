@@ -57,6 +57,7 @@
     X(object_method_bind_ptrcall, ObjectMethodBindPtrcall)                                         \
     X(object_destroy, ObjectDestroy)                                                               \
     X(object_get_instance_binding, ObjectGetInstanceBinding)                                       \
+    X(object_free_instance_binding, ObjectFreeInstanceBinding)                                     \
     X(object_set_instance_binding, ObjectSetInstanceBinding)                                       \
     X(object_set_instance, ObjectSetInstance)                                                      \
     X(object_cast_to, ObjectCastTo)                                                                \
