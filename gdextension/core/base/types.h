@@ -17,6 +17,8 @@ using Vec3 = glm::dvec3;
 using Mat3 = glm::dmat3; // column-major: Mat3(x_axis, y_axis, z_axis)
 
 inline constexpr int kStringCount = 8;
+// What a device may measure beside its strings, at most.
+inline constexpr int kSensorCount = 8;
 inline constexpr int kDofCount = 7;
 
 // One value a string, index 0-7.

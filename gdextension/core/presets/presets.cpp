@@ -25,18 +25,73 @@ constexpr StringVectors kX3lJoints_m{Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 
                                      Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591),
                                      Vec3(0, -0.0225, 0),        Vec3(0, -0.0225, 0)};
 constexpr double kX3MetresPerCount = 1.66555e-5;
+
+// Not turned in their frames, and so with joints along the axes.
+constexpr StringVectors kX5rMotors_m{
+    Vec3(-0.0775, -0.0735, 0.0775),  Vec3(0.0775, -0.0735, 0.0775), Vec3(0.0775, -0.0735, -0.0775),
+    Vec3(-0.0775, -0.0735, -0.0775), Vec3(-0.0775, 0.0735, 0.0775), Vec3(0.0775, 0.0735, 0.0775),
+    Vec3(0.0775, 0.0735, -0.0775),   Vec3(-0.0775, 0.0735, -0.0775)};
+constexpr StringVectors kX5rJoints_m{Vec3(-0.015, 0, 0), Vec3(0.015, 0, 0),  Vec3(0, -0.015, 0),
+                                     Vec3(0, -0.015, 0), Vec3(-0.015, 0, 0), Vec3(0.015, 0, 0),
+                                     Vec3(0, 0.015, 0),  Vec3(0, 0.015, 0)};
+constexpr StringVectors kX5lMotors_m{
+    Vec3(0.0775, 0.0735, -0.0775),  Vec3(0.0775, 0.0735, 0.0775),   Vec3(-0.0775, 0.0735, 0.0775),
+    Vec3(-0.0775, 0.0735, -0.0775), Vec3(0.0775, -0.0735, -0.0775), Vec3(0.0775, -0.0735, 0.0775),
+    Vec3(-0.0775, -0.0735, 0.0775), Vec3(-0.0775, -0.0735, -0.0775)};
+constexpr StringVectors kX5lJoints_m{Vec3(0, 0, -0.015), Vec3(0, 0, 0.015),  Vec3(0, 0.015, 0),
+                                     Vec3(0, 0.015, 0),  Vec3(0, 0, -0.015), Vec3(0, 0, 0.015),
+                                     Vec3(0, -0.015, 0), Vec3(0, -0.015, 0)};
+constexpr StringVectors kX4Motors_m{Vec3(0.069, -0.095, -0.069), Vec3(0.069, -0.095, 0.069),
+                                    Vec3(-0.069, -0.095, 0.069), Vec3(-0.069, -0.095, -0.069),
+                                    Vec3(0.069, 0.095, -0.069),  Vec3(0.069, 0.095, 0.069),
+                                    Vec3(-0.069, 0.095, 0.069),  Vec3(-0.069, 0.095, -0.069)};
+constexpr StringVectors kX4Joints_m{Vec3(0, -0.0225, 0), Vec3(0.0225, 0, 0), Vec3(-0.0225, 0, 0),
+                                    Vec3(0, -0.0225, 0), Vec3(0, 0.0225, 0), Vec3(0.0225, 0, 0),
+                                    Vec3(-0.0225, 0, 0), Vec3(0, 0.0225, 0)};
+// The usual host's, for a board: it sends volts.
+constexpr double kUnitsPerVolt = 4096.0 / 3.3;
+constexpr BoardWiring kX5rBoards{
+    0.091 * kUnitsPerVolt, {-1, 1, -1, 1, -1, 1, -1, 1}, {1, -1, 1, -1, 1, -1, 1, -1}};
+constexpr BoardWiring kX5lBoards{0.091 * kUnitsPerVolt};
+constexpr BoardWiring kX4Boards{
+    0.08 * kUnitsPerVolt, {-1, -1, 1, 1, 1, 1, -1, -1}, {1, 1, -1, -1, -1, -1, 1, 1}};
 constexpr double kX3MinTension_n = 0.3;
 constexpr double kX3MaxTension_n = 20.0;
 
-DevicePreset x3(const char *name, const StringVectors &motors_m,
-                const StringVectors &joints_m) noexcept {
+DevicePreset rigid(const char *name, const StringVectors &motors_m,
+                   const StringVectors &joints_m) noexcept {
     DevicePreset preset;
     preset.name = name;
     preset.frame.motors_m = motors_m;
     preset.grip = make_rigid_grip(joints_m);
+    return preset;
+}
+
+DevicePreset x3(const char *name, const StringVectors &motors_m,
+                const StringVectors &joints_m) noexcept {
+    DevicePreset preset = rigid(name, motors_m, joints_m);
     preset.metres_per_count = kX3MetresPerCount;
     preset.min_tension_n = kX3MinTension_n;
     preset.max_tension_n = kX3MaxTension_n;
+    return preset;
+}
+
+DevicePreset x5(const char *name, const StringVectors &motors_m, const StringVectors &joints_m,
+                const BoardWiring &boards) noexcept {
+    DevicePreset preset = rigid(name, motors_m, joints_m);
+    preset.metres_per_count = 2.25e-5;
+    preset.min_tension_n = 0.3;
+    preset.max_tension_n = 6.0;
+    preset.boards = boards;
+    return preset;
+}
+
+DevicePreset x4() noexcept {
+    DevicePreset preset = rigid("SpidarG6X4", kX4Motors_m, kX4Joints_m);
+    preset.metres_per_count = 3.485e-5;
+    preset.min_tension_n = 0.2;
+    preset.max_tension_n = 20.0;
+    preset.boards = kX4Boards;
     return preset;
 }
 
@@ -58,6 +113,12 @@ DevicePreset device_preset(Preset preset) noexcept {
         return x3("SpidarG6X3R", kX3rMotors_m, kX3rJoints_m);
     case Preset::spidar_g6_x3l:
         return x3("SpidarG6X3L", kX3lMotors_m, kX3lJoints_m);
+    case Preset::spidar_g6_x5r:
+        return x5("SpidarG6X5R", kX5rMotors_m, kX5rJoints_m, kX5rBoards);
+    case Preset::spidar_g6_x5l:
+        return x5("SpidarG6X5L", kX5lMotors_m, kX5lJoints_m, kX5lBoards);
+    case Preset::spidar_g6_x4:
+        return x4();
     case Preset::paper:
         break;
     }

@@ -154,6 +154,9 @@ struct HapticCommand {
     int effect_count = 0;
     std::array<Effect, kMaxEffects> effects{};
 
+    // How far the game closes the fingers of a rigid grip, 0 to 1 (FingerSettings::by_game).
+    double grasp_share = 0.0;
+
     // Taken when limits_sequence changes; until then those of the settings hold.
     std::uint32_t limits_sequence = 0;
     LiveLimits limits;

@@ -12,6 +12,13 @@ struct Displacement {
     double grasp_rad = 0.0;
 };
 
+// The fingers of a rigid grip, which no string measures (device/tracking/fingers.h). given: they are told by something else.
+struct FingerMotion {
+    bool given = false;
+    double angle_rad = 0.0; // as a grasp angle: 0 open
+    double rate_rad_s = 0.0;
+};
+
 // One cycle's input of the renderer: the pose as measured, where it will be relative to that, and how fast.
 struct GripMotion {
     GripState grip;

@@ -2,6 +2,7 @@
 // one that says write_may_block() may run in a second thread at the same time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -22,6 +23,8 @@ struct DeviceReading {
     // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
     Status device_status = Status::ok;
     std::uint8_t fault_strings = 0; // bit i: string i, where an encoder fault says which
+    // What else is wired to the device, such as a pressure sensor in the grip, in its own units. 0 where there is nothing.
+    std::array<std::int16_t, kSensorCount> sensors{};
 };
 
 // What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and

@@ -93,8 +93,21 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     }
 }
 
-Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, bool trusted,
-                              double dt_s) noexcept {
+Wrench HapticRenderer::touch_push(GripMotion motion, const FingerMotion &fingers,
+                                  double dt_s) noexcept {
+    if (!fingers.given) {
+        return parts_.touch.render(motion, dt_s);
+    }
+    motion.grip.frame.grasp_angle_rad = fingers.angle_rad;
+    motion.ahead.grasp_rad = motion.lead_s * fingers.rate_rad_s;
+    motion.velocity.grasp_rate_rad_s = fingers.rate_rad_s;
+    Wrench push = parts_.touch.render(motion, dt_s);
+    push.grasp_torque_nm = 0.0;
+    return push;
+}
+
+Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved,
+                              const FingerMotion &fingers, bool trusted, double dt_s) noexcept {
     parts_.observer.update(moved);
     GripMotion motion;
     motion.grip = grip;
@@ -115,7 +128,7 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved, 
         contact_push_ = parts_.contacts.render(motion, dt_s);
     }
     if (parts_.touch.ready()) {
-        contact_push_ = contact_push_ + parts_.touch.render(motion, dt_s);
+        contact_push_ = contact_push_ + touch_push(motion, fingers, dt_s);
     }
     sum = sum + contact_push_;
     if (!parts_.effects.at_rest()) {

@@ -32,10 +32,10 @@ public:
     void take(const HapticCommand &command, double now_s, double dt_s,
               ServoCounters &counters) noexcept;
 
-    // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. trusted: the pose is
-    // of now; otherwise nothing that depends on speed acts.
-    Wrench render(const GripState &grip, const Displacement &moved, bool trusted,
-                  double dt_s) noexcept;
+    // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. fingers: those of a rigid
+    // grip, which touch as well. trusted: the pose is of now; otherwise nothing that depends on speed acts.
+    Wrench render(const GripState &grip, const Displacement &moved, const FingerMotion &fingers,
+                  bool trusted, double dt_s) noexcept;
     // What becomes of it until the next cycle: `scale` of what render() returned is asked of the strings,
     void given(double scale, double dt_s) noexcept;
     // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
@@ -64,6 +64,7 @@ public:
     }
 
 private:
+    Wrench touch_push(GripMotion motion, const FingerMotion &fingers, double dt_s) noexcept;
     void note(const GainClamp &clamp, ServoCounters &counters) noexcept;
 
     struct Parts {

@@ -4,8 +4,9 @@
 
 namespace spidar {
 
-SerialMotorTable motors_in_order(std::span<const BoardLayout> boards) noexcept {
-    SerialMotorTable table;
+SerialMotorTable motors_in_order(std::span<const BoardLayout> boards,
+                                 const SerialMotorTable &signs) noexcept {
+    SerialMotorTable table = signs;
     std::size_t string = 0;
     for (const BoardLayout &board : boards) {
         for (std::size_t i = 0; i < board.motors() && string < table.size(); ++i) {

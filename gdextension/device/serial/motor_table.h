@@ -19,8 +19,9 @@ struct SerialMotor {
 };
 using SerialMotorTable = std::array<SerialMotor, kStringCount>;
 
-// The boards in the order of their ids, the motors of each in theirs.
-[[nodiscard]] SerialMotorTable motors_in_order(std::span<const BoardLayout> boards) noexcept;
+// The boards in the order of their ids, the motors of each in theirs; the signs are those of `signs`.
+[[nodiscard]] SerialMotorTable motors_in_order(std::span<const BoardLayout> boards,
+                                               const SerialMotorTable &signs) noexcept;
 // Empty when every string has a motor of its own on these boards; else one sentence.
 [[nodiscard]] std::string validate(const SerialMotorTable &motors,
                                    std::span<const BoardLayout> boards);

@@ -73,7 +73,7 @@ Status SerialTransport::Impl::connect(const std::string &path, std::string &why)
         return status;
     }
     const SerialMotorTable table =
-        settings.motors_in_order ? motors_in_order(fresh.boards) : settings.motors;
+        settings.motors_in_order ? motors_in_order(fresh.boards, settings.motors) : settings.motors;
     why = validate(table, fresh.boards);
     if (!why.empty()) {
         return settings.motors_in_order ? Status::protocol_mismatch : Status::invalid_settings;
@@ -206,6 +206,12 @@ void SerialTransport::Impl::fill(DeviceReading &reading) noexcept {
     reading.sequence =
         static_cast<std::uint16_t>((replies.counters().rounds + lost_seen) % kSequences);
     reading.buttons = 0;
+    std::size_t sensor = 0;
+    for (std::size_t board = 0; board < replies.board_count(); ++board) {
+        for (std::size_t i = 0; i < replies.force_count(board) && sensor < kSensorCount; ++i) {
+            reading.sensors[sensor++] = replies.force(board, i);
+        }
+    }
     reading.zeroed = false; // their counts begin anywhere
     reading.device_status = guard.allows() ? Status::ok : Status::device_watchdog;
     reading.fault_strings = 0;

@@ -20,7 +20,7 @@ namespace spidar {
 struct SerialTransportSettings {
     std::string port; // of the system; empty: the only port of a USB bridge
     std::uint32_t baud = kBoardBaud;
-    bool motors_in_order = true; // false: `motors` is the table
+    bool motors_in_order = true; // then only the signs of `motors` count; else it is the table
     SerialMotorTable motors{};
     double units_per_a = kUsualUnitsPerAmpere; // of the boards' currents
     int most_units =

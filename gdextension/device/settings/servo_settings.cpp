@@ -51,6 +51,22 @@ std::string validate_safety(const SafetySettings &safety) {
                            safety.contacts_full_s + kLeastFade_s, 2.0});
 }
 
+std::string validate_fingers(const FingerSettings &fingers) {
+    const ValueRange ranges[] = {
+        {"fingers.sensor", static_cast<double>(fingers.sensor), "(-1: none)", -1.0,
+         kSensorCount - 1.0},
+        {"fingers.sensor_open", fingers.sensor_open, "(the sensor's unit)", -32768.0, 32767.0},
+        {"fingers.sensor_closed", fingers.sensor_closed, "(the sensor's unit)", -32768.0, 32767.0},
+        {"fingers.closed_rad", fingers.closed_rad, "rad", 0.01, 1.5},
+    };
+    std::string problem = first_out_of_range(ranges);
+    if (problem.empty() && fingers.sensor_closed == fingers.sensor_open) {
+        problem = "fingers.sensor_closed is sensor_open: give two values that the sensor tells "
+                  "apart.";
+    }
+    return problem;
+}
+
 // What single parts cannot know of each other.
 std::string validate_together(const ServoSettings &settings) {
     if (settings.grip.kind == GripKind::rigid && (settings.tension.dof_mask & kNoGrasp) == 0) {
@@ -87,7 +103,8 @@ std::string validate(const ServoSettings &settings) {
          {first_out_of_range(ranges), validate(settings.frame),
           validate(settings.grip, settings.frame), validate(settings.strings),
           validate(settings.corrections), validate(settings.motors), validate(settings.tension),
-          validate(settings.grasp), validate_safety(settings.safety), validate(settings.render),
+          validate(settings.grasp), validate_fingers(settings.fingers),
+          validate_safety(settings.safety), validate(settings.render),
           validate_together(settings)}) {
         if (!problem.empty()) {
             return problem;

@@ -1,6 +1,7 @@
 // All that a servo loop is told before it starts. Plain values with safe defaults.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/base/sound_state.h"
@@ -41,6 +42,16 @@ struct SafetySettings {
     double hand_presence_s = 5.0;        // real devices: the grip moved within this before arming
 };
 
+// What closes the fingers of a rigid grip (device/tracking/fingers.h); several may, the one that closes most counts.
+struct FingerSettings {
+    std::uint8_t button_mask = 0x01;                 // buttons of the device: bit i is button i
+    bool by_game = true;                             // HapticCommand::grasp_share
+    int sensor = -1;                                 // of DeviceReading::sensors; -1: none
+    double sensor_open = 0.0;                        // its value with open fingers
+    double sensor_closed = 1000.0;                   // and with closed ones; may be the smaller one
+    double closed_rad = 50.0 * 0.017453292519943295; // grasp angle of closed fingers
+};
+
 struct ServoSettings {
     double rate_hz = 1000.0;          // 100 to 4000
     double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
@@ -54,17 +65,21 @@ struct ServoSettings {
     MotorCalibration motors;
     TensionSettings tension;
     GraspSettings grasp;
+    FingerSettings fingers;
     SafetySettings safety;
     RenderSettings render;
 };
 
-// Empty when usable; else one sentence naming the field, the value, the unit and the remedy. Checks every part.
 // core/base/sound_state.h
+[[nodiscard]] inline bool is_sound(const FingerSettings &fingers) noexcept {
+    return are_flags(fingers.by_game) && fingers.sensor >= -1 && fingers.sensor < kSensorCount;
+}
 [[nodiscard]] inline bool is_sound(const ServoSettings &settings) noexcept {
     return are_flags(settings.render.caps_from_latency) && is_sound(settings.grip) &&
-           is_tally(settings.safety.max_bad_samples);
+           is_sound(settings.fingers) && is_tally(settings.safety.max_bad_samples);
 }
 
+// Empty when usable; else one sentence naming the field, the value, the unit and the remedy. Checks every part.
 [[nodiscard]] std::string validate(const ServoSettings &settings);
 
 } // namespace spidar

@@ -11,6 +11,8 @@ namespace spidar {
 
 namespace {
 
+constexpr double kMostSqueeze_rad = 3.2; // what a sensor's 16 bits hold
+
 // Controlling thread -> device thread.
 struct Orders {
     HandTarget target;
@@ -37,7 +39,7 @@ CountArray ideal_home_counts(PlantSettings settings) noexcept {
 
 struct SimulatedTransport::Impl {
     explicit Impl(const PlantSettings &settings)
-        : settings_valid(validate(settings).empty()),
+        : settings_valid(validate(settings).empty()), rigid(settings.grip.kind == GripKind::rigid),
           metres_per_count(settings_valid ? settings.metres_per_count : kPaperMetresPerCount),
           plant(settings_valid ? settings : PlantSettings{}),
           home_counts(ideal_home_counts(settings_valid ? settings : PlantSettings{})),
@@ -60,6 +62,7 @@ struct SimulatedTransport::Impl {
     }
 
     const bool settings_valid;
+    const bool rigid;
     const double metres_per_count;
 
     // Device thread.
@@ -140,6 +143,11 @@ void SimulatedTransport::Impl::make_report() noexcept {
         static_cast<std::uint64_t>(std::llround((plant.time_s() - clock_base_s) * 1e6));
     ++made.sequence;
     made.buttons = received.buttons;
+    if (rigid) {
+        made.sensors[kSqueezeSensor] = static_cast<std::int16_t>(
+            std::lround(kSqueeze_1_rad * std::clamp(received.target.grasp_angle_rad,
+                                                    -kMostSqueeze_rad, kMostSqueeze_rad)));
+    }
     report = made;
     report_is_new = link.deliver(report, faults);
 }

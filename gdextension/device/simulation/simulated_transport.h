@@ -10,6 +10,10 @@
 
 namespace spidar {
 
+// A rigid grip of the simulated device has a sensor of how far its hand closes the fingers.
+inline constexpr std::size_t kSqueezeSensor = 0;
+inline constexpr double kSqueeze_1_rad = 1e4; // of HandTarget::grasp_angle_rad
+
 class SimulatedTransport final : public Transport {
 public:
     // Settings that do not validate() are kept out: open() then gives invalid_settings.

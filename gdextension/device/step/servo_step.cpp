@@ -31,6 +31,7 @@ Status ServoStep::configure(const ServoSettings &settings) noexcept {
     parts.guard.configure(settings.strings, safety.max_count_speed_m_s, safety.max_bad_samples,
                           fresh.nominal_dt_s_);
     parts.grasp.configure(settings.grasp);
+    parts.fingers.configure(settings.fingers, settings.grip.kind);
     parts.renderer.touch().use(parts_.renderer.touch().memory());
     parts.renderer.configure(settings);
     parts.machine.configure(safety.arming_time_s);
@@ -137,6 +138,7 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
     }
     parts_.link.arrived(dt_s);
     snapshot_.buttons = reading.buttons;
+    parts_.fingers.take(reading);
     switch (parts_.guard.check(reading.counts, std::max(dt_s, parts_.link.clock().apart_s()))) {
     case SampleGuard::Verdict::good:
         solve_pose(reading.counts, false, dt_s);
@@ -160,8 +162,8 @@ void ServoStep::observe(Status read_status, const DeviceReading &reading, double
 
 DriveCommand ServoStep::drive(double dt_s) noexcept {
     const bool trusted = tracking_ && parts_.monitor.velocity_trusted();
-    const Wrench rendered =
-        parts_.renderer.render(parts_.tracker.grip(), parts_.tracker.moved(), trusted, dt_s);
+    const Wrench rendered = parts_.renderer.render(parts_.tracker.grip(), parts_.tracker.moved(),
+                                                   parts_.fingers.motion(), trusted, dt_s);
     Wrench asked = rendered + parts_.monitor.wall(parts_.tracker.grip());
     // A rigid grip has no hinge to turn: what was asked of it is left out, and said.
     const bool no_grasp = settings_.grip.kind == GripKind::rigid && asked.grasp_torque_nm != 0.0;
@@ -209,6 +211,16 @@ DriveCommand ServoStep::let_go() noexcept {
     return parts_.drive.let_go(snapshot_);
 }
 
+GripState ServoStep::grip_with_fingers() const noexcept {
+    GripState grip = parts_.tracker.grip();
+    const FingerMotion &fingers = parts_.fingers.motion();
+    if (fingers.given) {
+        grip.frame.grasp_angle_rad = fingers.angle_rad;
+        grip.twist.grasp_rate_rad_s = fingers.rate_rad_s;
+    }
+    return grip;
+}
+
 void ServoStep::publish_state() noexcept {
     snapshot_.state = parts_.machine.state();
     snapshot_.fault = parts_.machine.fault();
@@ -219,7 +231,7 @@ void ServoStep::publish_state() noexcept {
     snapshot_.safety_scale = parts_.monitor.wrench_scale();
     snapshot_.thermal_share = parts_.monitor.heat().spent();
     snapshot_.parity_error_m = parts_.monitor.strings().parity_m();
-    snapshot_.grip = parts_.tracker.grip();
+    snapshot_.grip = grip_with_fingers();
     snapshot_.grasp = parts_.grasp.phase();
     parts_.renderer.report(snapshot_);
 }
@@ -262,11 +274,13 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
     if (snapshot_.counters.rejected_requests != refused) {
         parts_.events.tell(DeviceEventKind::request_refused);
     }
+    parts_.fingers.take(command);
     observe(read_status, reading, dt_s);
+    parts_.fingers.advance(dt_s);
     watch(dt_s);
     check_zero(dt_s);
     if (tracking_) {
-        parts_.grasp.update(parts_.tracker.grip().frame.grasp_angle_rad, dt_s);
+        parts_.grasp.update(grip_with_fingers().frame.grasp_angle_rad, dt_s);
     }
     advance_state(command, edges, reading, dt_s);
     DriveCommand output = drive(dt_s);

@@ -15,6 +15,7 @@
 #include "device/settings/servo_settings.h"
 #include "device/step/game_watch.h"
 #include "device/step/tension_drive.h"
+#include "device/tracking/fingers.h"
 #include "device/tracking/grip_tracker.h"
 #include "device/tracking/report_link.h"
 #include "device/tracking/sample_guard.h"
@@ -82,8 +83,9 @@ public:
     [[nodiscard]] bool is_sound() const noexcept {
         return spidar::is_sound(settings_) && parts_.events.is_sound() && parts_.drive.is_sound() &&
                parts_.machine.is_sound() && parts_.tracker.is_sound() && parts_.link.is_sound() &&
-               parts_.guard.is_sound() && parts_.grasp.is_sound() && parts_.zero_check.is_sound() &&
-               parts_.monitor.is_sound() && parts_.renderer.is_sound() &&
+               parts_.guard.is_sound() && parts_.grasp.is_sound() && parts_.fingers.is_sound() &&
+               parts_.zero_check.is_sound() && parts_.monitor.is_sound() &&
+               parts_.renderer.is_sound() &&
                are_flags(forces_enabled_, simulated_, device_zeroed_, limiting_, tracking_, fresh_,
                          moved_, rendering_, resting_, last_drive_.motors_on,
                          last_drive_.clear_faults) &&
@@ -120,6 +122,8 @@ private:
     void rest(const DeviceReading &reading, const HapticCommand &command, double dt_s) noexcept;
     DriveCommand drive(double dt_s) noexcept;
     DriveCommand let_go() noexcept;
+    // The grip with the fingers' angle in place of the one that a rigid grip has not.
+    [[nodiscard]] GripState grip_with_fingers() const noexcept;
     void publish_state() noexcept;
 
     ServoSettings settings_{};
@@ -133,13 +137,14 @@ private:
         ReportLink link;
         SampleGuard guard;
         GraspDetector grasp;
+        Fingers fingers;
         ZeroCheck zero_check;
         SafetyMonitor monitor;
         HapticRenderer renderer;
         template <typename Combine>
         auto with_all(Combine &&combine) const noexcept {
-            const auto &[a, b, c, d, e, f, g, h, i, j] = *this;
-            return combine(a, b, c, d, e, f, g, h, i, j);
+            const auto &[a, b, c, d, e, f, g, h, i, j, k] = *this;
+            return combine(a, b, c, d, e, f, g, h, i, j, k);
         }
     };
     Parts parts_;

@@ -17,7 +17,8 @@ bool ServoStep::may_rest(Status read_status, const DeviceReading &reading,
                               reading.device_status == Status::ok && parts_.link.follows(reading);
     const bool same_command =
         command.forces_enabled == forces_enabled_ && command.limits_sequence == limits_sequence_ &&
-        game_.edges_of(command) == Edges() && parts_.renderer.has_seen(command);
+        game_.edges_of(command) == Edges() && parts_.renderer.has_seen(command) &&
+        parts_.fingers.has_seen(reading, command);
     const bool alive = !last_drive_.motors_on || game_.lives_through(command, dt_s);
     return same_reading && same_command && alive && may_arm_itself == simulated_ &&
            dt_s >= kShortestStep_s && dt_s <= kLongestStep_s &&

@@ -321,6 +321,7 @@ void SpidarG::physics_tick() {
         publish_wrench();
     }
     publish_forces();
+    follow_grasp_action();
     beat();
     if (replay_ != nullptr) {
         replay_tick();

@@ -311,6 +311,7 @@ private:
     [[nodiscard]] std::string limited_request() const;
     void tell_limited(const spidar::ServoSnapshot &before);
     void beat();
+    void follow_grasp_action();
     void watch_loop();
     void set_away(bool away);
     void publish_wrench();

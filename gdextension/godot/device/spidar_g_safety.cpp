@@ -154,6 +154,15 @@ void SpidarG::publish_forces() {
     }
 }
 
+// Closes the fingers of a rigid grip.
+void SpidarG::follow_grasp_action() {
+    const double share = config_or_default().grasp_action_strength();
+    if (share != command_.grasp_share) {
+        command_.grasp_share = share;
+        loop_->publish(command_);
+    }
+}
+
 // Each physics tick of a threaded device. Simulated time needs no watch: it stands still with the game.
 void SpidarG::beat() {
     if (drive_mode_ == DRIVE_STEPPED) {

@@ -28,6 +28,12 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
     auto transport = std::make_unique<spidar::SimulatedTransport>(plant_);
     use_strings(transport->home_counts(), plant_.metres_per_count);
     simulated_ = transport.get();
+    if (config_or_default().get_grasp_source() == SpidarGConfig::GRASP_AUTOMATIC) {
+        spidar::FingerSettings &fingers = settings_.fingers;
+        fingers.sensor = static_cast<int>(spidar::kSqueezeSensor);
+        fingers.sensor_open = 0.0;
+        fingers.sensor_closed = spidar::kSqueeze_1_rad * fingers.closed_rad;
+    }
     return transport;
 }
 
@@ -77,7 +83,10 @@ godot::Dictionary SpidarG::get_simulated_truth() const {
     // Positions as doubles too: a Vector3 rounds at some tens of nanometres.
     truth["position_m"] = spidar::to_godot(std::array<double, 3>{
         plant.pose.position_m.x, plant.pose.position_m.y, plant.pose.position_m.z});
-    truth["grasp_angle"] = plant.frame.grasp_angle_rad;
+    // A rigid grip has fingers beside the strings, which nothing holds up.
+    truth["grasp_angle"] = settings_.grip.kind == spidar::GripKind::rigid
+                               ? get_grasp_angle()
+                               : plant.frame.grasp_angle_rad;
     truth["strings_wrench"] = spidar::to_godot(frame.wrench_to_world(plant.strings));
     truth["hand_wrench"] = spidar::to_godot(frame.wrench_to_world(plant.hand));
     truth["twist"] = spidar::to_godot(frame.wrench_to_world(

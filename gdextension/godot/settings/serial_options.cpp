@@ -1,6 +1,8 @@
 // What a SpidarGConfig says of serial motor boards.
 #include <cmath>
 
+#include "core/calibration/motor_calibration.h"
+#include "core/presets/presets.h"
 #include "godot/settings/spidar_g_config.h"
 
 namespace {
@@ -16,9 +18,10 @@ std::string SpidarGConfig::serial_problem() const {
     const auto told = [](const std::string &field, const std::string &remedy) {
         return "SpidarGConfig." + field + ": " + remedy;
     };
-    if (!(serial_units_per_ampere_ > 0.0 && std::isfinite(serial_units_per_ampere_))) {
-        return told("serial_units_per_ampere = " + std::to_string(serial_units_per_ampere_),
-                    "give how many of the board's units make an ampere, above zero.");
+    if (!(serial_units_per_ampere_ >= 0.0 && std::isfinite(serial_units_per_ampere_))) {
+        return told(
+            "serial_units_per_ampere = " + std::to_string(serial_units_per_ampere_),
+            "give how many of the board's units make an ampere, or 0 for those of the preset.");
     }
     if (serial_most_units_ < 1 || serial_most_units_ > kMostUnits) {
         return told("serial_most_units = " + std::to_string(serial_most_units_),
@@ -49,9 +52,22 @@ std::string SpidarGConfig::serial_problem() const {
 spidar::SerialTransportSettings SpidarGConfig::serial_settings() const {
     spidar::SerialTransportSettings settings;
     settings.port = serial_port_.utf8().get_data();
-    settings.units_per_a = serial_units_per_ampere_;
+    const spidar::BoardWiring wiring =
+        preset_ == kPresetCustom
+            ? spidar::BoardWiring()
+            : spidar::device_preset(static_cast<spidar::Preset>(preset_ - 1)).boards;
+    if (serial_units_per_ampere_ > 0.0) {
+        settings.units_per_a = serial_units_per_ampere_;
+    } else if (wiring.units_per_newton > 0.0) {
+        const spidar::MotorScale motors = spidar::motor_scale(spidar::MotorCalibration());
+        settings.units_per_a = wiring.units_per_newton * motors.tension_per_ampere_n_a[0];
+    }
     settings.most_units = serial_most_units_;
     settings.motors_in_order = serial_motors_.size() == 0;
+    for (std::size_t i = 0; i < settings.motors.size(); ++i) {
+        settings.motors[i].count_sign = wiring.count_signs[i];
+        settings.motors[i].current_sign = wiring.current_signs[i];
+    }
     for (std::size_t i = 0; i < settings.motors.size() && !settings.motors_in_order; ++i) {
         const auto at = static_cast<std::int64_t>(i) * kNumbersPerMotor;
         settings.motors[i] = {serial_motors_[at], serial_motors_[at + 1], serial_motors_[at + 2],

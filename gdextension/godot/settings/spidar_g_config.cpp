@@ -66,8 +66,10 @@ std::string SpidarGConfig::own_problem() const {
         return complaint("transport", transport_, "",
                          "choose Automatic (0), Simulated (1), Device (2) or Serial (3).");
     }
-    if (std::string serial = serial_problem(); !serial.empty()) {
-        return serial;
+    for (std::string problem : {serial_problem(), grasp_problem()}) {
+        if (!problem.empty()) {
+            return problem;
+        }
     }
     constexpr int kLargestUsbNumber = 0xFFFF;
     if (device_vendor_id_ < 0 || device_vendor_id_ > kLargestUsbNumber) {
@@ -77,7 +79,7 @@ std::string SpidarGConfig::own_problem() const {
         return complaint("device_product_id", device_product_id_, "", "choose 0 (any) to 65535.");
     }
     if (preset_ < kPresetCustom || preset_ > spidar::kPresetCount) {
-        return complaint("preset", preset_, "(index)", "choose one of the list, 0 to 3.");
+        return complaint("preset", preset_, "(index)", "choose one of the list, 0 to 6.");
     }
     if (rate_hz_ < 100 || rate_hz_ > 4000) {
         return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000.");
@@ -194,11 +196,13 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     settings.frame = spidar::make_box_frame(0.5 * spidar::to_core(frame_size_));
     settings.grip.pole_half_length_m = pole_half_length_;
     double metres_per_count = spidar::kPaperMetresPerCount;
+    double most_tension_n = tension_max_;
     if (preset_ != kPresetCustom) {
         const spidar::DevicePreset device = preset_of(preset_);
         settings.frame = device.frame;
         settings.grip = device.grip;
         metres_per_count = device.metres_per_count;
+        most_tension_n = device.max_tension_n;
     }
     settings.strings = spidar::calibrate_at_home(
         spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},
@@ -214,7 +218,7 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     settings.render.compensated_viscous_n_s_m = compensated_viscous_;
     settings.tension.min_tension_n = tension_min_;
     settings.tension.reference_tension_n = tension_reference_;
-    settings.tension.max_tension_n = tension_max_;
+    settings.tension.max_tension_n = std::min(tension_max_, most_tension_n);
     settings.tension.weight_moment_per_m = moment_weight_;
     settings.tension.weight_grasp_per_m = moment_weight_;
     settings.tension.ridge = ridge_;
@@ -230,6 +234,7 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     settings.grasp.over_closed_rad = over_closed_angle_;
     settings.grasp.over_closed_leave_rad = over_closed_leave_angle_;
     settings.grasp.dwell_s = grasp_dwell_;
+    settings.fingers = finger_settings();
     return settings;
 }
 
@@ -290,7 +295,7 @@ void SpidarGConfig::_bind_methods() {
     ADD_GROUP("Device", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_name, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, preset, godot::PROPERTY_HINT_ENUM,
-                        "Custom,Paper,SpidarG6X3R,SpidarG6X3L");
+                        "Custom,Paper,SpidarG6X3R,SpidarG6X3L,SpidarG6X5R,SpidarG6X5L,SpidarG6X4");
     SPIDAR_G_BIND_FIELD(Self, Variant::VECTOR3, frame_size, PROPERTY_HINT_NONE, "suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
                         "0.005,0.2,0.0001,or_greater,suffix:m");
@@ -339,19 +344,7 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, real, max_moment, PROPERTY_HINT_RANGE, "0.01,2,0.01,suffix:N m");
     SPIDAR_G_BIND_FIELD(Self, real, max_grasp_torque, PROPERTY_HINT_RANGE,
                         "0.01,2,0.01,suffix:N m");
-    ADD_GROUP("Grasp", "");
-    SPIDAR_G_BIND_FIELD(Self, real, grasp_enter_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
-    SPIDAR_G_BIND_FIELD(Self, real, grasp_leave_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
-    SPIDAR_G_BIND_FIELD(Self, real, over_closed_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
-    SPIDAR_G_BIND_FIELD(Self, real, over_closed_leave_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
-    SPIDAR_G_BIND_FIELD(Self, real, grasp_dwell, PROPERTY_HINT_RANGE, "0,0.5,0.001,suffix:s");
-    SPIDAR_G_BIND_FIELD(Self, real, jaw_open, PROPERTY_HINT_RANGE, "0.005,0.5,0.001,suffix:m");
-    SPIDAR_G_BIND_FIELD(Self, real, jaw_closed_angle, PROPERTY_HINT_RANGE,
-                        "5,85,0.1,radians_as_degrees");
+    bind_grasp();
     ADD_GROUP("Simulated Device", "simulated_");
     SPIDAR_G_BIND_FIELD(Self, Variant::BOOL, simulated_elastic, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, real, simulated_string_stiffness, PROPERTY_HINT_RANGE,

@@ -26,6 +26,8 @@ class SpidarGConfig : public godot::Resource {
     SPIDAR_G_CHECKED_CALLS
 
 public:
+    // What closes the fingers of a rigid grip.
+    enum GraspSource { GRASP_AUTOMATIC, GRASP_BUTTON, GRASP_ACTION, GRASP_SENSOR };
     enum Transport { TRANSPORT_AUTOMATIC, TRANSPORT_SIMULATED, TRANSPORT_DEVICE, TRANSPORT_SERIAL };
 
     SPIDAR_G_REVISION;
@@ -45,7 +47,7 @@ public:
     // Serial motor boards.
     SPIDAR_G_ARRAY_FIELD(godot::String, serial_port);
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors); // four numbers a string, or none
-    SPIDAR_G_FIELD(double, serial_units_per_ampere, spidar::kUsualUnitsPerAmpere);
+    SPIDAR_G_FIELD(double, serial_units_per_ampere, 0.0);         // 0: the preset's
     SPIDAR_G_FIELD(int, serial_most_units, spidar::SerialTransportSettings{}.most_units);
     SPIDAR_G_LIVE_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
 
@@ -91,6 +93,14 @@ public:
     SPIDAR_G_LIVE_FIELD(double, jaw_open, 0.08);
     SPIDAR_G_LIVE_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
 
+    // Of a rigid grip. The sensor's values are those of open and of closed fingers.
+    SPIDAR_G_FIELD(int, grasp_source, GRASP_AUTOMATIC);
+    SPIDAR_G_FIELD(int, grasp_button, -1);
+    SPIDAR_G_FIELD(godot::String, grasp_action, "spidar_g_grasp");
+    SPIDAR_G_FIELD(int, grasp_sensor, 0);
+    SPIDAR_G_FIELD(double, grasp_sensor_open, 0.0);
+    SPIDAR_G_FIELD(double, grasp_sensor_closed, 1000.0);
+
     // Simulated device.
     SPIDAR_G_FIELD(bool, simulated_elastic, true);
     SPIDAR_G_FIELD(double, simulated_string_stiffness,
@@ -122,6 +132,8 @@ public:
     [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
     // The port, the motors and their units; no guard: that of the library.
     [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
+    // How far grasp_action is pressed, 0 to 1; 0 where it does not count.
+    [[nodiscard]] double grasp_action_strength() const;
     // What this resource checks on its own (the rest is checked with the whole ServoSettings).
     [[nodiscard]] std::string own_problem() const;
 
@@ -134,9 +146,15 @@ public:
 
 private:
     [[nodiscard]] std::string serial_problem() const;
+    [[nodiscard]] std::string grasp_problem() const;
+    [[nodiscard]] bool has_grasp_action() const;
+    [[nodiscard]] bool grasp_from(GraspSource source) const;
+    [[nodiscard]] spidar::FingerSettings finger_settings() const;
+    static void bind_grasp();
 
 protected:
     static void _bind_methods();
 };
 
 VARIANT_ENUM_CAST(SpidarGConfig::Transport);
+VARIANT_ENUM_CAST(SpidarGConfig::GraspSource);

@@ -16,6 +16,7 @@ struct Published {
     StringVectors joints_m;
 };
 
+// As published until 2023: two joints in the wrong places.
 const Published kX4{
     "SpidarG6X4",
     {{Vec3(0.069, -0.095, -0.069), Vec3(0.069, -0.095, 0.069), Vec3(-0.069, -0.095, 0.069),

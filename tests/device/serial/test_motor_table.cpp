@@ -17,7 +17,7 @@ constexpr BoardLayout kBoth[] = {kFirst, kSecond};
 } // namespace
 
 TEST_CASE("serial motors: in order, they go through the boards") {
-    const SerialMotorTable table = motors_in_order(kBoth);
+    const SerialMotorTable table = motors_in_order(kBoth, {});
     CHECK(table[0].board_id == 2);
     CHECK(table[3].motor == 3);
     CHECK(table[4].board_id == 6);
@@ -27,18 +27,18 @@ TEST_CASE("serial motors: in order, they go through the boards") {
     CHECK(places[3] == 0);
     CHECK(places[7] == 1);
     const BoardLayout one[] = {kFirst};
-    CHECK(validate(motors_in_order(one), one).find("String 4") == 0);
+    CHECK(validate(motors_in_order(one, {}), one).find("String 4") == 0);
 }
 
 TEST_CASE("serial motors: a table that cannot be is told") {
-    SerialMotorTable table = motors_in_order(kBoth);
+    SerialMotorTable table = motors_in_order(kBoth, {});
     table[5].motor = 4;
     CHECK(validate(table, kBoth).find("String 5: board 6, motor 4 is not on the bus") == 0);
     table[5].motor = -1;
     CHECK(!validate(table, kBoth).empty());
     table[5] = table[1];
     CHECK(validate(table, kBoth).find("pulls string 1 already") != std::string::npos);
-    table = motors_in_order(kBoth);
+    table = motors_in_order(kBoth, {});
     table[7].current_sign = 0;
     CHECK(validate(table, kBoth).find("signs") != std::string::npos);
 }
@@ -53,7 +53,7 @@ TEST_CASE("serial motors: no current is more than the limit, none pushes, and Na
 }
 
 TEST_CASE("serial motors: each board's command holds its motors' currents") {
-    SerialMotorTable table = motors_in_order(kBoth);
+    SerialMotorTable table = motors_in_order(kBoth, {});
     std::swap(table[0], table[7]);
     BoardFrame frame;
     append_currents(frame, kBoth, table, {1, 2, 3, 4, 5, 6, 7, 8}, 1.0, 1000);

@@ -11,7 +11,7 @@ const CalibrationPages := preload("calibration_pages.gd")
 const REFRESH_S: float = 0.1
 ## Longer than the inspector needs to make a panel anew.
 const GRACE_S: float = 0.6
-const PRESETS: PackedStringArray = ["Custom", "Paper", "SpidarG6X3R", "SpidarG6X3L"]
+const PRESETS: PackedStringArray = ["Custom", "Paper", "SpidarG6X3R", "SpidarG6X3L", "SpidarG6X5R", "SpidarG6X5L", "SpidarG6X4"]
 const SMALL_FONT: int = 12
 
 var _session: CalibrationSession

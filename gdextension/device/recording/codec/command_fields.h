@@ -12,7 +12,7 @@ static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list it
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
 static_assert(count_members<LiveLimits>() == 6, "LiveLimits changed: list its fields here");
-static_assert(count_members<HapticCommand>() == 24, "HapticCommand changed: list its fields here");
+static_assert(count_members<HapticCommand>() == 25, "HapticCommand changed: list its fields here");
 
 template <typename Gains, typename Visit>
 void visit_dof(std::string_view name, int index, Gains &gains, Visit &&visit) {
@@ -85,6 +85,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         visit("effect.renewal", i, effect.renewal);
         ++i;
     }
+    visit("grasp_share", 0, command.grasp_share);
     visit("limits_sequence", 0, command.limits_sequence);
     visit("limits.max_force_n", 0, command.limits.max_force_n);
     visit("limits.max_moment_nm", 0, command.limits.max_moment_nm);

@@ -7,7 +7,7 @@
 
 namespace spidar {
 
-static_assert(count_members<DeviceReading>() == 8, "DeviceReading changed: list its fields here");
+static_assert(count_members<DeviceReading>() == 9, "DeviceReading changed: list its fields here");
 
 template <typename Reading, typename Visit>
 void for_each_field(Reading &reading, Visit &&visit) requires
@@ -19,6 +19,7 @@ void for_each_field(Reading &reading, Visit &&visit) requires
     visit("device_status", 0, reading.device_status);
     visit("fault_strings", 0, reading.fault_strings);
     visit("overtaken", 0, reading.overtaken);
+    visit_array("sensors", reading.sensors, visit);
 }
 
 } // namespace spidar

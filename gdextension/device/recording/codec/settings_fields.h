@@ -15,10 +15,11 @@ static_assert(count_members<StringCalibration>() == 3, "StringCalibration change
 static_assert(count_members<MotorCalibration>() == 4, "MotorCalibration changed: list them here");
 static_assert(count_members<TensionSettings>() == 12, "TensionSettings changed: list them here");
 static_assert(count_members<GraspSettings>() == 5, "GraspSettings changed: list its fields here");
+static_assert(count_members<FingerSettings>() == 6, "FingerSettings changed: list its fields here");
 static_assert(count_members<SafetySettings>() == 23, "SafetySettings changed: list them here");
 static_assert(count_members<RenderSettings>() == 16, "RenderSettings changed: list them here");
 static_assert(count_members<LengthCorrections>() == 6, "LengthCorrections changed: list them");
-static_assert(count_members<ServoSettings>() == 12, "ServoSettings changed: list its fields here");
+static_assert(count_members<ServoSettings>() == 13, "ServoSettings changed: list its fields here");
 
 template <typename Settings, typename Visit>
 void for_each_field(Settings &settings, Visit &&visit) requires
@@ -71,6 +72,13 @@ void for_each_field(Settings &settings, Visit &&visit) requires
     visit("grasp.over_closed_rad", 0, grasp.over_closed_rad);
     visit("grasp.over_closed_leave_rad", 0, grasp.over_closed_leave_rad);
     visit("grasp.dwell_s", 0, grasp.dwell_s);
+    auto &fingers = settings.fingers;
+    visit("fingers.button_mask", 0, fingers.button_mask);
+    visit("fingers.by_game", 0, fingers.by_game);
+    visit("fingers.sensor", 0, fingers.sensor);
+    visit("fingers.sensor_open", 0, fingers.sensor_open);
+    visit("fingers.sensor_closed", 0, fingers.sensor_closed);
+    visit("fingers.closed_rad", 0, fingers.closed_rad);
     auto &safety = settings.safety;
     visit("safety.arming_time_s", 0, safety.arming_time_s);
     visit("safety.tension_slew_n_per_ms", 0, safety.tension_slew_n_per_ms);

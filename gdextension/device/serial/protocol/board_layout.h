@@ -12,6 +12,7 @@ namespace spidar {
 inline constexpr std::uint32_t kBoardBaud = 2'000'000;
 inline constexpr std::size_t kMostBoards = 8; // ids 0 to 7
 inline constexpr std::size_t kMostBoardMotors = 8;
+inline constexpr std::size_t kMostBoardForces = 8;
 inline constexpr std::size_t kBoardCommandCount = 12; // 0 to 11, as SET_CMDLEN wants them
 
 enum class BoardCommand : std::uint8_t {

@@ -24,11 +24,16 @@ double seconds(std::uint64_t time_us) noexcept {
     return static_cast<double>(time_us) * kSecondsPerMicrosecond;
 }
 
-BoardMotion motion_of(BoardBytes reply, std::size_t motors) noexcept {
+BoardMotion motion_of(BoardBytes reply, const BoardLayout &layout) noexcept {
+    const std::size_t motors = layout.motors();
     BoardMotion motion;
     for (std::size_t i = 0; i < motors; ++i) {
         motion.positions[i] = word_at(reply, 1 + 2 * i);
         motion.speeds[i] = static_cast<std::int16_t>(word_at(reply, 1 + 2 * (motors + i)));
+    }
+    const std::size_t forces = std::min<std::size_t>(layout.info.forces, motion.forces.size());
+    for (std::size_t i = 0; i < forces; ++i) {
+        motion.forces[i] = static_cast<std::int16_t>(word_at(reply, 1 + 2 * (2 * motors + i)));
     }
     return motion;
 }
@@ -176,7 +181,7 @@ bool ReplyReader::parse_front(std::uint64_t asked, std::uint64_t now_us, int &ro
     const BoardBytes reply = BoardBytes(buffer_).subspan(front_, board.length);
     const bool joined = runs_on(front_, board);
     counters_.run_together += joined ? 1U : 0U;
-    const BoardMotion motion = motion_of(reply, board.layout.motors());
+    const BoardMotion motion = motion_of(reply, board.layout);
     if (joined || !could_be(board, motion, asked, now_us)) {
         drop_garbage();
         return true;

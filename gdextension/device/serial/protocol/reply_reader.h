@@ -54,6 +54,13 @@ public:
     [[nodiscard]] std::int32_t count(std::size_t board, std::size_t motor) const noexcept {
         return boards_[board].shown[motor];
     }
+    // Of its force sensors, as it measures them.
+    [[nodiscard]] std::int16_t force(std::size_t board, std::size_t sensor) const noexcept {
+        return boards_[board].last.forces[sensor];
+    }
+    [[nodiscard]] std::size_t force_count(std::size_t board) const noexcept {
+        return std::min<std::size_t>(boards_[board].layout.info.forces, kMostBoardForces);
+    }
     // A board has been silent for so long that its counts may have turned round unseen, or it counts from elsewhere: the
     // zero is lost.
     [[nodiscard]] bool reference_lost(std::uint64_t now_us) const noexcept;
