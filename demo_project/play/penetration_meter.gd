@@ -10,16 +10,30 @@ const SECTORS := 24
 
 ## The deepest so far.
 var worst_m := 0.0
+# What the hand held when the pads were drawn, and where it was drawn.
+var _held: RigidBody3D
+var _held_at := Transform3D.IDENTITY
 var _shape := ConvexPolygonShape3D.new()
 var _scale := 0.0
 var _query := PhysicsShapeQueryParameters3D.new()
 
 
-## Once a physics tick, before anything moves: what was drawn last stands beside the bodies as they were drawn.
+## When a frame is drawn.
+func note_drawn(hand: SpidarGHand) -> void:
+	_held = hand.get_held_body()
+	if _held != null:
+		_held_at = _held.global_transform
+
+
+## Once a physics tick: how deep the pads stood in what was drawn. The physics engine has moved on by a step since then, so
+## the pads are measured where they would be had they gone along with the body that they hold.
 func measure(spidar: SpidarG, view: SpidarGView) -> void:
 	var space := view.get_world_3d().direct_space_state
+	var moved := Transform3D.IDENTITY
+	if is_instance_valid(_held):
+		moved = _held.global_transform * _held_at.affine_inverse()
 	for side in 2:
-		worst_m = maxf(worst_m, depth(space, view.get_drawn_pad(side), spidar.workspace_scale))
+		worst_m = maxf(worst_m, depth(space, moved * view.get_drawn_pad(side), spidar.workspace_scale))
 
 
 ## How deep a pad stands in anything, scene metres. at: x outward from the middle of its inner face.

@@ -55,6 +55,7 @@ var let_go_m := CLEARANCE_M
 ## Coroutine: returns when every body was placed or given up.
 func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
+	view.get_tree().process_frame.connect(func() -> void: penetration.note_drawn(tool_hand))
 	hand.stepped.connect(func() -> void: penetration.measure(spidar, view))
 	# Nobody waits for a picture: the play is the same with pictures and without.
 	pictures.take("start")

@@ -38,6 +38,8 @@ var _materials: Array[StandardMaterial3D] = []
 
 
 func _ready() -> void:
+	if has_meta("spidar_squeeze_nm_rad"):
+		felt.width_tolerance_m = FeltRecord.WIDTH_TOLERANCE_SOFT_M
 	body_entered.connect(_on_body_entered)
 
 
