@@ -28,7 +28,7 @@ var _opening := false
 func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
 	view.get_tree().process_frame.connect(func() -> void: penetration.note_drawn(tool_hand))
-	hand.stepped.connect(func() -> void: penetration.measure(spidar, view))
+	hand.stepped.connect(func() -> void: penetration.measure(tool_hand, view))
 	tool_hand.body_released.connect(func(_body: RigidBody3D) -> void: dropped += int(not _opening))
 	_random.seed = seed_number
 	for body in bodies: # Nothing is weighed or measured.

@@ -1,9 +1,8 @@
 extends RefCounted
 ## How far the pads, as they were last drawn, stand inside any body: measured with the pads' own shape by the physics engine.
 
-## Of a pad, device metres: a disc with a rounded edge.
-const RADIUS_M := 0.012
-const EDGE_M := 0.003
+## Of a pad: a disc with a rounded edge, whose radius is a quarter of that of the pad.
+const EDGE_PART := 0.25
 ## Of the hull that stands for it: within 0.1 mm.
 const RINGS := 7
 const SECTORS := 24
@@ -14,7 +13,7 @@ var worst_m := 0.0
 var _held: RigidBody3D
 var _held_at := Transform3D.IDENTITY
 var _shape := ConvexPolygonShape3D.new()
-var _scale := 0.0
+var _radius_m := 0.0
 var _query := PhysicsShapeQueryParameters3D.new()
 
 
@@ -27,18 +26,18 @@ func note_drawn(hand: SpidarGHand) -> void:
 
 ## Once a physics tick: how deep the pads stood in what was drawn. The physics engine has moved on by a step since then, so
 ## the pads are measured where they would be had they gone along with the body that they hold.
-func measure(spidar: SpidarG, view: SpidarGView) -> void:
+func measure(hand: SpidarGHand, view: SpidarGView) -> void:
 	var space := view.get_world_3d().direct_space_state
 	var moved := Transform3D.IDENTITY
 	if is_instance_valid(_held):
 		moved = _held.global_transform * _held_at.affine_inverse()
 	for side in 2:
-		worst_m = maxf(worst_m, depth(space, moved * view.get_drawn_pad(side), spidar.workspace_scale))
+		worst_m = maxf(worst_m, depth(space, moved * view.get_drawn_pad(side), hand.get_pad_radius_m()))
 
 
 ## How deep a pad stands in anything, scene metres. at: x outward from the middle of its inner face.
-func depth(space: PhysicsDirectSpaceState3D, at: Transform3D, workspace_scale: float) -> float:
-	_make_shape(workspace_scale)
+func depth(space: PhysicsDirectSpaceState3D, at: Transform3D, radius_m: float) -> float:
+	_make_shape(radius_m)
 	_query.shape = _shape
 	_query.transform = at
 	var deepest := 0.0
@@ -48,16 +47,16 @@ func depth(space: PhysicsDirectSpaceState3D, at: Transform3D, workspace_scale: f
 	return deepest
 
 
-func _make_shape(workspace_scale: float) -> void:
-	if workspace_scale == _scale:
+func _make_shape(radius_m: float) -> void:
+	if radius_m == _radius_m:
 		return
-	_scale = workspace_scale
+	_radius_m = radius_m
 	var points := PackedVector3Array()
 	for ring in RINGS:
 		var turn := PI * (float(ring) / (RINGS - 1) - 0.5)
-		var along := EDGE_M * (1.0 + sin(turn))
-		var radius := RADIUS_M - EDGE_M + EDGE_M * cos(turn)
+		var along := EDGE_PART * (1.0 + sin(turn))
+		var radius := 1.0 - EDGE_PART + EDGE_PART * cos(turn)
 		for sector in SECTORS:
 			var around := TAU * sector / SECTORS
-			points.append(workspace_scale * Vector3(along, radius * cos(around), radius * sin(around)))
+			points.append(radius_m * Vector3(along, radius * cos(around), radius * sin(around)))
 	_shape.points = points

@@ -6,11 +6,15 @@ const EXIT_NOT_DONE := 1
 const EXIT_BAD_ARGUMENTS := 2
 const LEVELS := 3
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
+## Names of SpidarGConfig.preset, and how far the demo enlarges what a small frame allows.
+const DEVICES: PackedStringArray = ["custom", "paper", "x3r", "x3l", "x5r", "x5l", "x4"]
+const SMALL_FRAME_SCALE := 2.5
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
+	+ "              [--device paper|x3r|x3l|x5r|x5l|x4]\n"
 	+ "              [--carries N] [--display] [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
 	+ "       ... -- --participant N --out DIR [--trials K] [--things K] [--level L]    (simulated)\n"
-	+ "       ... -- [--task TASK] [--level L] [--seed N] [--report FILE]    (interactive)"
+	+ "       ... -- [--task TASK] [--level L] [--seed N] [--device NAME] [--report FILE]    (interactive)"
 )
 
 ## Task to play by script; empty: interactive.
@@ -21,6 +25,8 @@ var open_task := ""
 var level := 1
 ## Whose hand plays: one of HANDS.
 var hand := HANDS[0]
+## SpidarGConfig.preset; -1: that of the demo.
+var preset := -1
 ## Layout of the trial.
 var seed_number := 1
 ## Absolute folder for the results.
@@ -48,6 +54,16 @@ var freeze_pose := false
 var problem := ""
 
 
+## Takes the device that was asked for.
+func apply_device(spidar: SpidarG) -> void:
+	if preset < 0:
+		return
+	spidar.config.preset = preset
+	if spidar.config.has_rigid_grip(): # jaws and pads as large as with the paper's device
+		spidar.workspace_scale = SMALL_FRAME_SCALE
+		spidar.config.jaw_open /= SMALL_FRAME_SCALE
+
+
 func simulates() -> bool:
 	return participant > 0
 
@@ -72,7 +88,7 @@ func read(words: PackedStringArray, tasks: PackedStringArray, carrying: PackedSt
 				cut_output = true
 			"--freeze-pose":
 				freeze_pose = true
-			"--play", "--task", "--level", "--seed", "--out", "--hand", "--report", "--participant", "--trials", "--things", "--carries":
+			"--play", "--task", "--level", "--seed", "--device", "--out", "--hand", "--report", "--participant", "--trials", "--things", "--carries":
 				index += 1
 				if index >= words.size():
 					problem = "%s needs a value after it" % word
@@ -98,6 +114,10 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 			if not value.is_valid_int() or value.to_int() < 1 or value.to_int() > LEVELS:
 				problem = "--level %s: must be a whole number from 1 to %d" % [value, LEVELS]
 			level = value.to_int()
+		"--device":
+			preset = DEVICES.find(value)
+			if preset < 0:
+				problem = "--device %s: no such device; there is: %s" % [value, ", ".join(DEVICES)]
 		"--hand":
 			if not HANDS.has(value):
 				problem = "--hand %s: no such hand; there is: %s" % [value, ", ".join(HANDS)]

@@ -56,7 +56,7 @@ var let_go_m := CLEARANCE_M
 func play() -> void:
 	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
 	view.get_tree().process_frame.connect(func() -> void: penetration.note_drawn(tool_hand))
-	hand.stepped.connect(func() -> void: penetration.measure(spidar, view))
+	hand.stepped.connect(func() -> void: penetration.measure(tool_hand, view))
 	# Nobody waits for a picture: the play is the same with pictures and without.
 	pictures.take("start")
 	for body in order():

@@ -230,6 +230,17 @@ def check_output_cut(checks, run):
             f"{run.name}: felt without strings: {row}")
 
 
+def check_rigid(checks, run):
+    """A rigid grip whose fingers the hand closes: all is placed and weighed; nothing pushes the fingers, so no width is felt."""
+    summary, objects = check_tables(checks, run)
+    checks.check(summary.get("objects_placed") == str(len(objects)), f"{run.name}: {summary}")
+    for row in objects:
+        # A match is too light to be judged.
+        light = row["weight_expected_n"] == ""
+        checks.check(light or weight_felt(row), f"{run.name}: weight of {row['name']}: {row}")
+        checks.check(row["width_felt_m"] == "", f"{run.name}: a width was felt: {row}")
+
+
 def check_pose_frozen(checks, run):
     summary, objects = check_tables(checks, run)
     checks.check(run.code == 1, f"{run.name}: exit code {run.code}, not 1")
@@ -244,6 +255,7 @@ def check_bad_arguments(checks, godot):
         (["--play", TASKS[0], "--seed", "1"], "--out"),
         (["--play", TASKS[0], "--out", "relative/folder"], "--out"),
         (["--play", TASKS[0], "--level", "4", "--out", "{out}"], "--level"),
+        (["--play", TASKS[0], "--device", "x9", "--out", "{out}"], "--device"),
         (["--play", TASKS[0], "--hand", "third", "--out", "{out}"], "--hand"),
         (["--play", TASKS[0], "--carries", "0", "--out", "{out}"], "--carries"),
         (["--play", TASKS[1], "--carries", "2", "--out", "{out}"], "--carries"),
@@ -326,6 +338,8 @@ def run_some(godot, seeds):
     for cut, frozen in zip(faulty[::2], faulty[1::2]):
         check_output_cut(checks, cut)
         check_pose_frozen(checks, frozen)
+    for run in in_parallel([lambda task=task: Play(godot, task, 1, 1, "--device", "x5r") for task in TASKS]):
+        check_rigid(checks, run)
     check_bad_arguments(checks, godot)
     check_missing_library(checks, godot)
     session = first.bytes_of("session.json").decode("utf-8") or "{}"

@@ -47,6 +47,7 @@ var spidar: SpidarG = null
 
 var _parts: ViewParts = null
 var _hand: SpidarGHand = null
+var _is_rigid: bool = false
 var _stale: bool = true
 var _drawn_grip: Transform3D = Transform3D.IDENTITY
 var _drawn_frame: Transform3D = Transform3D.IDENTITY
@@ -139,7 +140,8 @@ func _process(_delta: float) -> void:
 func _draw_frame(frame: Transform3D) -> void:
 	_drawn_frame = frame
 	var scale_m: float = spidar.workspace_scale
-	_parts.size_for(scale_m, _pole_half_length())
+	_is_rigid = spidar.get_effective_config().has_rigid_grip()
+	_parts.size_for(scale_m, _pole_half_length(), _is_rigid)
 	_parts.frame.visible = show_frame
 	var placed: Transform3D = Transform3D(frame.basis.orthonormalized(), frame.origin)
 	_parts.place_frame(placed, _frame_size() * scale_m)
@@ -150,7 +152,12 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 	_drawn_angle = angle
 	_parts.grip.visible = show_grip
 	_parts.strings.visible = show_strings
-	if show_grip:
+	if show_grip and _is_rigid:
+		var ends: PackedVector3Array = []
+		for string: int in ViewParts.STRINGS:
+			ends.append(spidar.get_string_end(string))
+		_parts.place_rigid_grip(grip, ends)
+	elif show_grip:
 		_parts.place_grip(
 			grip, spidar.get_pole_transform(0), spidar.get_pole_transform(1), _closed_angle()
 		)

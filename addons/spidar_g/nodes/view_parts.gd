@@ -9,6 +9,7 @@ const POLE_RADIUS_M: float = 0.0022
 const KNOT_RADIUS_M: float = 0.0035
 const HINGE_RADIUS_M: float = 0.005
 const HEMISPHERE_RADIUS_M: float = 0.02
+const RIGID_BALL_RADIUS_M: float = 0.011
 const STOP_DISTANCE_M: float = 0.012
 const STOP_RADIUS_M: float = 0.0015
 const ARROW_RADIUS_M: float = 0.0022
@@ -32,6 +33,9 @@ var arrow: Node3D
 var _scale: float = 1.0
 var _rods: Array[MeshInstance3D] = []
 var _knots: MultiMeshInstance3D
+## Of a rigid grip: a ball, and a spoke to each string's end.
+var _ball: MeshInstance3D
+var _spokes: MultiMeshInstance3D
 var _poles: Array[Node3D] = []
 var _stops: Array[MeshInstance3D] = []
 var _pads: Array[Node3D] = []
@@ -45,9 +49,13 @@ func _init() -> void:
 	strings = _many(_cylinder(1.0, 1.0, 1.0, 8), STRINGS, _by_instance_colour(), true)
 	grip = Node3D.new()
 	add_child(grip)
-	_knots = _many(_sphere(1.0), 4, _matte(METAL_COLOUR), false)
-	remove_child(_knots)
-	grip.add_child(_knots)
+	_knots = _many(_sphere(1.0), STRINGS, _matte(METAL_COLOUR), false)
+	_spokes = _many(_cylinder(1.0, 1.0, 1.0, 12), STRINGS, _matte(METAL_COLOUR), false)
+	for part: MultiMeshInstance3D in [_knots, _spokes]:
+		remove_child(part)
+		grip.add_child(part)
+	_ball = _one(_sphere(RIGID_BALL_RADIUS_M), POLE_COLOURS[0])
+	grip.add_child(_ball)
 	for pole: int in 2:
 		_make_pole(pole)
 	_make_pads()
@@ -56,9 +64,14 @@ func _init() -> void:
 		part.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 
 
-## Sets the sizes; everything is placed anew afterwards.
-func size_for(workspace_scale: float, pole_half_length_m: float) -> void:
+## Sets what the grip is, and the sizes; everything is placed anew afterwards.
+func size_for(workspace_scale: float, pole_half_length_m: float, is_rigid: bool) -> void:
 	_scale = workspace_scale
+	_ball.visible = is_rigid
+	_spokes.visible = is_rigid
+	_knots.multimesh.visible_instance_count = STRINGS if is_rigid else 4
+	for part: Node3D in _poles + _stops:
+		part.visible = not is_rigid
 	for rod: MeshInstance3D in _rods:
 		(rod.mesh as CylinderMesh).height = 2.0 * pole_half_length_m
 
@@ -91,6 +104,16 @@ func colour_string(string: int, colour: Color) -> void:
 func place_knot(end: int, at: Vector3) -> void:
 	var size: Basis = Basis.from_scale(Vector3.ONE * (KNOT_RADIUS_M * _scale))
 	_knots.multimesh.set_instance_transform(end, Transform3D(size, at))
+
+
+## ends: SpidarG.get_string_end of each string.
+func place_rigid_grip(at: Transform3D, ends: PackedVector3Array) -> void:
+	_ball.global_transform = Transform3D(at.basis * Basis.from_scale(Vector3.ONE * _scale), at.origin)
+	for string: int in ends.size():
+		place_knot(string, ends[string])
+		_spokes.multimesh.set_instance_transform(
+			string, _between(at.origin, ends[string], POLE_RADIUS_M * _scale)
+		)
 
 
 ## pole1, pole2: SpidarG.get_pole_transform. The stops sit on pole 2 where pole 1 meets them at closed_angle.

@@ -68,6 +68,7 @@ func _enter_tree() -> void:
 		device.config.transport = SpidarGConfig.TRANSPORT_SIMULATED # A script never moves a real hand.
 	else:
 		settings.apply(device)
+	arguments.apply_device(device)
 
 
 func _ready() -> void:
@@ -91,6 +92,9 @@ func _start_layout() -> void:
 	_lay_out()
 	if most_bodies > 0:
 		bodies.resize(mini(bodies.size(), most_bodies))
+	if spidar.config.has_rigid_grip():
+		for body in bodies: # Nothing pushes its fingers open.
+			body.felt.checks_width = false
 	_watch_bodies()
 	_equip_player()
 

@@ -11,6 +11,15 @@ const Mat3 kDiscAlongX(Vec3(0.0, -1.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0,
 
 } // namespace
 
+void Pads::fit(const Jaws &jaws) {
+    if (jaws.open_m == open_m_) {
+        return;
+    }
+    open_m_ = jaws.open_m;
+    const double edge_m = 0.5 * pad_thickness_m(jaws);
+    shape_ = make_pad(pad_radius_m(jaws), edge_m, edge_m).tool;
+}
+
 Tool Pads::tool(const Jaws &jaws) const noexcept {
     Tool tool;
     tool.jaws = jaws;
@@ -18,7 +27,7 @@ Tool Pads::tool(const Jaws &jaws) const noexcept {
         ToolPart &part = tool.parts[side];
         part.shape = shape_.get();
         part.mount = side == 0 ? ToolMount::jaw_minus : ToolMount::jaw_plus;
-        const double outward_m = (side == 0 ? -0.5 : 0.5) * kPadThickness_m;
+        const double outward_m = (side == 0 ? -0.5 : 0.5) * pad_thickness_m(jaws);
         part.at = {Vec3(outward_m, 0.0, 0.0), kDiscAlongX};
         part.id = kPadIds[side];
         part.groups = kPadGroup;

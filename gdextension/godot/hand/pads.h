@@ -8,13 +8,20 @@
 
 namespace spidar {
 
-inline constexpr double kPadRadius_m = 0.012;
-inline constexpr double kPadThickness_m = 0.006;
+// In proportion to the open jaws: those of 80 mm have pads of 24 mm across and 6 mm thick.
+[[nodiscard]] inline double pad_radius_m(const Jaws &jaws) noexcept {
+    return 0.15 * jaws.open_m;
+}
+[[nodiscard]] inline double pad_thickness_m(const Jaws &jaws) noexcept {
+    return 0.075 * jaws.open_m;
+}
 
 class Pads {
 public:
-    Pads() : shape_(make_pad(kPadRadius_m, 0.5 * kPadThickness_m, 0.5 * kPadThickness_m).tool) {}
+    Pads() { fit(Jaws()); }
 
+    // Makes their shape anew when the jaws are others.
+    void fit(const Jaws &jaws);
     [[nodiscard]] const std::shared_ptr<const ToolShape> &shape() const noexcept { return shape_; }
 
     // The tool of the bare pads.
@@ -25,6 +32,7 @@ public:
 
 private:
     std::shared_ptr<const ToolShape> shape_;
+    double open_m_ = 0.0; // of the jaws that they fit
 };
 
 } // namespace spidar

@@ -186,5 +186,8 @@ Vector3 SpidarGHand::get_pad_position(int side) const {
 }
 
 double SpidarGHand::get_pad_radius_m() const {
-    return spidar::kPadRadius_m * (spidar_ != nullptr ? spidar_->get_workspace_scale() : 1.0);
+    if (spidar_ == nullptr) {
+        return spidar::pad_radius_m(spidar::Jaws());
+    }
+    return spidar::pad_radius_m(jaws()) * spidar_->get_workspace_scale();
 }

@@ -67,8 +67,8 @@ spidar::SearchVolume SpidarGHand::pads_volume() const {
     const ToolPose device = device_pose();
     const spidar::Jaws jaw = jaws();
     const double gap_m = std::max(jaw.gap_m(proxy.grasp_rad), jaw.gap_m(device.grasp_rad));
-    const Vec3 half_m(0.5 * gap_m + spidar::kPadThickness_m, spidar::kPadRadius_m,
-                      spidar::kPadRadius_m);
+    const Vec3 half_m(0.5 * gap_m + spidar::pad_thickness_m(jaw), spidar::pad_radius_m(jaw),
+                      spidar::pad_radius_m(jaw));
     spidar::SearchVolume volume =
         spanned({proxy.position_m, proxy.rotation}, device.position_m, half_m);
     volume.margin_m = contact_margin_m_;
@@ -177,6 +177,7 @@ void SpidarGHand::publish() {
     }
     published_ = is_empty ? Published::empty : Published::scene;
     published_jaws_ = jaw;
+    pads_.fit(jaw);
     pull_ = {};
     if (!hold_.holds()) {
         spidar_->publish_touch(spidar::make_touch_scene(pads_, jaw, surroundings_.shapes(), nullptr,

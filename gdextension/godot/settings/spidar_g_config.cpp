@@ -140,6 +140,10 @@ double SpidarGConfig::get_effective_pole_half_length() const {
     return servo_settings().grip.pole_half_length_m;
 }
 
+bool SpidarGConfig::has_rigid_grip() const {
+    return servo_settings().grip.kind == spidar::GripKind::rigid;
+}
+
 void SpidarGConfig::_validate_property(godot::PropertyInfo &property) const {
     if (!godot::Engine::get_singleton()->is_editor_hint()) {
         return;
@@ -362,6 +366,7 @@ void SpidarGConfig::_bind_methods() {
                                 &SpidarGConfig::get_effective_frame_size);
     godot::ClassDB::bind_method(godot::D_METHOD("get_effective_pole_half_length"),
                                 &SpidarGConfig::get_effective_pole_half_length);
+    godot::ClassDB::bind_method(godot::D_METHOD("has_rigid_grip"), &SpidarGConfig::has_rigid_grip);
     godot::ClassDB::bind_method(godot::D_METHOD("check_geometry"), &SpidarGConfig::check_geometry);
     BIND_ENUM_CONSTANT(TRANSPORT_AUTOMATIC);
     BIND_ENUM_CONSTANT(TRANSPORT_SIMULATED);

@@ -119,6 +119,7 @@ public:
     // Of the frame and grip that the device has: the preset's, or those of frame_size and pole_half_length (unit: m).
     [[nodiscard]] godot::Vector3 get_effective_frame_size() const;
     [[nodiscard]] double get_effective_pole_half_length() const;
+    [[nodiscard]] bool has_rigid_grip() const;
     // Whether the strings of this frame and grip can hold and move it (core/analysis/geometry_report.h).
     [[nodiscard]] godot::Dictionary check_geometry() const;
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/presets/presets.h"
 #include "support/step_twin.h"
 #include "support/touch_scenes.h"
 
@@ -157,6 +158,20 @@ TEST_CASE("rest: each part that evolves is seen awake, and then nothing is skipp
     warm.activate();
     seen.ticks(twin, warm, 3000);
 
+    // The fingers of a rigid grip.
+    Bench rigid;
+    const DevicePreset preset = device_preset(Preset::spidar_g6_x5r);
+    rigid.settings.frame = preset.frame;
+    rigid.settings.grip = preset.grip;
+    rigid.settings.strings =
+        calibrate_at_home(string_lengths(preset.frame, preset.grip, rest_pose(preset.grip)),
+                          CountArray{}, preset.metres_per_count);
+    rigid.start();
+    seen.ticks(twin, rigid, 50);
+    rigid.reading.buttons = 1;
+    seen.ticks(twin, rigid, 2000);
+    CHECK(rigid.now().grip.frame.grasp_angle_rad == rigid.settings.fingers.closed_rad);
+
     // A real device takes its zero, and checks it as it is moved.
     Bench real;
     real.simulated = false;
@@ -169,7 +184,7 @@ TEST_CASE("rest: each part that evolves is seen awake, and then nothing is skipp
     CHECK(real.now().state == DeviceState::taut);
 
     CHECK(seen.skipped > 100);
-    CHECK(seen.parts.step == all_of(10));
+    CHECK(seen.parts.step == all_of(11));
     CHECK(seen.parts.renderer == all_of(8));
     CHECK(seen.parts.monitor == all_of(6));
 }

@@ -15,6 +15,9 @@ var hand: SpidarGHand
 var elastic: bool = false
 var friction_n: float = 0.0
 var firmness: SpidarG.HandFirmness = SpidarG.HAND_NORMAL
+var preset: int = 0
+var scale: float = 1.0
+var grasp_source: SpidarGConfig.GraspSource = SpidarGConfig.GRASP_AUTOMATIC
 var at: Vector3 = Vector3.ZERO
 var angle: float = 0.0
 
@@ -25,6 +28,9 @@ func set_up(start: Vector3, forces: bool = true) -> void:
 	device.config.simulated_elastic = elastic
 	device.config.simulated_friction = friction_n
 	device.config.simulated_hand_firmness = firmness
+	device.config.preset = preset
+	device.config.grasp_source = grasp_source
+	device.workspace_scale = scale
 	device.forces_enabled = forces
 	hand = SpidarGHand.new()
 	device.add_child(hand)

@@ -180,7 +180,12 @@ void HoldJoint::jump(const Transform3D &grip) {
 }
 
 Transform3D HoldJoint::carried_grip() const {
-    return moved_along_x(anchor_->get_global_transform(), off_centre_moved());
+    // By the body as it is drawn, a physics step behind the anchor, so that pads do not run ahead into what they hold.
+    RigidBody3D *const held = body();
+    const Transform3D anchor =
+        held != nullptr ? held->get_global_transform_interpolated() * caught_.affine_inverse()
+                        : anchor_->get_global_transform();
+    return moved_along_x(anchor, off_centre_moved());
 }
 
 double HoldJoint::stretch_m() const {
