@@ -110,9 +110,9 @@ std::string name_of(const BoardLayout &board) {
     return std::string(name_of_model(board.info.model)) + " with id " + std::to_string(board.id);
 }
 
-std::vector<BoardLayout> scan(SerialPort &port) {
+std::vector<BoardLayout> scan(SerialPort &port, const std::atomic<bool> &give_up) {
     std::vector<BoardLayout> boards;
-    for (std::uint8_t id = 0; id < kMostBoards; ++id) {
+    for (std::uint8_t id = 0; id < kMostBoards && !give_up.load(); ++id) {
         BoardLayout board;
         if (find_board(port, id, board)) {
             boards.push_back(board);
@@ -122,13 +122,13 @@ std::vector<BoardLayout> scan(SerialPort &port) {
 }
 
 // An answer may come too late on a busy computer: two scans in a row must find the same boards.
-bool find_boards(SerialPort &port, BoardSession &session) {
+bool find_boards(SerialPort &port, const std::atomic<bool> &give_up, BoardSession &session) {
     BoardFrame frame;
     frame.zeros(kResyncZeros);
     (void)port.write(frame.bytes(), kWrite_ms);
     bool same = false;
-    for (int i = 0; i < kScans && (!same || session.boards.empty()); ++i) {
-        std::vector<BoardLayout> found = scan(port);
+    for (int i = 0; i < kScans && (!same || session.boards.empty()) && !give_up.load(); ++i) {
+        std::vector<BoardLayout> found = scan(port, give_up);
         same = i > 0 &&
                std::equal(found.begin(), found.end(), session.boards.begin(), session.boards.end(),
                           [](const BoardLayout &a, const BoardLayout &b) {
@@ -166,8 +166,8 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
 
 } // namespace
 
-Status open_session(const std::string &path, std::uint32_t baud, BoardSession &session,
-                    std::string &problem) {
+Status open_session(const std::string &path, std::uint32_t baud, const std::atomic<bool> &give_up,
+                    BoardSession &session, std::string &problem) {
     Status status = Status::ok;
     std::shared_ptr<SerialPort> port = open_serial_port(path, baud, status, problem);
     if (!port) {
@@ -179,7 +179,7 @@ Status open_session(const std::string &path, std::uint32_t baud, BoardSession &s
     if (shorten_latency(path, port->descriptor(), latency) == BridgeLatency::long_one) {
         opened.remarks += latency + " ";
     }
-    if (!find_boards(*port, opened)) {
+    if (!find_boards(*port, give_up, opened)) {
         problem = "Port " + path +
                   ": no motor board answers; check its power, the cable, and that "
                   "the bus runs at " +
