@@ -168,6 +168,9 @@ void BoardFirmware::execute() {
 void BoardFirmware::set_parameter() {
     const auto parameter = static_cast<BoardParameter>(command_[1]);
     flash_writes_ += parameter != BoardParameter::torque_limits ? 1U : 0U;
+    if (forgets) {
+        return;
+    }
     if (parameter == BoardParameter::quadrature_mask) {
         quadrature_mask = 0;
         for (std::size_t i = 0; i < 4; ++i) {

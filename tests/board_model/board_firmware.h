@@ -35,6 +35,7 @@ public:
     std::uint32_t quadrature_mask = 0xFF;
     // Answers to another id as soon as it is written; else from the next power-up on. The sources do not say which.
     bool id_counts_at_once = false;
+    bool forgets = false; // its flash is worn out
     // What SET_PARAM has written to flash so often.
     [[nodiscard]] std::uint64_t flash_writes() const { return flash_writes_; }
     [[nodiscard]] std::uint8_t flash_id() const { return flash_id_; }

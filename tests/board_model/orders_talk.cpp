@@ -123,10 +123,15 @@ HandTarget OrdersTalk::target(bool pulled) {
 std::string OrdersTalk::write_truth() {
     const PlantTruth plant = bus_.truth(); // seen() brings newer ones
     const Wrench &felt = plant.strings;
+    CountArray counts = bus_.counts();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        counts[i] += settings_.home_counts[i];
+    }
     std::ostringstream out;
     out.precision(12);
     out << '{';
     write_list(out, "lengths_m", plant.lengths_m);
+    write_list(out, "counts", counts); // as the boards count them
     write_list(out, "tensions_n", plant.tensions_n);
     const std::array<double, 7> wrench = {felt.force_n.x,      felt.force_n.y,   felt.force_n.z,
                                           felt.moment_nm.x,    felt.moment_nm.y, felt.moment_nm.z,

@@ -21,6 +21,7 @@ PULL_LIMIT_S = 20  # from the start of Godot
 TRIES = 5  # a busy machine may hold the loop up until it stops itself
 OFF_LIMIT_MS = 50
 CALIBRATION_LIMIT_S = 150
+PARAMETERS_LIMIT_S = 40
 # A node looks for its boards each half second, and a look at a port that nobody answers at takes as long again.
 FIND_LIMIT_S = 2.0
 SEARCH_S = 2.5  # several looks
@@ -114,18 +115,18 @@ def found_later(godot, program, folder, before, after, name):
         game.end()
 
 
-def calibrated(godot, program, folder):
-    """Every step of the calibration on boards with errors that only they know; the game does the comparing."""
+def worked(godot, program, folder, script, options, last, limit_s):
+    """A script that works the calibrator and does the comparing; last: the word at its end."""
     link = os.path.join(folder, "port")
-    with BoardModel(program, link, "--errors", "7") as boards:
-        game = Speaker([godot, "--headless", "--path", PROJECT, "--script", "res://calibrate.gd", "--", link,
+    with BoardModel(program, link, *options) as boards:
+        game = Speaker([godot, "--headless", "--path", PROJECT, "--script", f"res://{script}.gd", "--", link,
                         str(boards.port)])
-        check(game.says("calibrated", CALIBRATION_LIMIT_S), "calibration: goes to its end")
+        check(game.says(last, limit_s), f"{script}: goes to its end")
         game.end()
     for line in game.lines:
         if line.startswith(("ok", "FAIL")):
             check(line.startswith("ok"), line[5:])
-        elif "ERROR" in line:
+        elif "SCRIPT ERROR" in line:
             check(False, line)
 
 
@@ -135,7 +136,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         found_later(godot, program, folder, "unplug", "plug", "unplugged")
         found_later(godot, program, folder, "mute 1", "mute 0", "boards without power")
-        calibrated(godot, program, folder)
+        worked(godot, program, folder, "calibrate", ["--errors", "7"], "calibrated", CALIBRATION_LIMIT_S)
+        worked(godot, program, folder, "parameters", ["--mask", "0"], "done", PARAMETERS_LIMIT_S)
         killed(godot, program, folder, signal.SIGKILL, OFF_LIMIT_MS)
         killed(godot, program, folder, signal.SIGSTOP, OFF_LIMIT_MS)
         killed(godot, program, folder, signal.SIGSEGV, OFF_LIMIT_MS)

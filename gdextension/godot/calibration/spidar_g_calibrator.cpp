@@ -34,6 +34,10 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
         return reject("open: the device is open already, or still closing: close() it and wait for "
                       "DEVICE_CLOSED.");
     }
+    if (board_job_) {
+        return reject("open: the boards' parameters are being read or written: wait until "
+                      "is_using_boards() is false.");
+    }
     problem_ = read_target(config, calibration);
     if (!problem_.empty()) {
         return false;
@@ -143,6 +147,7 @@ void SpidarGCalibrator::close() {
 
 bool SpidarGCalibrator::poll() {
     finish_job();
+    finish_board_job();
     if (!rig_) {
         return false;
     }
