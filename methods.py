@@ -1,17 +1,14 @@
-"""Helpers of SConstruct: sources, options, the Godot API dump, real godot-cpp, the release zip."""
+"""Helpers of SConstruct: sources, options, libraries of others, the release zip. What the nodes are compiled with is in
+godot_binding.py."""
 
 import hashlib
 import os
 import platform
-import re
 import shlex
-import shutil
 import subprocess
-import tempfile
 import zipfile
 
 SANITIZERS = ("address", "undefined", "thread", "realtime")  # realtime: clang 20 and later
-MINIMUM_GODOT = (4, 4)  # classdb_register_extension_class4 and construct_object2
 
 
 class BuildError(Exception):
@@ -62,13 +59,28 @@ def escape_for_shell(text):
 
 
 def hide_build_folder(env):
-    """The library tells nobody where it was built. Its debug information names the compiler's current folder."""
+    """The library tells nobody where it was built, nor where the headers of others lay. Its debug information names the
+    compiler's current folder, and a check in a header the header."""
+    for folder, shown in (("/usr", "usr"), (env["glm"].rstrip("/"), "glm")):
+        if os.path.isabs(folder) and accepts(env, "-ffile-prefix-map=/a=b"):
+            env.Append(CCFLAGS=[f"-ffile-prefix-map={folder}/={shown}/".replace("$", "$$")])
     flag = "-fdebug-compilation-dir=."
     if accepts(env, flag):
         env.Append(CCFLAGS=[flag])
     elif os.path.isdir("/proc/self/cwd"):
         # GCC has no such flag, but takes the name of its current folder from PWD if that is one.
         env["ENV"]["PWD"] = "/proc/self/cwd"
+
+
+def link_inside(link, folder):
+    """`link`, a path inside the checkout, made to lead to a folder of any name elsewhere."""
+    wanted = os.path.abspath(folder)
+    if not os.path.islink(link) or os.readlink(link) != wanted:
+        os.makedirs(os.path.dirname(link), exist_ok=True)
+        if os.path.lexists(link):
+            os.unlink(link)
+        os.symlink(wanted, link)
+    return link
 
 
 # --- Sources -------------------------------------------------------------------------------------
@@ -226,14 +238,7 @@ def find_jolt(option):
             f"{root}: no Jolt/Jolt.h: run ./dev build, which brings Jolt {JOLT_VERSION}, or give "
             "a checkout of it by jolt=PATH"
         )
-    link = "build/jolt"
-    wanted = os.path.abspath(root)
-    if not os.path.islink(link) or os.readlink(link) != wanted:
-        os.makedirs("build", exist_ok=True)
-        if os.path.lexists(link):
-            os.unlink(link)
-        os.symlink(wanted, link)
-    return link
+    return link_inside("build/jolt", root)
 
 
 def sources_header(*roots):
@@ -252,140 +257,6 @@ def sources_header(*roots):
         f"inline constexpr std::uint64_t kSourcesHash = 0x{digest.hexdigest()[:16]}U;\n\n"
         "} // namespace spidar\n"
     )
-
-
-# --- Godot API -----------------------------------------------------------------------------------
-
-
-class GodotApi:
-    """What the in-tree binding is generated from."""
-
-    def __init__(self, json_path, header_path):
-        for path in (json_path, header_path):
-            if not os.path.isfile(path):
-                raise BuildError(
-                    f"{path}: no such file. api=FILE needs extension_api.json and, beside it or "
-                    "by interface=FILE, gdextension_interface.h; both come from "
-                    "godot --headless --dump-extension-api --dump-gdextension-interface"
-                )
-        self.json_path = json_path
-        self.header_path = header_path
-        with open(json_path, encoding="utf-8") as file:
-            head = file.read(2000)
-        parts = [re.search(rf'"version_{name}":\s*(\d+)', head) for name in ("major", "minor", "patch")]
-        if not all(parts):
-            raise BuildError(f"{json_path}: holds no version; it is no Godot extension API dump")
-        self.version = tuple(int(part.group(1)) for part in parts)
-        if self.version < MINIMUM_GODOT:
-            raise BuildError(
-                f"{json_path}: API of Godot {dotted(self.version)}; "
-                f"{dotted(MINIMUM_GODOT)} or later is needed"
-            )
-
-
-def dotted(version):
-    return ".".join(str(part) for part in version)
-
-
-def find_godot(option):
-    """The Godot program: `godot=`, then $GODOT, then PATH. None when there is none."""
-    for name in (option, os.environ.get("GODOT")):
-        if name:
-            found = shutil.which(name)
-            if not found:
-                raise BuildError(f"godot={name}: no such program")
-            return os.path.abspath(found)
-    return shutil.which("godot") or shutil.which("godot4")
-
-
-def run_godot(godot, *arguments, cwd=None):
-    """The output of Godot; a Godot that fails or hangs is a BuildError."""
-    command = [godot, "--headless", *arguments]
-    try:
-        done = subprocess.run(
-            command, cwd=cwd, timeout=120, check=True, text=True, capture_output=True
-        )
-    except (OSError, subprocess.SubprocessError) as error:
-        detail = (getattr(error, "stderr", "") or str(error)).strip()
-        raise BuildError(f"{' '.join(command)} failed: {detail}") from error
-    return done.stdout
-
-
-def dump_api(godot, cache):
-    """The API of `godot`, dumped once and kept in `cache`/VERSION/."""
-    if not godot:
-        raise BuildError(
-            f"no Godot {dotted(MINIMUM_GODOT)} or later found for its API: put godot on PATH, set "
-            "$GODOT or godot=PROGRAM, give api=FILE, or run ./dev build, which brings its own"
-        )
-    lines = run_godot(godot, "--version").strip().splitlines()
-    if not lines:
-        raise BuildError(f"{godot} --version printed nothing")
-    folder = os.path.join(cache, lines[-1].strip())
-    if not os.path.isdir(folder):
-        os.makedirs(cache, exist_ok=True)
-        temporary = tempfile.mkdtemp(dir=cache)
-        try:
-            run_godot(
-                godot, "--dump-extension-api", "--dump-gdextension-interface", cwd=temporary
-            )
-            os.chmod(temporary, 0o755)
-            os.rename(temporary, folder)  # whole or not at all
-        finally:
-            shutil.rmtree(temporary, ignore_errors=True)
-    return GodotApi(
-        os.path.join(folder, "extension_api.json"),
-        os.path.join(folder, "gdextension_interface.h"),
-    )
-
-
-# --- Real godot-cpp ------------------------------------------------------------------------------
-
-
-class GodotCpp:
-    """A godot-cpp that the user has: a built checkout, or a prefix with include/ and lib/."""
-
-    def __init__(self, root, library):
-        self.includes = [
-            os.path.join(root, *parts)
-            for parts in (("include",), ("gen", "include"), ("gdextension",))
-            if os.path.isdir(os.path.join(root, *parts))
-        ]
-        if not self.header("godot_cpp/godot.hpp"):
-            raise BuildError(f"{root}: no include/godot_cpp/godot.hpp; it is no godot-cpp")
-        if not self.header("godot_cpp/classes/node.hpp"):
-            raise BuildError(
-                f"{root}: godot-cpp is not built: no gen/include/godot_cpp/classes/node.hpp. "
-                "Build it by its own instructions, or leave it out to use the in-tree binding"
-            )
-        names = [os.path.join(root, part, library) for part in ("bin", "lib", "lib64")]
-        self.library = next((name for name in names if os.path.isfile(name)), None)
-        if not self.library:
-            raise BuildError(f"{root}: no {library} in bin/ or lib/; build godot-cpp for it")
-        self.version = self.read_version()
-        if not self.version:
-            raise BuildError(f"{root}: no Godot version in include/godot_cpp/core/version.hpp")
-
-    def header(self, name):
-        paths = (os.path.join(folder, name) for folder in self.includes)
-        return next((path for path in paths if os.path.isfile(path)), None)
-
-    def read_version(self):
-        path = self.header("godot_cpp/core/version.hpp")
-        text = open(path, encoding="utf-8").read() if path else ""
-        parts = [
-            re.search(rf"#define\s+GODOT_VERSION_{name}\s+(\d+)", text)
-            for name in ("MAJOR", "MINOR", "PATCH")
-        ]
-        return tuple(int(part.group(1)) for part in parts) if all(parts) else None
-
-
-def find_godot_cpp(option, library):
-    """`godot_cpp=`, then $GODOT_CPP, then a folder godot-cpp/ here. None: the in-tree binding."""
-    for root in (option, os.environ.get("GODOT_CPP")):
-        if root:
-            return GodotCpp(root, library)
-    return GodotCpp("godot-cpp", library) if os.path.isdir("godot-cpp") else None
 
 
 # --- Class documentation ---------------------------------------------------------------------------

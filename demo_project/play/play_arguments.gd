@@ -6,9 +6,8 @@ const EXIT_NOT_DONE := 1
 const EXIT_BAD_ARGUMENTS := 2
 const LEVELS := 3
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
-## Names of SpidarGConfig.preset, and how far the demo enlarges what a small frame allows.
+## Names of SpidarGConfig.preset.
 const DEVICES: PackedStringArray = ["custom", "paper", "x3r", "x3l", "x5r", "x5l", "x4"]
-const SMALL_FRAME_SCALE := 2.5
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
 	+ "              [--device paper|x3r|x3l|x5r|x5l|x4]\n"
@@ -52,16 +51,6 @@ var cut_output := false
 var freeze_pose := false
 ## What is wrong with the arguments; empty when nothing is.
 var problem := ""
-
-
-## Takes the device that was asked for.
-func apply_device(spidar: SpidarG) -> void:
-	if preset < 0:
-		return
-	spidar.config.preset = preset
-	if spidar.config.has_rigid_grip(): # jaws and pads as large as with the paper's device
-		spidar.workspace_scale = SMALL_FRAME_SCALE
-		spidar.config.jaw_open /= SMALL_FRAME_SCALE
 
 
 func simulates() -> bool:

@@ -110,7 +110,7 @@ class Method:
             if result == "void":
                 call = f"static_cast<void>({call})"
             elif result != "Variant":
-                call = f"static_cast<{result}>({call})"
+                call = f"internal::Border<{result}>::from_variant({call})"
         prefix = "static " if self.static else ""
         return (f"    template <typename... Args>\n    {prefix}{result} {self.name}({fixed}, "
                 f"const Args &...p_args) {{\n        static const {self.lookup()};\n"

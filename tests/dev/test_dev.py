@@ -206,7 +206,7 @@ def names_folder(text):
 
 def check_commands(folder, api):
     """No command of a build may hold the folder's name: a dry run prints them all."""
-    code, output = run(["scons", "-Q", "-n", "verbose=yes", f"api={api}", "addon", "probe", "tests", "bench", "paper",
+    code, output = run(["scons", "-Q", "-n", "verbose=yes", "binding=in_tree", f"api={api}", "addon", "probe", "tests", "bench", "paper",
                         "hid_vm", "realtime"], folder)
     lines = output.splitlines()
     kinds = {"compile": " -c ", "archive": "ar rc ", "link": "-shared"}
@@ -228,8 +228,8 @@ def check_compilation(folder, api):
     core = smallest(folder, "gdextension/core/**/*.cpp")
     node = smallest(folder, "gdextension/godot/**/register_types.cpp")  # it includes what the build generates
     objects = [f"build/obj/{os.path.splitext(core)[0]}.os", f"build/obj/template_debug/{os.path.splitext(node)[0]}.os"]
-    code, output = run(["scons", "-Q", f"api={api}", *objects, "addons/spidar_g/spidar_g.gdextension",
-                        "compile_commands.json"], folder)
+    code, output = run(["scons", "-Q", "binding=in_tree", f"api={api}", *objects,
+                        "addons/spidar_g/spidar_g.gdextension", "compile_commands.json"], folder)
     check(code == 0, f"a source of the core and one of the nodes compile: {output[-1000:] if code else core}")
     for path in objects:
         whole = os.path.join(folder, path)
@@ -246,6 +246,26 @@ def check_compilation(folder, api):
     check(code == 0, f"clang-tidy reads them: {output[-1000:] if code else core}")
 
 
+def check_kept_binding(folder):
+    """./dev build binding=... holds for later commands; scons is one that only tells what it was given."""
+    tools = os.path.join(os.path.dirname(folder), "tools")
+    os.makedirs(tools, exist_ok=True)
+    scons = os.path.join(tools, "scons")
+    with open(scons, "w", encoding="utf-8") as file:
+        file.write("#!/bin/sh\necho \"binding <$GODOT_CPP> words <$*>\"\n")
+    os.chmod(scons, 0o755)
+    environment = {name: value for name, value in os.environ.items() if name != "GODOT_CPP"}
+    environment["PATH"] = tools + os.pathsep + environment["PATH"]
+    mine = os.path.join(folder, "my godot-cpp")
+    for words, more, wanted in (([], {}, ""), (["binding=my godot-cpp", "verbose=yes"], {}, mine), ([], {}, mine),
+                                ([], {"GODOT_CPP": "/other"}, "/other"), (["binding=in_tree"], {}, "in_tree"),
+                                ([], {}, "in_tree")):
+        code, output = run(["./dev", "build", *words], folder, env=dict(environment, **more))
+        given = " verbose=yes" if "verbose=yes" in words else ""
+        check(code == 0 and f"binding <{wanted}>" in output and re.search(rf"words <-Q -j\d+{given}>", output),
+              f"./dev build {' '.join(words)} uses the binding {wanted or 'that is found'}: {output.strip()[-300:]}")
+
+
 def check_awkward_folder():
     apis = sorted(glob.glob(os.path.join(glob.escape(ROOT), "build", "api", "*", "extension_api.json")))
     check(apis, "the API of a Godot is in build/api (./dev build)")
@@ -256,6 +276,7 @@ def check_awkward_folder():
         copy_sources(folder)
         code, output = run(["./dev", "stages"], folder)
         check(code == 0 and output == run(["./dev", "stages"])[1], "./dev works in a folder of an awkward name")
+        check_kept_binding(folder)
         check_commands(folder, apis[-1])
         check_compilation(folder, apis[-1])
 

@@ -128,11 +128,14 @@ class Editor:
     def text(self, name):
         return self.see()["controls"][name]["text"]
 
-    def picture(self, folder, name):
+    def picture(self, folder, name, part=("-crop", PANEL, "+repage")):
         if folder:
             self.frames(3)
-            subprocess.run(["import", "-window", "root", "-crop", PANEL, "+repage", os.path.join(folder, name + ".png")],
+            subprocess.run(["import", "-window", "root", *part, os.path.join(folder, name + ".png")],
                            env=self.environment, check=True)
+
+    def whole_picture(self, folder, name):
+        self.picture(folder, name, part=())
 
 
 def device(report):
@@ -272,12 +275,12 @@ def check_log(log, check):
     check(not errors, f"no error of ours in the editor: {errors[:3]}")
 
 
-def copy_project():
+def copy_project(scene=SCENE):
     """An editor writes into its project: it gets a fresh copy."""
     shutil.rmtree(PROJECT, ignore_errors=True)
     shutil.copytree(SOURCE, PROJECT, ignore=shutil.ignore_patterns("addons", ".godot"))
     with open(os.path.join(PROJECT, "stage.tscn"), "w", encoding="utf-8") as file:
-        file.write(SCENE)
+        file.write(scene)
 
 
 def main():

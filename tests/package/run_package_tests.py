@@ -69,6 +69,9 @@ def main():
         for library in (os.path.join(project, ADDON, name) for name in programs):
             found = needed_glibc(library)
             check(found <= GLIBC_FLOOR, f"{os.path.basename(library)} needs glibc {found[0]}.{found[1]}")
+        for library in (os.path.join(project, ADDON, name) for name in [*libraries, "bin/spidar_g_guard"]):
+            check(not told_folders(library), f"{os.path.basename(library)} names no folder of its builder: "
+                  f"{told_folders(library)[:3]}")
         with open(os.path.join(project, "project.godot"), "w", encoding="utf-8") as file:
             file.write("config_version=5\n")
         godot_project.list_extensions(project)

@@ -1,13 +1,10 @@
 // spidar_serial_tests: the serial transport against boards on a pseudo-terminal. With `--host LINK` it is the game that
-// the tests kill: it brings the device at LINK to pull, says so on its standard output, and goes on for ever. With
-// `--boards LINK` it is boards for another game.
+// the tests kill: it brings the device at LINK to pull, says so on its standard output, and goes on for ever.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <cstdio>
 #include <cstring>
-
-#include <poll.h>
 
 #include "serial/serial_rig.h"
 
@@ -48,40 +45,11 @@ int play_host(const char *link) {
     }
 }
 
-// Boards at LINK and a hand that moves the grip while the motors pull, until the input ends. Says when the currents of the
-// boards begin and when they end: "on NANOSECONDS", "off NANOSECONDS", of the machine's monotonic clock.
-int play_boards(const char *link) {
-    BoardBus bus(one_b5m(), link);
-    std::printf("ready\n");
-    std::fflush(stdout);
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    bool pulled = false;
-    std::int64_t since_ns = 0;
-    while (poll(&input, 1, 0) == 0) {
-        const BusSeen seen = bus.seen();
-        const bool pulls = seen.strongest > 0;
-        if (pulls != pulled) {
-            const std::int64_t at_ns = pulls ? monotonic_ns() : seen.last_pull_ns;
-            std::printf("%s %lld\n", pulls ? "on" : "off", static_cast<long long>(at_ns));
-            std::fflush(stdout);
-            pulled = pulls;
-            since_ns = monotonic_ns();
-        }
-        bus.set_hand_target(pulled ? wave(1e-9 * static_cast<double>(monotonic_ns() - since_ns))
-                                   : HandTarget());
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return 0;
-}
-
 } // namespace
 
 int main(int count, char **words) {
     if (count == 3 && std::strcmp(words[1], "--host") == 0) {
         return play_host(words[2]);
-    }
-    if (count == 3 && std::strcmp(words[1], "--boards") == 0) {
-        return play_boards(words[2]);
     }
     doctest::Context context(count, words);
     return context.run();

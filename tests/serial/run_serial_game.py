@@ -1,26 +1,32 @@
 #!/usr/bin/env python3
 """A Godot game on serial motor boards that stand on a pseudo-terminal: run_serial_game.py GODOT PROGRAM
 
-PROGRAM is build/bin/spidar_serial_tests. The game finds the boards, zeroes them, arms and pulls; then it is killed,
+PROGRAM is build/bin/spidar_board_model. The game finds the boards, zeroes them, arms and pulls; then it is killed,
 stopped, or ends by itself. Prints each check, then "N passed, N failed".
 """
 
 import os
 import signal
-import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 import godot_project  # noqa: E402
+from board_model.board_model import BoardModel, Speaker  # noqa: E402
 
 PROJECT = os.path.join(HERE, "game")
 PULL_LIMIT_S = 20  # from the start of Godot
 TRIES = 5  # a busy machine may hold the loop up until it stops itself
 OFF_LIMIT_MS = 50
+CALIBRATION_LIMIT_S = 150
+PARAMETERS_LIMIT_S = 40
+# A node looks for its boards each half second, and a look at a port that nobody answers at takes as long again.
+FIND_LIMIT_S = 2.0
+SEARCH_S = 2.5  # several looks
+# Of the game's time. A look in the game's own thread would take 40 %.
+SHARE_LIMIT = 10
 
 passed = 0
 failed = 0
@@ -31,36 +37,6 @@ def check(good, what):
     passed += bool(good)
     failed += not good
     print(f"{'ok  ' if good else 'FAIL'} {what}", flush=True)
-
-
-class Speaker:
-    """A process, and the lines that it has said so far."""
-
-    def __init__(self, command, **options):
-        self.lines = []
-        self.process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-        threading.Thread(target=self._listen, daemon=True).start()
-
-    def _listen(self):
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip())
-
-    def says(self, start, limit_s):
-        end = time.monotonic() + limit_s
-        while time.monotonic() < end:
-            if any(line.startswith(start) for line in list(self.lines)):
-                return True
-            if self.process.poll() is not None:
-                time.sleep(0.1)
-                return any(line.startswith(start) for line in self.lines)
-            time.sleep(0.01)
-        return False
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.kill()
-        self.process.wait()
 
 
 def last_number(lines, word):
@@ -74,8 +50,7 @@ class Play:
     def __init__(self, godot, program, folder):
         for _ in range(TRIES):
             self.link = os.path.join(folder, "port")
-            self.boards = Speaker([program, "--boards", self.link], stdin=subprocess.PIPE)
-            self.boards.says("ready", 5)
+            self.boards = BoardModel(program, self.link)
             self.game = Speaker([godot, "--headless", "--path", PROJECT, "--script",
                                  "res://serial_game.gd", "--", self.link])
             self.pulls = self.game.says("active", PULL_LIMIT_S)
@@ -97,9 +72,7 @@ class Play:
     def end(self):
         self.game.end()
         time.sleep(0.1)
-        if self.boards.process.poll() is None:
-            self.boards.process.stdin.close()
-            self.boards.process.wait(10)
+        self.boards.end()
 
 
 def killed(godot, program, folder, number, limit_ms):
@@ -117,10 +90,54 @@ def killed(godot, program, folder, number, limit_ms):
     play.end()
 
 
+def found_later(godot, program, folder, before, after, name):
+    """A game that starts without its boards. before, after: orders that take them away and bring them."""
+    link = os.path.join(folder, "port")
+    with BoardModel(program, link) as boards:
+        boards.tell(before)
+        game = Speaker([godot, "--headless", "--path", PROJECT, "--script", "res://serial_game.gd", "--", link])
+        check(game.says("refused", PULL_LIMIT_S), f"{name}: the game is told that there is no device")
+        time.sleep(SEARCH_S)
+        refused = [line for line in game.lines if line.startswith("refused")]
+        check(len(refused) == 1, f"{name}: told once, though looked for again and again: {refused}")
+        boards.tell(after)
+        began = time.monotonic()
+        found = game.says("device", PULL_LIMIT_S)
+        took_s = time.monotonic() - began
+        check(found and took_s <= FIND_LIMIT_S, f"{name}: found by itself after {took_s:.2f} s, limit {FIND_LIMIT_S}")
+        share = last_number(game.lines, "share")
+        check(share is not None and share <= SHARE_LIMIT,
+              f"{name}: the node took {share} % of the game's time while it looked, limit {SHARE_LIMIT} %")
+        pulls = game.says("active", PULL_LIMIT_S)
+        check(pulls, f"{name}: zeroed, armed, and pulls")
+        if not pulls:
+            print("\n".join(game.lines))
+        game.end()
+
+
+def worked(godot, program, folder, script, options, last, limit_s):
+    """A script that works the calibrator and does the comparing; last: the word at its end."""
+    link = os.path.join(folder, "port")
+    with BoardModel(program, link, *options) as boards:
+        game = Speaker([godot, "--headless", "--path", PROJECT, "--script", f"res://{script}.gd", "--", link,
+                        str(boards.port)])
+        check(game.says(last, limit_s), f"{script}: goes to its end")
+        game.end()
+    for line in game.lines:
+        if line.startswith(("ok", "FAIL")):
+            check(line.startswith("ok"), line[5:])
+        elif "SCRIPT ERROR" in line:
+            check(False, line)
+
+
 def main():
     godot, program = sys.argv[1:]
     godot_project.prepare_project(PROJECT, godot)
     with tempfile.TemporaryDirectory() as folder:
+        found_later(godot, program, folder, "unplug", "plug", "unplugged")
+        found_later(godot, program, folder, "mute 1", "mute 0", "boards without power")
+        worked(godot, program, folder, "calibrate", ["--errors", "7"], "calibrated", CALIBRATION_LIMIT_S)
+        worked(godot, program, folder, "parameters", ["--mask", "0"], "done", PARAMETERS_LIMIT_S)
         killed(godot, program, folder, signal.SIGKILL, OFF_LIMIT_MS)
         killed(godot, program, folder, signal.SIGSTOP, OFF_LIMIT_MS)
         killed(godot, program, folder, signal.SIGSEGV, OFF_LIMIT_MS)

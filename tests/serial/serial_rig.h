@@ -9,16 +9,14 @@
 
 #include <unistd.h>
 
+#include "board_model/known_buses.h"
 #include "device/loop/servo_loop.h"
 #include "device/serial/serial_transport.h"
 #include "device/threads/real_time_thread.h"
-#include "serial/board_bus.h"
 #include "support/servo_fixture.h"
 
 namespace spidar::test {
 
-inline constexpr BoardInfo kB3mInfo{5, 3, 4, 4, 0, 0};
-inline constexpr BoardInfo kB5mInfo{7, 3, 8, 0, 4, 0};
 inline constexpr const char *kGuardProgram = "addons/spidar_g/bin/spidar_g_guard";
 
 inline void sleep_ms(int time_ms) {
@@ -36,19 +34,6 @@ bool wait_for(const Condition &condition, int limit_ms) {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     return true;
-}
-
-inline BusSettings bus_of(std::vector<BoardLayout> boards) {
-    BusSettings settings;
-    settings.boards = std::move(boards);
-    settings.units_per_a = kUsualUnitsPerAmpere;
-    return settings;
-}
-inline BusSettings one_b5m() {
-    return bus_of({{1, kB5mInfo, 0}});
-}
-inline BusSettings two_b3m() {
-    return bus_of({{0, kB3mInfo, 0}, {1, kB3mInfo, 0}});
 }
 
 inline std::string link_of_this_test() {
@@ -142,14 +127,5 @@ private:
         return now.state == DeviceState::active;
     }
 };
-
-// A motion that confirms a zero: still at first, then round and round.
-inline HandTarget wave(double time_s) {
-    const double way = 1.5 * std::max(0.0, time_s - 1.0);
-    HandTarget target;
-    target.position_m =
-        0.045 * Vec3(std::sin(4.0 * way), std::sin(3.0 * way), -std::sin(3.5 * way));
-    return target;
-}
 
 } // namespace spidar::test

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "board_model/board_firmware.h"
 #include "device/serial/protocol/board_codec.h"
-#include "serial/board_firmware.h"
 
 using namespace spidar;
 using spidar::test::BoardFirmware;

@@ -1,10 +1,21 @@
 # The add-on built, formatted and packed for a release.
 
 build() {
+    local word arguments=()
+    for word in "$@"; do
+        if [[ $word == binding=* ]]; then
+            GODOT_CPP=${word#binding=}
+            [[ $GODOT_CPP == in_tree ]] || GODOT_CPP=$(absolute "$GODOT_CPP")
+            mkdir -p "${chosen_binding%/*}"
+            echo "$GODOT_CPP" >"$chosen_binding"
+        else
+            arguments+=("$word")
+        fi
+    done
     need "${build_needs[@]}"
     find_godot
     find_jolt "$@"
-    scons -Q -j"$jobs" "$@"
+    scons -Q -j"$jobs" "${arguments[@]}"
     # The demo then opens by a double click: Godot's list of extensions and its import are there.
     if compgen -G "addons/spidar_g/bin/*spidar_g.*" >/dev/null; then prepare_demo; fi
 }
@@ -22,7 +33,7 @@ package() {
         # The engine's C interface only grows: the newest header serves every API.
         mkdir -p build/api/header
         (cd build/api/header && "$GODOT" --headless --dump-gdextension-interface >/dev/null)
-        options=("api=$(readlink -f "$GODOT_API")" interface=build/api/header/gdextension_interface.h)
+        options=(binding=in_tree "api=$(readlink -f "$GODOT_API")" interface=build/api/header/gdextension_interface.h)
     else
         echo "dev: GODOT_API is not set: the release is for the Godot in use and newer ones"
     fi

@@ -4,6 +4,7 @@
 stage_build() {
     checked scons -Q -j"$jobs" addon tests bench
     checked shows_only_its_entry addons/spidar_g/bin/libspidar_g.*.template_debug.*.so
+    checked python3 tests/package/told_folders.py addons/spidar_g/bin/*.template_debug.*.so addons/spidar_g/bin/spidar_g_guard
 }
 
 shows_only_its_entry() { # nothing of the C++ runtime inside may meet the engine's own

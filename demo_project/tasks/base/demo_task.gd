@@ -16,6 +16,8 @@ const TaskLayout := preload("res://tasks/base/task_layout.gd")
 const TaskPlayer := preload("res://play/task_player.gd")
 
 const HOME_ABOVE_TABLE_M := 0.12
+## What a device with a small frame reaches is enlarged by this much.
+const SMALL_FRAME_SCALE := 2.5
 
 ## Whether a recording can stand in for the hand; the menu has to be worked.
 @export var may_replay := true
@@ -68,7 +70,15 @@ func _enter_tree() -> void:
 		device.config.transport = SpidarGConfig.TRANSPORT_SIMULATED # A script never moves a real hand.
 	else:
 		settings.apply(device)
-	arguments.apply_device(device)
+	if arguments.preset >= 0:
+		_apply_preset(device.config)
+
+
+func _apply_preset(config: SpidarGConfig) -> void:
+	config.preset = arguments.preset
+	if config.has_rigid_grip(): # jaws and pads as large as with the paper's device
+		($SpidarG as SpidarG).workspace_scale = SMALL_FRAME_SCALE
+		config.jaw_open /= SMALL_FRAME_SCALE
 
 
 func _ready() -> void:

@@ -131,10 +131,7 @@ void register_class(std::unique_ptr<ClassRecord> record) {
     info.class_userdata = record.get();
     api.classdb_register_extension_class4(library, record->name._native_ptr(),
                                           record->parent._native_ptr(), &info);
-    const ClassRecord &kept = *classes.emplace_back(std::move(record));
-    if (kept.bind_methods != nullptr) {
-        kept.bind_methods();
-    }
+    classes.emplace_back(std::move(record))->bind_methods();
 }
 
 void unregister_classes(GDExtensionInitializationLevel level) {

@@ -134,6 +134,9 @@ String Variant::stringify() const {
 }
 
 bool Variant::operator==(const Variant &other) const {
+    if (get_type() != other.get_type()) {
+        return false;
+    }
     Variant result;
     GDExtensionBool valid = 0;
     internal::api.variant_evaluate(GDEXTENSION_VARIANT_OP_EQUAL, bytes_.data(), other.bytes_.data(),

@@ -191,6 +191,8 @@ StringArray CalibrationTasks::weighing(const TaskInput &input) noexcept {
         break;
     case Phase::fall:
         tension_n_ -= kWeighRate_n_per_s * input.dt_s;
+        // The lifted weight goes on rising for a while: it sinks from its highest point.
+        baseline_m_[string] = std::fmin(baseline_m_[string], input.lengths_m[string]);
         if (moved_in(-1.0)) {
             result_.fall_n = tension_n_;
             finish(TaskVerdict::done);

@@ -1,41 +1,15 @@
 #include "device/serial/board_session.h"
 
 #include <algorithm>
-#include <array>
 
-#include "device/threads/real_time_thread.h"
+#include "device/serial/board_talk.h"
 
 namespace spidar {
 
 namespace {
 
-constexpr int kAnswer_ms = 10;
-constexpr int kWrite_ms = 50;
-constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 constexpr int kTries = 3;
 constexpr int kScans = 4;
-
-// Everything that comes within the time, or until there are `enough` bytes.
-std::vector<std::uint8_t> listen(SerialPort &port, std::size_t enough, int time_ms) {
-    std::vector<std::uint8_t> heard;
-    const std::int64_t end_ns = monotonic_ns() + time_ms * kNanosecondsPerMillisecond;
-    std::array<std::uint8_t, 256> bytes{};
-    for (std::int64_t now_ns = monotonic_ns(); now_ns < end_ns && heard.size() < enough;
-         now_ns = monotonic_ns()) {
-        const int count = port.read(bytes, 1);
-        if (count < 0) {
-            break;
-        }
-        heard.insert(heard.end(), bytes.begin(), bytes.begin() + count);
-    }
-    return heard;
-}
-
-void forget_input(SerialPort &port) {
-    std::array<std::uint8_t, 256> bytes{};
-    for (int i = 0; i < 64 && port.read(bytes, 0) > 0; ++i) {
-    }
-}
 
 bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
     BoardFrame frame;
@@ -83,36 +57,9 @@ bool measure_reply(SerialPort &port, BoardLayout &board) {
     return false;
 }
 
-bool read_quadrature_mask(SerialPort &port, const BoardLayout &board, std::uint32_t &mask) {
-    const std::size_t length = reply_length(board, BoardCommand::get_parameter);
-    for (int i = 0; i < kTries; ++i) { // the first answer is to an earlier question
-        BoardFrame frame;
-        append_get_parameter(frame, board, BoardParameter::quadrature_mask);
-        forget_input(port);
-        if (!port.write(frame.bytes(), kWrite_ms)) {
-            return false;
-        }
-        const auto heard = listen(port, length, kAnswer_ms);
-        BoardBytes data;
-        if (heard.size() >= length && decode_parameter(BoardBytes(heard).first(length), board,
-                                                       BoardParameter::quadrature_mask, data)) {
-            mask = 0;
-            for (std::size_t byte = 0; byte < sizeof(mask); ++byte) {
-                mask |= std::uint32_t{data[byte]} << 8U * byte;
-            }
-            return true;
-        }
-    }
-    return false;
-}
-
-std::string name_of(const BoardLayout &board) {
-    return std::string(name_of_model(board.info.model)) + " with id " + std::to_string(board.id);
-}
-
-std::vector<BoardLayout> scan(SerialPort &port) {
+std::vector<BoardLayout> scan(SerialPort &port, const std::atomic<bool> &give_up) {
     std::vector<BoardLayout> boards;
-    for (std::uint8_t id = 0; id < kMostBoards; ++id) {
+    for (std::uint8_t id = 0; id < kMostBoards && !give_up.load(); ++id) {
         BoardLayout board;
         if (find_board(port, id, board)) {
             boards.push_back(board);
@@ -122,13 +69,13 @@ std::vector<BoardLayout> scan(SerialPort &port) {
 }
 
 // An answer may come too late on a busy computer: two scans in a row must find the same boards.
-bool find_boards(SerialPort &port, BoardSession &session) {
+bool find_boards(SerialPort &port, const std::atomic<bool> &give_up, BoardSession &session) {
     BoardFrame frame;
     frame.zeros(kResyncZeros);
     (void)port.write(frame.bytes(), kWrite_ms);
     bool same = false;
-    for (int i = 0; i < kScans && (!same || session.boards.empty()); ++i) {
-        std::vector<BoardLayout> found = scan(port);
+    for (int i = 0; i < kScans && (!same || session.boards.empty()) && !give_up.load(); ++i) {
+        std::vector<BoardLayout> found = scan(port, give_up);
         same = i > 0 &&
                std::equal(found.begin(), found.end(), session.boards.begin(), session.boards.end(),
                           [](const BoardLayout &a, const BoardLayout &b) {
@@ -151,7 +98,7 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
             problem = name_of(board) + " does not answer to CURRENT; check the wiring of the bus.";
             return false;
         }
-        if (!read_quadrature_mask(port, board, mask)) {
+        if (!read_parameter(port, board, BoardParameter::quadrature_mask, mask)) {
             session.remarks += name_of(board) + " does not tell how its encoders are read. ";
         }
         const std::uint32_t all = (1U << board.info.motors) - 1U;
@@ -166,8 +113,8 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
 
 } // namespace
 
-Status open_session(const std::string &path, std::uint32_t baud, BoardSession &session,
-                    std::string &problem) {
+Status open_session(const std::string &path, std::uint32_t baud, const std::atomic<bool> &give_up,
+                    BoardSession &session, std::string &problem) {
     Status status = Status::ok;
     std::shared_ptr<SerialPort> port = open_serial_port(path, baud, status, problem);
     if (!port) {
@@ -179,7 +126,7 @@ Status open_session(const std::string &path, std::uint32_t baud, BoardSession &s
     if (shorten_latency(path, port->descriptor(), latency) == BridgeLatency::long_one) {
         opened.remarks += latency + " ";
     }
-    if (!find_boards(*port, opened)) {
+    if (!find_boards(*port, give_up, opened)) {
         problem = "Port " + path +
                   ": no motor board answers; check its power, the cable, and that "
                   "the bus runs at " +

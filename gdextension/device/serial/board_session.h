@@ -1,6 +1,7 @@
 // One plug-in of a bus of boards: found by handshake, told each other's lengths, with no current on any motor.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,8 +21,10 @@ struct BoardSession {
 };
 
 // Finds the boards, ids 0 to 7 in turn; takes about 0.15 s. no_device, no_permission, device_in_use, open_failed,
-// protocol_mismatch: nothing answers as a board does. `problem` is a sentence then, and nothing stays open.
+// protocol_mismatch: nothing answers as a board does. `problem` is a sentence then, and nothing stays
+// open. Ends early, with any of these, once another thread sets `give_up`.
 [[nodiscard]] Status open_session(const std::string &path, std::uint32_t baud,
-                                  BoardSession &session, std::string &problem);
+                                  const std::atomic<bool> &give_up, BoardSession &session,
+                                  std::string &problem);
 
 } // namespace spidar

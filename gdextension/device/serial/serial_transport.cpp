@@ -66,9 +66,10 @@ void SerialTransport::Impl::lose(std::uint32_t which) noexcept {
     wake.notify_all();
 }
 
-Status SerialTransport::Impl::connect(const std::string &path, std::string &why) {
+Status SerialTransport::Impl::connect(const std::string &path, const std::atomic<bool> &give_up,
+                                      std::string &why) {
     BoardSession fresh;
-    const Status status = open_session(path, settings.baud, fresh, why);
+    const Status status = open_session(path, settings.baud, give_up, fresh, why);
     if (!usable(status)) {
         return status;
     }
@@ -104,7 +105,7 @@ void SerialTransport::Impl::watch() {
     std::unique_lock<std::mutex> lock(mutex);
     const std::string path = session.path;
     while (!stop_watcher) {
-        wake.wait_for(lock, kWatch, [this] { return stop_watcher; });
+        wake.wait_for(lock, kWatch, [this] { return stop_watcher.load(); });
         if (stop_watcher) {
             return;
         }
@@ -113,7 +114,7 @@ void SerialTransport::Impl::watch() {
         try {
             if (reconnects) {
                 guard.end(); // it holds the port that is gone, and nobody else may open it
-                if (usable(connect(path, why))) {
+                if (usable(connect(path, stop_watcher, why))) {
                     SerialStatistics::add(statistics.replugs);
                     start_guard();
                 }
@@ -138,6 +139,10 @@ SerialTransport::~SerialTransport() {
 }
 
 Status SerialTransport::open() noexcept {
+    return open_unless(std::atomic<bool>{false});
+}
+
+Status SerialTransport::open_unless(const std::atomic<bool> &give_up) noexcept {
     Impl &m = *impl_;
     if (m.first_waits && m.is_open.load()) {
         return Status::ok;
@@ -146,7 +151,7 @@ Status SerialTransport::open() noexcept {
     try {
         std::string path;
         Status status = choose_serial_port(m.settings.port, path, m.problem);
-        status = usable(status) ? m.connect(path, m.problem) : status;
+        status = usable(status) ? m.connect(path, give_up, m.problem) : status;
         if (!usable(status)) {
             return status;
         }
@@ -156,7 +161,7 @@ Status SerialTransport::open() noexcept {
         m.is_open.store(true);
         m.watcher = std::thread([&m] { m.watch(); });
         // A loop that begins without a reading would take the counts of a device that it has not heard for zeroed.
-        for (int i = 0; i < kFirstRounds && !m.first_waits; ++i) {
+        for (int i = 0; i < kFirstRounds && !m.first_waits && !give_up.load(); ++i) {
             (void)write(DriveCommand());
             std::this_thread::sleep_for(kFirstRound);
             m.first_waits = read(m.first) == Status::ok;
@@ -171,6 +176,17 @@ Status SerialTransport::open() noexcept {
         close();
         return Status::open_failed;
     }
+}
+
+void SerialTransport::keep_asking() noexcept {
+    Impl &m = *impl_;
+    if (!m.first_waits) {
+        return;
+    }
+    (void)write(DriveCommand());
+    m.first_waits = false;
+    (void)read(m.first); // untouched when nothing came
+    m.first_waits = true;
 }
 
 void SerialTransport::close() noexcept {

@@ -5,6 +5,7 @@
 // for every 100 ms; its counts are never zeroed.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -40,6 +41,11 @@ public:
     // not read yet stays open. Opens without a guard too:
     // then readings come, and say device_watchdog, so that nothing arms.
     Status open() noexcept override;
+    // The same; ends early with open_failed once another thread sets `give_up`.
+    Status open_unless(const std::atomic<bool> &give_up) noexcept;
+    // Between open() and the first read(): asks the boards once, so that they are not taken for lost, and keeps what
+    // they answer for that read().
+    void keep_asking() noexcept;
     void close() noexcept override;
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;

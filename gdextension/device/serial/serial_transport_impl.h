@@ -32,7 +32,7 @@ struct SerialTransport::Impl {
     void refresh(Borrowed &mine, std::uint32_t &link_seen,
                  std::shared_ptr<SerialPort> BoardSession::*which) const noexcept;
     void lose(std::uint32_t which) noexcept;
-    Status connect(const std::string &path, std::string &why);
+    Status connect(const std::string &path, const std::atomic<bool> &give_up, std::string &why);
     void start_guard();
     void watch();
     [[nodiscard]] bool may_pull(const DriveCommand &command) noexcept;
@@ -50,7 +50,7 @@ struct SerialTransport::Impl {
     std::uint32_t session_number = 0;
     std::atomic<std::uint32_t> link_number{0}; // counts connects and losses: when to borrow anew
     bool connected = false;
-    bool stop_watcher = false;
+    std::atomic<bool> stop_watcher{false};
     std::condition_variable wake;
     std::thread watcher;
     std::atomic<bool> is_open{false};

@@ -1,6 +1,7 @@
 #include "godot/calibration/calibration_transport.h"
 
 #include "device/hid/open_free_device.h"
+#include "device/serial/open_serial_device.h"
 #include "device/simulation/simulated_transport.h"
 
 namespace spidar {
@@ -9,8 +10,8 @@ namespace {
 
 const char *const kOwner = "SpidarGCalibrator";
 
-std::unique_ptr<Transport> open_real(const CalibrationTarget &target, CalibrationOpened &opened,
-                                     std::string &problem) {
+std::unique_ptr<Transport> open_hid(const CalibrationTarget &target, CalibrationOpened &opened,
+                                    std::string &problem) {
     Status status = Status::ok;
     auto transport =
         open_free_device(system_hid_bus(), target.hid, kOwner, opened.claim, status, problem);
@@ -22,12 +23,27 @@ std::unique_ptr<Transport> open_real(const CalibrationTarget &target, Calibratio
     return transport;
 }
 
+std::unique_ptr<Transport> open_serial(const CalibrationTarget &target, CalibrationOpened &opened,
+                                       std::string &problem) {
+    Status status = Status::ok;
+    auto transport = open_serial_device(target.serial, kOwner, opened.claim, status, problem);
+    if (problem.starts_with("serial_port")) {
+        problem = "SpidarGConfig." + problem;
+    }
+    opened.real = transport != nullptr;
+    opened.remarks = transport ? transport->remarks() : std::string();
+    return transport;
+}
+
 } // namespace
 
 std::unique_ptr<Transport> open_for_calibration(const CalibrationTarget &target,
                                                 CalibrationOpened &opened, std::string &problem) {
-    if (target.try_real) {
-        if (auto transport = open_real(target, opened, problem)) {
+    if (target.try_serial) {
+        return open_serial(target, opened, problem);
+    }
+    if (target.try_hid) {
+        if (auto transport = open_hid(target, opened, problem)) {
             return transport;
         }
         if (!target.try_simulated) {

@@ -9,14 +9,17 @@
 #include "device/contract/device_claims.h"
 #include "device/contract/transport.h"
 #include "device/hid/hid_transport.h"
+#include "device/serial/serial_transport.h"
 #include "device/simulation/simulated_plant.h"
 
 namespace spidar {
 
 struct CalibrationTarget {
-    bool try_real = true;      // Automatic and Device
+    bool try_hid = true;       // Automatic and Device
+    bool try_serial = false;   // Serial
     bool try_simulated = true; // Automatic and Simulated
     HidTransportSettings hid;
+    SerialTransportSettings serial;
     PlantSettings plant;
     std::string simulated_name; // SpidarGConfig.device_name
 };
@@ -27,6 +30,7 @@ struct CalibrationOpened {
     bool real = false;
     std::uint32_t counts_per_turn = 0; // real: as the device says; 0: it does not
     std::string fallback;              // why the simulated device stands in
+    std::string remarks;               // serial boards: what works, but not as it should
 };
 
 // Null: none could be opened; `problem` says why.

@@ -34,15 +34,20 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
         return reject("open: the device is open already, or still closing: close() it and wait for "
                       "DEVICE_CLOSED.");
     }
+    if (board_job_) {
+        return reject("open: the boards' parameters are being read or written: wait until "
+                      "is_using_boards() is false.");
+    }
     problem_ = read_target(config, calibration);
     if (!problem_.empty()) {
         return false;
     }
     if (stepped && !target_.try_simulated) {
-        return reject("open: stepped with transport = Device: only a simulated device can live in "
-                      "simulated time.");
+        return reject(
+            "open: stepped with transport = Device or Serial: only a simulated device can "
+            "live in simulated time.");
     }
-    target_.try_real = target_.try_real && !stepped;
+    target_.try_hid = target_.try_hid && !stepped;
     opened_ = std::make_shared<spidar::CalibrationOpened>();
     began_ = false;
     has_result_ = false;
@@ -89,14 +94,12 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
         return problem;
     }
     const int transport = used->get_transport();
-    if (transport == SpidarGConfig::TRANSPORT_SERIAL) {
-        return "SpidarGConfig.transport = Serial: the calibrator does not work on serial boards "
-               "yet. "
-               "Calibrate with the simulated device or a device on USB HID.";
-    }
+    const bool automatic = transport == SpidarGConfig::TRANSPORT_AUTOMATIC;
     target_ = {};
-    target_.try_real = transport != SpidarGConfig::TRANSPORT_SIMULATED;
-    target_.try_simulated = transport != SpidarGConfig::TRANSPORT_DEVICE;
+    target_.try_hid = automatic || transport == SpidarGConfig::TRANSPORT_DEVICE;
+    target_.try_serial = transport == SpidarGConfig::TRANSPORT_SERIAL;
+    target_.try_simulated = automatic || transport == SpidarGConfig::TRANSPORT_SIMULATED;
+    target_.serial = used->serial_settings();
     target_.plant = plant;
     target_.simulated_name = used->get_device_name().utf8().get_data();
     target_.hid.filter = used->hid_filter();
@@ -144,6 +147,7 @@ void SpidarGCalibrator::close() {
 
 bool SpidarGCalibrator::poll() {
     finish_job();
+    finish_board_job();
     if (!rig_) {
         return false;
     }
@@ -302,6 +306,7 @@ godot::Dictionary SpidarGCalibrator::get_live() const {
     live["readings"] = static_cast<std::int64_t>(news_.readings);
     live["simulated"] = news_.simulated;
     live["fallback_reason"] = spidar::to_godot(opened_ && began_ ? opened_->fallback : "");
+    live["remarks"] = spidar::to_godot(opened_ && began_ ? opened_->remarks : "");
     live["counts"] = spidar::to_godot(news_.counts);
     live["lengths_m"] = spidar::to_godot(live_lengths_m_);
     live["tensions_n"] = spidar::to_godot(news_.tensions_n);

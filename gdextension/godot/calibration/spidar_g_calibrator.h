@@ -6,15 +6,18 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/classes/ref_counted.hpp>
 #include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/array.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
 
 #include "core/calibration/fit/worksheet.h"
 #include "core/kinematics/forward_kinematics.h"
 #include "device/calibration/calibration_rig.h"
+#include "device/serial/board_flash.h"
 #include "godot/calibration/calibration_transport.h"
 #include "godot/settings/spidar_g_calibration.h"
 #include "godot/settings/spidar_g_config.h"
@@ -39,6 +42,7 @@ public:
         VERDICT_TOO_WARM
     };
     enum Hand { HAND_HOME, HAND_FREE_MOTION, HAND_PLACE };
+    enum BoardParameter { PARAMETER_BOARD_ID = 3, PARAMETER_QUADRATURE_MASK = 7 };
 
     ~SpidarGCalibrator() override;
 
@@ -77,6 +81,14 @@ public:
     [[nodiscard]] godot::Dictionary get_result() const;
     [[nodiscard]] godot::Ref<SpidarGCalibration> make_calibration();
 
+    // What serial motor boards keep in their flash (spidar_g_calibrator_boards.cpp).
+    bool read_boards(const godot::Ref<SpidarGConfig> &config);
+    [[nodiscard]] bool is_using_boards() const { return board_job_ != nullptr; }
+    [[nodiscard]] godot::Array get_boards() const;
+    godot::Dictionary propose_board_parameter(int board_id, BoardParameter parameter, int value);
+    bool write_board_parameter(const godot::String &board);
+    [[nodiscard]] godot::Dictionary get_board_result() const;
+
 protected:
     static void _bind_methods();
 
@@ -96,7 +108,30 @@ private:
         }
     };
 
+    // Reads the boards, or writes one number and reads it back, in a thread of its own.
+    struct BoardJob {
+        bool writes = false;
+        std::string port;
+        spidar::FlashChange change;
+        std::vector<spidar::BoardFlash> boards; // read
+        spidar::BoardFlash after;               // written
+        spidar::Status status = spidar::Status::ok;
+        std::string problem;
+        std::atomic<bool> give_up{false};
+        std::atomic<bool> done{false};
+        std::thread thread;
+        ~BoardJob() {
+            give_up.store(true);
+            if (thread.joinable()) {
+                thread.join();
+            }
+        }
+    };
+
     static void bind_device();
+    static void bind_boards();
+    bool start_board_job(std::unique_ptr<BoardJob> job);
+    void finish_board_job();
     static void bind_measurements();
 
     std::string read_target(const godot::Ref<SpidarGConfig> &config,
@@ -132,6 +167,13 @@ private:
     spidar::StringArray before_m_{};
     spidar::StringArray after_m_{};
 
+    std::unique_ptr<BoardJob> board_job_;
+    std::string boards_port_; // where boards_ were read
+    std::vector<spidar::BoardFlash> boards_;
+    bool is_proposed_ = false; // proposal_ waits for its confirmation
+    spidar::FlashChange proposal_;
+    godot::Dictionary board_result_;
+
     spidar::ForwardKinematics kinematics_; // of the live view
     spidar::KinematicsResult live_;
     spidar::StringArray live_lengths_m_{};
@@ -142,3 +184,4 @@ VARIANT_ENUM_CAST(SpidarGCalibrator::DeviceState);
 VARIANT_ENUM_CAST(SpidarGCalibrator::Task);
 VARIANT_ENUM_CAST(SpidarGCalibrator::Verdict);
 VARIANT_ENUM_CAST(SpidarGCalibrator::Hand);
+VARIANT_ENUM_CAST(SpidarGCalibrator::BoardParameter);

@@ -276,6 +276,7 @@ godot::Ref<SpidarGCalibration> SpidarGCalibrator::make_calibration() {
 void SpidarGCalibrator::_bind_methods() {
     bind_device();
     bind_measurements();
+    bind_boards();
     BIND_ENUM_CONSTANT(DEVICE_CLOSED);
     BIND_ENUM_CONSTANT(DEVICE_OPENING);
     BIND_ENUM_CONSTANT(DEVICE_OPEN);
@@ -297,6 +298,8 @@ void SpidarGCalibrator::_bind_methods() {
     BIND_ENUM_CONSTANT(HAND_HOME);
     BIND_ENUM_CONSTANT(HAND_FREE_MOTION);
     BIND_ENUM_CONSTANT(HAND_PLACE);
+    BIND_ENUM_CONSTANT(PARAMETER_BOARD_ID);
+    BIND_ENUM_CONSTANT(PARAMETER_QUADRATURE_MASK);
 }
 
 void SpidarGCalibrator::bind_device() {

@@ -167,7 +167,7 @@ void SpidarG::open_device() {
     std::string problem;
     auto transport = choose_transport(chosen, problem);
     if (!transport) {
-        if (chosen == Status::invalid_settings) {
+        if (chosen == Status::invalid_settings && !looks_for_serial()) {
             refuse_to_open(chosen, problem);
         } else {
             refuse_device(chosen, problem, again);
@@ -245,6 +245,7 @@ void SpidarG::close_device(const char *why) {
     claim_.release();
     recording_place_.release();
     hid_watch_.reset();
+    serial_search_.reset();
     earlier_time_s_ += snapshot_.time_s;
     snapshot_.time_s = 0.0;
     snapshot_.state = DeviceState::closed;
@@ -309,6 +310,7 @@ void SpidarG::physics_tick() {
         restart_pending_ = true; // to the device that was plugged in, or that did not open
         trying_again_ = true;
     }
+    watch_serial_search();
     if (restart_pending_ && may_run()) {
         open_device();
     }

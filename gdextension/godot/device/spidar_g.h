@@ -20,7 +20,7 @@
 #include "device/hid/hid_transport.h"
 #include "device/hid/hid_watch.h"
 #include "device/loop/servo_loop.h"
-#include "device/serial/serial_transport.h"
+#include "device/serial/open_serial_device.h"
 #include "device/simulation/simulated_transport.h"
 #include "godot/base/node_motion.h"
 #include "godot/base/strict.h"
@@ -280,9 +280,8 @@ private:
         hid_ = nullptr;
         serial_ = nullptr;
     }
-    [[nodiscard]] std::string serial_boards_text() const;
-    void describe_serial(godot::Dictionary &info) const;
-    static void list_serial_ports(godot::Array &list);
+    [[nodiscard]] bool looks_for_serial() const; // when no boards were found
+    void watch_serial_search();
     [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
     // Of the device that was opened: its counts at the home pose.
     void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
@@ -366,10 +365,12 @@ private:
     bool stall_told_ = false;      // the loop stands still, and that was told
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
-    spidar::HidTransport *hid_ = nullptr;       // owned by loop_
-    spidar::SerialTransport *serial_ = nullptr; // owned by loop_
-    std::vector<spidar::HidDeviceInfo> tried_;  // plugged in when the device was chosen
-    std::string fallback_;                      // why the simulated device stands in for a real one
+    spidar::HidTransport *hid_ = nullptr;                   // owned by loop_
+    spidar::SerialTransport *serial_ = nullptr;             // owned by loop_
+    std::unique_ptr<spidar::SerialSearch> serial_search_;   // while the boards are not found
+    std::unique_ptr<spidar::SerialTransport> found_serial_; // by it, until the device opens
+    std::vector<spidar::HidDeviceInfo> tried_;              // plugged in when the device was chosen
+    std::string fallback_; // why the simulated device stands in for a real one
     spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
     std::string replay_path_;                         // in place of a device, unless empty
     spidar::Replay *replay_ = nullptr;                // owned by loop_

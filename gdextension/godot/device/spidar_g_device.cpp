@@ -11,6 +11,7 @@
 
 #include "device/hid/open_free_device.h"
 #include "godot/base/type_conversions.h"
+#include "godot/device/serial_device_info.h"
 #include "godot/settings/plugged_in_devices.h"
 
 using godot::String;
@@ -121,7 +122,7 @@ String SpidarG::get_device_text() const {
             device.path + ".");
     }
     if (serial_ != nullptr) {
-        return spidar::to_godot("Serial device: " + serial_boards_text() + ", " +
+        return spidar::to_godot("Serial device: " + spidar::serial_boards_text(*serial_) + ", " +
                                 serial_->device_name() + ".");
     }
     return replay_ != nullptr ? "Replay of a recording." : "No device is open.";
@@ -138,6 +139,9 @@ void SpidarG::watch_for_devices() {
     if (simulated_ != nullptr && !fallback_.empty()) {
         hid_watch_ = std::make_unique<spidar::HidWatch>(spidar::system_hid_bus(),
                                                         config_or_default().hid_filter(), tried_);
+    } else if (!loop_ && looks_for_serial() && !serial_search_) {
+        serial_search_ = std::make_unique<spidar::SerialSearch>(
+            config_or_default().serial_settings(), name_for_messages());
     } else if (!loop_ && config_or_default().get_transport() == SpidarGConfig::TRANSPORT_DEVICE &&
                drive_mode_ != DRIVE_STEPPED) {
         // No device was opened: also one that was tried, as its access rights may change.
@@ -161,7 +165,7 @@ godot::Array SpidarG::list_devices() {
             spidar::to_godot(spidar::DeviceClaim::owner_of(spidar::claim_name(device)));
         list.push_back(shown);
     }
-    list_serial_ports(list);
+    spidar::list_serial_ports(list);
     return list;
 }
 
@@ -202,7 +206,7 @@ godot::Dictionary SpidarG::get_device_info() const {
     info["serial"] = spidar::to_godot(device.serial);
     info["path"] = spidar::to_godot(device.path);
     if (serial_ != nullptr) {
-        describe_serial(info);
+        spidar::describe_serial(*serial_, info);
     }
     if (!real) {
         return info;

@@ -1,31 +1,55 @@
 // A node on serial motor boards.
 #include <godot_cpp/variant/utility_functions.hpp>
 
-#include "device/serial/serial_port.h"
 #include "godot/base/type_conversions.h"
 #include "godot/device/spidar_g.h"
 
 using spidar::Status;
 
+namespace {
+
+// A problem of the device's settings names its field, which a user finds in the config.
+[[nodiscard]] std::string told_of_config(const std::string &problem) {
+    return (problem.starts_with("serial_port") ? "SpidarGConfig." : "") + problem;
+}
+
+} // namespace
+
+bool SpidarG::looks_for_serial() const {
+    return config_or_default().get_transport() == SpidarGConfig::TRANSPORT_SERIAL &&
+           drive_mode_ != DRIVE_STEPPED;
+}
+
+// What the search found is opened in this tick; a new reason why it finds nothing is told.
+void SpidarG::watch_serial_search() {
+    if (!serial_search_ || restart_pending_) {
+        return;
+    }
+    found_serial_ = serial_search_->take();
+    if (found_serial_) {
+        restart_pending_ = true;
+        trying_again_ = true;
+        return;
+    }
+    Status status = Status::ok;
+    std::string problem;
+    if (serial_search_->take_failure(status, problem)) {
+        refuse_device(status, told_of_config(problem), true);
+    }
+}
+
 std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std::string &problem) {
-    spidar::SerialTransportSettings settings = config_or_default().serial_settings();
-    status = spidar::choose_serial_port(settings.port, settings.port, problem);
-    if (!spidar::usable(status)) {
-        problem = "SpidarGConfig.serial_port: " + problem;
-        return nullptr;
-    }
-    const std::string name = spidar::serial_device_name(settings.port);
-    if (!claim_.take(name, name_for_messages())) {
+    std::unique_ptr<spidar::SerialTransport> transport = std::move(found_serial_);
+    if (!transport) {
+        transport = spidar::open_serial_device(config_or_default().serial_settings(),
+                                               name_for_messages(), claim_, status, problem);
+    } else if (!claim_.take(transport->device_name(), name_for_messages())) {
+        transport.reset(); // another node took it since; the search goes on
         status = Status::device_in_use;
-        problem = "Port " + settings.port + " belongs to SpidarG \"" +
-                  spidar::DeviceClaim::owner_of(name) + "\".";
-        return nullptr;
+        problem = spidar::describe(status);
     }
-    auto transport = std::make_unique<spidar::SerialTransport>(settings);
-    status = transport->open();
-    if (!spidar::usable(status)) {
-        problem = transport->problem();
-        claim_.release();
+    if (!transport) {
+        problem = told_of_config(problem);
         return nullptr;
     }
     serial_ = transport.get();
@@ -42,47 +66,4 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
                   " times a second, fewer than SpidarGConfig.rate_hz."));
     }
     return transport;
-}
-
-std::string SpidarG::serial_boards_text() const {
-    std::string text;
-    for (const spidar::BoardLayout &board : serial_->boards()) {
-        text += (text.empty() ? "" : ", ") + std::string(spidar::name_of_model(board.info.model)) +
-                " with id " + std::to_string(board.id);
-    }
-    return text;
-}
-
-void SpidarG::describe_serial(godot::Dictionary &info) const {
-    const spidar::SerialCounters count = serial_->counters();
-    info["product"] = spidar::to_godot(serial_boards_text());
-    info["path"] = spidar::to_godot(serial_->port());
-    info["remarks"] = spidar::to_godot(serial_->remarks());
-    info["highest_rate_hz"] = serial_->highest_rate_hz();
-    info["reports"] = spidar::whole(count.rounds);
-    info["reports_lost"] = spidar::whole(count.lost);
-    info["reports_refused"] = spidar::whole(count.implausible + count.damaged + count.unasked);
-    info["garbage_bytes"] = spidar::whole(count.garbage_bytes);
-    info["commands"] = spidar::whole(count.asked);
-    info["commands_skipped"] = spidar::whole(count.postponed);
-    info["unplugged"] = spidar::whole(count.losses);
-    info["found_again"] = spidar::whole(count.replugs);
-    info["guard_trips"] = spidar::whole(count.guard_trips);
-    info["guard_losses"] = spidar::whole(count.guard_losses);
-}
-
-void SpidarG::list_serial_ports(godot::Array &list) {
-    for (const spidar::SerialPortInfo &port : spidar::list_serial_ports()) {
-        if (!port.usb) {
-            continue; // no board is on a port of the computer's own
-        }
-        godot::Dictionary shown;
-        shown["kind"] = "serial";
-        shown["product"] = spidar::to_godot(port.product);
-        shown["serial"] = spidar::to_godot(port.serial);
-        shown["path"] = spidar::to_godot(port.path);
-        shown["owner"] =
-            spidar::to_godot(spidar::DeviceClaim::owner_of(spidar::serial_device_name(port.path)));
-        list.push_back(shown);
-    }
 }

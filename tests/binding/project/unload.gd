@@ -1,6 +1,7 @@
 extends SceneTree
 ## Uses engine objects that live on, unloads the probe, loads and unloads it again, and quits. Whoever left something of
-## the library with the engine crashes at the end, when the library is gone. Prints "unloaded N times".
+## the library with the engine crashes at the end, when the library is gone. Prints "unloaded N times". With a godot-cpp,
+## only singletons are used: it ends no other wrappers.
 
 const EXTENSION: String = "res://probe.gdextension"
 
@@ -27,8 +28,10 @@ func _use() -> void:
 	var probe: Node = ClassDB.instantiate("Probe")
 	root.add_child(probe)
 	var facts: Dictionary = probe.call("engine_facts")
-	if facts["os"] != OS.get_name() or probe.call("same", root) != root or probe.call("same", stays) != stays:
+	if facts["os"] != OS.get_name():
 		print("the probe does not work")
+	if ClassDB.class_exists("ProbeFaults") and (probe.call("same", root) != root or probe.call("same", stays) != stays):
+		print("objects do not come back")
 	probe.free()
 
 

@@ -202,6 +202,7 @@ func _build_weights() -> void:
 		_device_button(page, "Weigh all (simulated scale)", "WeighAll", func() -> void: _session.weigh_all(_weight.value))
 	)
 	_weights = _label(page)
+	_weights.name = "Weights"
 
 
 func _build_result() -> void:

@@ -6,6 +6,7 @@ extends VBoxContainer
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 const CalibrationPages := preload("calibration_pages.gd")
+const BoardParameters := preload("board_parameters.gd")
 
 ## Seconds between two refreshings of the numbers.
 const REFRESH_S: float = 0.1
@@ -25,6 +26,7 @@ var _body: VBoxContainer = VBoxContainer.new()
 var _preset: OptionButton = OptionButton.new()
 var _practice: Button = Button.new()
 var _open: Button = Button.new()
+var _boards: BoardParameters = BoardParameters.new()
 var _state: Label = Label.new()
 var _live: Label = Label.new()
 var _quality: Label = Label.new()
@@ -128,6 +130,8 @@ func _build_device() -> void:
 	_body.add_child(_practice)
 	var row: HBoxContainer = HBoxContainer.new()
 	_body.add_child(row)
+	_boards.set_up(_session, _target.get_config)
+	_body.add_child(_boards)
 	_open.name = "Open"
 	_open.tooltip_text = "The device is open while this panel asks for it. Opening it moves no motor."
 	_open.pressed.connect(_open_or_close)
@@ -250,6 +254,7 @@ func _refresh() -> void:
 	_message.visible = not _session.message.is_empty()
 	var colour: String = "error_color" if _session.message_is_problem else "success_color"
 	_message.add_theme_color_override("font_color", get_theme_color(colour, "Editor"))
+	_boards.refresh()
 	_pages.refresh(_target.get_calibration() != null)
 
 

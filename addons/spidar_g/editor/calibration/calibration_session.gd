@@ -65,7 +65,7 @@ func is_open() -> bool:
 func is_busy() -> bool:
 	var state: SpidarGCalibrator.DeviceState = calibrator.get_device_state()
 	var at_rest: bool = state == SpidarGCalibrator.DEVICE_CLOSED or state == SpidarGCalibrator.DEVICE_FAILED
-	return _wants_open or not at_rest or calibrator.is_computing()
+	return _wants_open or not at_rest or calibrator.is_computing() or calibrator.is_using_boards()
 
 
 func get_readings() -> int:
@@ -179,6 +179,11 @@ func weigh(string: int, weight_n: float) -> void:
 ## Simulated device: nobody has to hang the weight on the next string.
 func weigh_all(weight_n: float) -> void:
 	_start_queue(SpidarGCalibrator.TASK_WEIGHING, range(STRINGS), weight_n)
+
+
+## Shows a sentence of somebody else's.
+func tell(text: String, problem: bool = false) -> void:
+	_say(text, problem)
 
 
 ## What there is to accept now; null, with the reason as message: nothing.

@@ -65,6 +65,7 @@ struct Access {
         return new T(WrapOwner{owner});
     }
     static void destroy(Wrapped *object) { delete object; }
+    static constexpr auto no_bind_methods() { return &Wrapped::_bind_methods; }
     static void expect(const ClassRecord &record, GodotObject *owner);
 };
 

@@ -29,6 +29,8 @@ public:
     // The class must have its GDCLASS line and be registered after its parent.
     template <class T>
     static void register_class() {
+        static_assert(!std::is_abstract_v<T>,
+                      "An abstract class is registered by GDREGISTER_ABSTRACT_CLASS.");
         internal::register_class(describe<T>(false));
     }
     template <class T>

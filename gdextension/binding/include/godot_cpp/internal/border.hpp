@@ -65,8 +65,20 @@ struct Border<T> {
     static void give(void *address, T value) {
         *static_cast<Wire<T> *>(address) = static_cast<Wire<T>>(value);
     }
-    static T from_variant(const Variant &value) { return static_cast<T>(value); }
-    static Variant to_variant(T value) { return Variant(value); }
+    static T from_variant(const Variant &value) {
+        if constexpr (std::is_enum_v<T>) {
+            return static_cast<T>(static_cast<int64_t>(value));
+        } else {
+            return static_cast<T>(value);
+        }
+    }
+    static Variant to_variant(T value) {
+        if constexpr (std::is_enum_v<T>) {
+            return Variant(static_cast<int64_t>(value));
+        } else {
+            return Variant(value);
+        }
+    }
     static PropertyInfo info() {
         if constexpr (std::is_enum_v<T>) {
             return {type,

@@ -45,7 +45,7 @@ struct ClassRecord {
     GDExtensionInitializationLevel level = GDEXTENSION_INITIALIZATION_SCENE;
 
     Wrapped *(*construct)(const ClassRecord &, GodotObject *) = nullptr;
-    void (*bind_methods)() = nullptr; // null when the class has none of its own
+    void (*bind_methods)() = nullptr;
     GDExtensionClassNotification2 notification = nullptr;
     GDExtensionClassSet set = nullptr;
     GDExtensionClassGet get = nullptr;

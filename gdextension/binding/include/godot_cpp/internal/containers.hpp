@@ -17,7 +17,7 @@ public:
         return made;
     }
 
-    // An index outside 0..size()-1 prints the engine's error and reads as null.
+    // An index outside 0..size()-1 is the caller's error and a crash, as in godot-cpp: check size() first.
     Variant &operator[](int64_t index);
     const Variant &operator[](int64_t index) const;
     bool operator==(const Array &other) const { return equals(other); }

@@ -21,7 +21,15 @@ consteval bool declares() {
 }
 
 template <class T>
+inline constexpr bool kIsTemplate = false;
+template <template <class...> class Template, class... A>
+inline constexpr bool kIsTemplate<Template<A...>> = true;
+template <template <auto...> class Template, auto... A>
+inline constexpr bool kIsTemplate<Template<A...>> = true;
+
+template <class T>
 struct Hooks {
+    static_assert(!kIsTemplate<T>, "A template can be no class of the engine: it has no one name.");
     using Self = typename T::godot_binding_self;
     using Parent = typename T::godot_binding_parent;
     static_assert(std::is_same_v<Self, T>, "This class lacks its GDCLASS line.");
@@ -128,7 +136,15 @@ struct Hooks {
         }
     }
 
-    static void (*own_bind_methods())() { return &T::_bind_methods; }
+    using BindMethods = void (*)();
+    static constexpr BindMethods bind_methods() { return &T::_bind_methods; }
+    static constexpr BindMethods parent_bind_methods() {
+        if constexpr (kParentIsOurs) {
+            return Hooks<Parent>::bind_methods();
+        } else {
+            return Access::no_bind_methods();
+        }
+    }
 
     // Fills the hooks that any class down to T declares; the others stay null and cost nothing.
     static void fill(ClassRecord &record) {
@@ -150,12 +166,9 @@ struct Hooks {
         if (kToString || record.to_string != nullptr) {
             record.to_string = &to_string;
         }
-        record.bind_methods = own_bind_methods();
-        if constexpr (kParentIsOurs) {
-            if (Hooks<Parent>::own_bind_methods() == own_bind_methods()) {
-                record.bind_methods = nullptr; // inherited: its methods are the parent's
-            }
-        }
+        static_assert(bind_methods() != parent_bind_methods(),
+                      "A registered class declares its own static void _bind_methods().");
+        record.bind_methods = bind_methods();
     }
 };
 

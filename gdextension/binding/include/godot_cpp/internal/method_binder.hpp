@@ -28,6 +28,16 @@ struct ObjectFits<T> {
 template <class T>
 struct ObjectFits<Ref<T>> : ObjectFits<T *> {};
 
+template <class T>
+concept Carried = requires {
+    Border<T>::type;
+};
+
+template <class Arguments>
+inline constexpr bool kAllCarried = false;
+template <class... A>
+inline constexpr bool kAllCarried<std::tuple<A...>> = (Carried<A> && ...);
+
 template <class M>
 struct BoundMethod : MethodRecord {
     using Signature = Member<M>;
@@ -36,6 +46,15 @@ struct BoundMethod : MethodRecord {
     using Arguments = typename Signature::Arguments;
     static constexpr std::size_t kCount = std::tuple_size_v<Arguments>;
     static constexpr bool kStatic = std::is_void_v<Class>;
+    static_assert(
+        kAllCarried<Arguments>,
+        "A bound method has an argument of a type that the engine cannot give: use int64_t "
+        "for long long.");
+    static_assert(std::is_void_v<Return> || Carried<Decayed<Return>>,
+                  "A bound method returns a type that the engine cannot take: use int64_t for long "
+                  "long.");
+    static_assert(!std::is_const_v<Return>,
+                  "A bound method returns a const value: drop the const.");
 
     explicit BoundMethod(M bound) : method(bound) {
         flags = Signature::kFlags | GDEXTENSION_METHOD_FLAG_NORMAL;

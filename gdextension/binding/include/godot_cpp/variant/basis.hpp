@@ -8,13 +8,13 @@ namespace godot {
 struct Basis {
     Vector3 rows[3] = {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
 
-    constexpr Basis() = default;
+    Basis() {}
     // The three columns.
-    constexpr Basis(const Vector3 &x_axis, const Vector3 &y_axis, const Vector3 &z_axis)
+    Basis(const Vector3 &x_axis, const Vector3 &y_axis, const Vector3 &z_axis)
         : rows{Vector3(x_axis.x, y_axis.x, z_axis.x), Vector3(x_axis.y, y_axis.y, z_axis.y),
                Vector3(x_axis.z, y_axis.z, z_axis.z)} {}
     // Of a unit quaternion; another length is divided out.
-    constexpr Basis(const Quaternion &q) {
+    Basis(const Quaternion &q) {
         const real_t s = 2 / q.length_squared();
         const real_t x = q.x * s;
         const real_t y = q.y * s;
@@ -26,29 +26,29 @@ struct Basis {
     // `axis` of unit length, `angle` in rad.
     Basis(const Vector3 &axis, real_t angle) : Basis(Quaternion(axis, angle)) {}
 
-    constexpr Vector3 &operator[](int row) { return rows[row]; }
-    constexpr const Vector3 &operator[](int row) const { return rows[row]; }
-    constexpr Vector3 get_column(int i) const { return {rows[0][i], rows[1][i], rows[2][i]}; }
-    constexpr void set_column(int i, const Vector3 &value) {
+    Vector3 &operator[](int row) { return rows[row]; }
+    const Vector3 &operator[](int row) const { return rows[row]; }
+    Vector3 get_column(int i) const { return {rows[0][i], rows[1][i], rows[2][i]}; }
+    void set_column(int i, const Vector3 &value) {
         rows[0][i] = value.x;
         rows[1][i] = value.y;
         rows[2][i] = value.z;
     }
 
-    constexpr Vector3 xform(const Vector3 &v) const {
+    Vector3 xform(const Vector3 &v) const {
         return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)};
     }
     // By the transpose, which is the inverse of a rotation only.
-    constexpr Vector3 xform_inv(const Vector3 &v) const {
+    Vector3 xform_inv(const Vector3 &v) const {
         return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z;
     }
-    constexpr Basis transposed() const { return {rows[0], rows[1], rows[2]}; }
-    constexpr Basis operator*(const Basis &o) const {
+    Basis transposed() const { return {rows[0], rows[1], rows[2]}; }
+    Basis operator*(const Basis &o) const {
         return {xform(o.get_column(0)), xform(o.get_column(1)), xform(o.get_column(2))};
     }
-    constexpr real_t determinant() const { return rows[0].dot(rows[1].cross(rows[2])); }
+    real_t determinant() const { return rows[0].dot(rows[1].cross(rows[2])); }
     // A singular matrix has no inverse: the answer is then not finite.
-    constexpr Basis inverse() const {
+    Basis inverse() const {
         const real_t s = 1 / determinant();
         return {rows[1].cross(rows[2]) * s, rows[2].cross(rows[0]) * s, rows[0].cross(rows[1]) * s};
     }
@@ -78,10 +78,10 @@ struct Basis {
         return m.get_quaternion();
     }
 
-    constexpr bool operator==(const Basis &o) const {
+    bool operator==(const Basis &o) const {
         return rows[0] == o.rows[0] && rows[1] == o.rows[1] && rows[2] == o.rows[2];
     }
-    constexpr bool operator!=(const Basis &o) const { return !(*this == o); }
+    bool operator!=(const Basis &o) const { return !(*this == o); }
     bool is_equal_approx(const Basis &o) const {
         return rows[0].is_equal_approx(o.rows[0]) && rows[1].is_equal_approx(o.rows[1]) &&
                rows[2].is_equal_approx(o.rows[2]);

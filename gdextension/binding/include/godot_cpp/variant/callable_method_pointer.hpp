@@ -14,6 +14,8 @@ Callable make_callable(const Object *object, Wrapped *instance,
 
 template <class T, class M>
 Callable bound_callable(T *object, M method) {
+    static_assert(std::is_same_v<std::remove_const_t<T>, typename Member<M>::Class>,
+                  "callable_mp wants a method of the object's own class, not of a parent.");
     if (object == nullptr) {
         return Callable();
     }

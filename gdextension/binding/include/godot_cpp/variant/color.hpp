@@ -10,14 +10,11 @@ struct Color {
     float b = 0;
     float a = 1;
 
-    constexpr Color() = default;
-    constexpr Color(float p_r, float p_g, float p_b, float p_a = 1)
-        : r(p_r), g(p_g), b(p_b), a(p_a) {}
+    Color() {}
+    Color(float p_r, float p_g, float p_b, float p_a = 1) : r(p_r), g(p_g), b(p_b), a(p_a) {}
 
-    constexpr bool operator==(const Color &o) const {
-        return r == o.r && g == o.g && b == o.b && a == o.a;
-    }
-    constexpr bool operator!=(const Color &o) const { return !(*this == o); }
+    bool operator==(const Color &o) const { return r == o.r && g == o.g && b == o.b && a == o.a; }
+    bool operator!=(const Color &o) const { return !(*this == o); }
 };
 
 } // namespace godot

@@ -9,11 +9,11 @@ struct Plane {
     Vector3 normal;
     real_t d = 0;
 
-    constexpr Plane() = default;
-    constexpr Plane(const Vector3 &p_normal, real_t p_d) : normal(p_normal), d(p_d) {}
+    Plane() {}
+    Plane(const Vector3 &p_normal, real_t p_d) : normal(p_normal), d(p_d) {}
 
-    constexpr bool operator==(const Plane &o) const { return normal == o.normal && d == o.d; }
-    constexpr bool operator!=(const Plane &o) const { return !(*this == o); }
+    bool operator==(const Plane &o) const { return normal == o.normal && d == o.d; }
+    bool operator!=(const Plane &o) const { return !(*this == o); }
 };
 
 } // namespace godot

@@ -12,9 +12,8 @@ struct Quaternion {
     real_t z = 0;
     real_t w = 1;
 
-    constexpr Quaternion() = default;
-    constexpr Quaternion(real_t p_x, real_t p_y, real_t p_z, real_t p_w)
-        : x(p_x), y(p_y), z(p_z), w(p_w) {}
+    Quaternion() {}
+    Quaternion(real_t p_x, real_t p_y, real_t p_z, real_t p_w) : x(p_x), y(p_y), z(p_z), w(p_w) {}
     // `axis` of unit length, `angle` in rad.
     Quaternion(const Vector3 &axis, real_t angle) {
         const Vector3 v = axis.normalized() * std::sin(angle / 2);
@@ -22,33 +21,27 @@ struct Quaternion {
     }
 
     // The Hamilton product: the right factor turns first.
-    constexpr Quaternion operator*(const Quaternion &o) const {
+    Quaternion operator*(const Quaternion &o) const {
         return {w * o.x + x * o.w + y * o.z - z * o.y, w * o.y + y * o.w + z * o.x - x * o.z,
                 w * o.z + z * o.w + x * o.y - y * o.x, w * o.w - x * o.x - y * o.y - z * o.z};
     }
-    constexpr Quaternion operator+(const Quaternion &o) const {
-        return {x + o.x, y + o.y, z + o.z, w + o.w};
-    }
-    constexpr Quaternion operator-(const Quaternion &o) const {
-        return {x - o.x, y - o.y, z - o.z, w - o.w};
-    }
-    constexpr Quaternion operator-() const { return {-x, -y, -z, -w}; }
-    constexpr Quaternion operator*(real_t s) const { return {x * s, y * s, z * s, w * s}; }
-    constexpr Quaternion operator/(real_t s) const { return {x / s, y / s, z / s, w / s}; }
-    constexpr bool operator==(const Quaternion &o) const {
+    Quaternion operator+(const Quaternion &o) const { return {x + o.x, y + o.y, z + o.z, w + o.w}; }
+    Quaternion operator-(const Quaternion &o) const { return {x - o.x, y - o.y, z - o.z, w - o.w}; }
+    Quaternion operator-() const { return {-x, -y, -z, -w}; }
+    Quaternion operator*(real_t s) const { return {x * s, y * s, z * s, w * s}; }
+    Quaternion operator/(real_t s) const { return {x / s, y / s, z / s, w / s}; }
+    bool operator==(const Quaternion &o) const {
         return x == o.x && y == o.y && z == o.z && w == o.w;
     }
-    constexpr bool operator!=(const Quaternion &o) const { return !(*this == o); }
+    bool operator!=(const Quaternion &o) const { return !(*this == o); }
 
-    constexpr real_t dot(const Quaternion &o) const {
-        return x * o.x + y * o.y + z * o.z + w * o.w;
-    }
-    constexpr real_t length_squared() const { return dot(*this); }
+    real_t dot(const Quaternion &o) const { return x * o.x + y * o.y + z * o.z + w * o.w; }
+    real_t length_squared() const { return dot(*this); }
     real_t length() const { return std::sqrt(length_squared()); }
     Quaternion normalized() const { return *this / length(); }
     // Of a unit quaternion.
-    constexpr Quaternion inverse() const { return {-x, -y, -z, w}; }
-    constexpr Vector3 xform(const Vector3 &v) const {
+    Quaternion inverse() const { return {-x, -y, -z, w}; }
+    Vector3 xform(const Vector3 &v) const {
         const Vector3 u(x, y, z);
         const Vector3 uv = u.cross(v);
         return v + (uv * w + u.cross(uv)) * real_t(2);

@@ -8,35 +8,31 @@ struct Transform3D {
     Basis basis;
     Vector3 origin;
 
-    constexpr Transform3D() = default;
-    constexpr Transform3D(const Basis &p_basis, const Vector3 &p_origin = Vector3())
+    Transform3D() {}
+    Transform3D(const Basis &p_basis, const Vector3 &p_origin = Vector3())
         : basis(p_basis), origin(p_origin) {}
 
-    constexpr Vector3 xform(const Vector3 &v) const { return basis.xform(v) + origin; }
+    Vector3 xform(const Vector3 &v) const { return basis.xform(v) + origin; }
     // Right for a rotation only; affine_inverse() serves every other transform.
-    constexpr Vector3 xform_inv(const Vector3 &v) const { return basis.xform_inv(v - origin); }
-    constexpr Transform3D operator*(const Transform3D &o) const {
-        return {basis * o.basis, xform(o.origin)};
-    }
-    constexpr Transform3D inverse() const {
+    Vector3 xform_inv(const Vector3 &v) const { return basis.xform_inv(v - origin); }
+    Transform3D operator*(const Transform3D &o) const { return {basis * o.basis, xform(o.origin)}; }
+    Transform3D inverse() const {
         const Basis back = basis.transposed();
         return {back, -back.xform(origin)};
     }
-    constexpr Transform3D affine_inverse() const {
+    Transform3D affine_inverse() const {
         const Basis back = basis.inverse();
         return {back, -back.xform(origin)};
     }
     Transform3D orthonormalized() const { return {basis.orthonormalized(), origin}; }
 
-    constexpr Basis get_basis() const { return basis; }
-    constexpr void set_basis(const Basis &value) { basis = value; }
-    constexpr Vector3 get_origin() const { return origin; }
-    constexpr void set_origin(const Vector3 &value) { origin = value; }
+    Basis get_basis() const { return basis; }
+    void set_basis(const Basis &value) { basis = value; }
+    Vector3 get_origin() const { return origin; }
+    void set_origin(const Vector3 &value) { origin = value; }
 
-    constexpr bool operator==(const Transform3D &o) const {
-        return basis == o.basis && origin == o.origin;
-    }
-    constexpr bool operator!=(const Transform3D &o) const { return !(*this == o); }
+    bool operator==(const Transform3D &o) const { return basis == o.basis && origin == o.origin; }
+    bool operator!=(const Transform3D &o) const { return !(*this == o); }
     bool is_equal_approx(const Transform3D &o) const {
         return basis.is_equal_approx(o.basis) && origin.is_equal_approx(o.origin);
     }

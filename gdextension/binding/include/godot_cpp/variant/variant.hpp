@@ -69,7 +69,7 @@ public:
     Variant(const Object *object);
 
     template <class T>
-    requires internal::Number<T> Variant(T value) {
+    requires internal::Arithmetic<T> || internal::PlainEnum<T> Variant(T value) {
         if constexpr (std::is_same_v<T, bool>) {
             const GDExtensionBool wire = value ? 1 : 0;
             fill(GDEXTENSION_VARIANT_TYPE_BOOL, &wire);
@@ -102,7 +102,7 @@ public:
 
     // Converts as GDScript does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
     template <class T>
-    requires internal::Number<T>
+    requires internal::Arithmetic<T>
     explicit operator T() const {
         if constexpr (std::is_same_v<T, bool>) {
             return booleanize();
@@ -140,6 +140,7 @@ public:
     }
     String stringify() const;
     bool booleanize() const { return internal::api.variant_booleanize(bytes_.data()) != 0; }
+    // Values of two types are never equal: 1 is not 1.0, a String no StringName.
     bool operator==(const Variant &other) const;
     bool operator!=(const Variant &other) const { return !(*this == other); }
     static String get_type_name(Type type);

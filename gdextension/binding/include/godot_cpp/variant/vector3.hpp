@@ -9,34 +9,32 @@ struct Vector3 {
     real_t y = 0;
     real_t z = 0;
 
-    constexpr Vector3() = default;
-    constexpr Vector3(real_t p_x, real_t p_y, real_t p_z) : x(p_x), y(p_y), z(p_z) {}
+    Vector3() {}
+    Vector3(real_t p_x, real_t p_y, real_t p_z) : x(p_x), y(p_y), z(p_z) {}
 
     // `axis` is 0, 1 or 2.
-    constexpr real_t &operator[](int axis) { return axis == 0 ? x : (axis == 1 ? y : z); }
-    constexpr const real_t &operator[](int axis) const {
-        return axis == 0 ? x : (axis == 1 ? y : z);
-    }
+    real_t &operator[](int axis) { return axis == 0 ? x : (axis == 1 ? y : z); }
+    const real_t &operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
 
-    constexpr Vector3 operator+(const Vector3 &o) const { return {x + o.x, y + o.y, z + o.z}; }
-    constexpr Vector3 operator-(const Vector3 &o) const { return {x - o.x, y - o.y, z - o.z}; }
-    constexpr Vector3 operator*(const Vector3 &o) const { return {x * o.x, y * o.y, z * o.z}; }
-    constexpr Vector3 operator/(const Vector3 &o) const { return {x / o.x, y / o.y, z / o.z}; }
-    constexpr Vector3 operator*(real_t s) const { return {x * s, y * s, z * s}; }
-    constexpr Vector3 operator/(real_t s) const { return {x / s, y / s, z / s}; }
-    constexpr Vector3 operator-() const { return {-x, -y, -z}; }
-    constexpr Vector3 &operator+=(const Vector3 &o) { return *this = *this + o; }
-    constexpr Vector3 &operator-=(const Vector3 &o) { return *this = *this - o; }
-    constexpr Vector3 &operator*=(real_t s) { return *this = *this * s; }
-    constexpr Vector3 &operator/=(real_t s) { return *this = *this / s; }
-    constexpr bool operator==(const Vector3 &o) const { return x == o.x && y == o.y && z == o.z; }
-    constexpr bool operator!=(const Vector3 &o) const { return !(*this == o); }
+    Vector3 operator+(const Vector3 &o) const { return {x + o.x, y + o.y, z + o.z}; }
+    Vector3 operator-(const Vector3 &o) const { return {x - o.x, y - o.y, z - o.z}; }
+    Vector3 operator*(const Vector3 &o) const { return {x * o.x, y * o.y, z * o.z}; }
+    Vector3 operator/(const Vector3 &o) const { return {x / o.x, y / o.y, z / o.z}; }
+    Vector3 operator*(real_t s) const { return {x * s, y * s, z * s}; }
+    Vector3 operator/(real_t s) const { return {x / s, y / s, z / s}; }
+    Vector3 operator-() const { return {-x, -y, -z}; }
+    Vector3 &operator+=(const Vector3 &o) { return *this = *this + o; }
+    Vector3 &operator-=(const Vector3 &o) { return *this = *this - o; }
+    Vector3 &operator*=(real_t s) { return *this = *this * s; }
+    Vector3 &operator/=(real_t s) { return *this = *this / s; }
+    bool operator==(const Vector3 &o) const { return x == o.x && y == o.y && z == o.z; }
+    bool operator!=(const Vector3 &o) const { return !(*this == o); }
 
-    constexpr real_t dot(const Vector3 &o) const { return x * o.x + y * o.y + z * o.z; }
-    constexpr Vector3 cross(const Vector3 &o) const {
+    real_t dot(const Vector3 &o) const { return x * o.x + y * o.y + z * o.z; }
+    Vector3 cross(const Vector3 &o) const {
         return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
     }
-    constexpr real_t length_squared() const { return dot(*this); }
+    real_t length_squared() const { return dot(*this); }
     real_t length() const { return std::sqrt(length_squared()); }
     real_t distance_to(const Vector3 &o) const { return (o - *this).length(); }
 
@@ -59,7 +57,7 @@ struct Vector3 {
     }
 };
 
-constexpr Vector3 operator*(real_t s, const Vector3 &v) {
+inline Vector3 operator*(real_t s, const Vector3 &v) {
     return v * s;
 }
 

@@ -33,6 +33,12 @@ public:
 
     // In flash. The factory's mask is 0: magnet sensors, which a SPIDAR does not have.
     std::uint32_t quadrature_mask = 0xFF;
+    // Answers to another id as soon as it is written; else from the next power-up on. The sources do not say which.
+    bool id_counts_at_once = false;
+    bool forgets = false; // its flash is worn out
+    // What SET_PARAM has written to flash so often.
+    [[nodiscard]] std::uint64_t flash_writes() const { return flash_writes_; }
+    [[nodiscard]] std::uint8_t flash_id() const { return flash_id_; }
     // Counts of motors without a hardware counter are lost above this speed; below, none are.
     double sure_counts_s = 1e12;
     double lost_share = 0.0; // of the counts above it
@@ -46,6 +52,7 @@ private:
     void prepare_reply(BoardCommand command);
     void execute();
     void append(std::int16_t word);
+    void set_parameter();
 
     BoardLayout layout_;
     std::array<std::array<std::uint8_t, kBoardCommandCount>, kMostBoards> lengths_{};
@@ -61,6 +68,8 @@ private:
     std::array<std::int16_t, kMostBoardMotors> speeds_{};
     std::array<double, kMostBoardMotors> losses_{};
     std::uint8_t parameter_ = 0; // asked for last
+    std::uint8_t flash_id_ = 0;
+    std::uint64_t flash_writes_ = 0;
     std::array<std::uint64_t, kBoardCommandCount> executed_{};
     std::uint64_t cut_replies_ = 0;
 };

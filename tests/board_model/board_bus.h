@@ -10,9 +10,10 @@
 #include <thread>
 #include <vector>
 
+#include "board_model/board_firmware.h"
+#include "board_model/hung_weight.h"
 #include "device/simulation/simulated_plant.h"
 #include "device/threads/triple_buffer.h"
-#include "serial/board_firmware.h"
 
 namespace spidar::test {
 
@@ -20,6 +21,16 @@ struct BusSettings {
     std::vector<BoardLayout> boards;
     PlantSettings plant;
     double units_per_a = 100.0; // of the boards' currents
+    CountArray
+        home_counts{}; // where the boards begin to count: they are switched on with the grip at home
+};
+
+// What is done to the device from outside.
+struct BusOrders {
+    HandTarget target;
+    HandFirmness firmness = HandFirmness::normal;
+    int hung_string = -1; // taken off the grip, with a weight on it; -1: none
+    double weight_n = 0.0;
 };
 
 // What happens to the bytes of the boards' answers; shares of the reads of the bus thread.
@@ -36,6 +47,10 @@ struct BusSeen {
     std::uint64_t heard_bytes = 0;
     std::uint64_t currents = 0; // CURRENT commands carried out, by all boards
     std::uint64_t cut_replies = 0;
+    // In flash.
+    std::array<std::uint32_t, kMostBoards> masks{};
+    std::array<std::uint8_t, kMostBoards> ids{};
+    std::uint64_t flash_writes = 0;
 };
 
 class BoardBus {
@@ -56,7 +71,12 @@ public:
     // From one thread, without a lock: a test that is held up must not hold the bus up.
     [[nodiscard]] BusSeen seen() { return newest().seen; }
     [[nodiscard]] CountArray counts() { return newest().counts; } // of the strings since power-up
-    void set_hand_target(const HandTarget &target) { targets_.write(target); }
+    [[nodiscard]] const PlantTruth &truth() { return newest().truth; }
+    void set_hand_target(const HandTarget &target) {
+        orders_.target = target;
+        order(orders_);
+    }
+    void order(const BusOrders &orders) { orders_box_.write(orders); }
     template <typename Work>
     auto with_boards(const Work &work) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -68,6 +88,7 @@ private:
     struct News {
         BusSeen seen;
         CountArray counts{};
+        PlantTruth truth;
     };
     const News &newest() {
         (void)news_.read(read_);
@@ -81,13 +102,17 @@ private:
 
     const BusSettings settings_;
     const std::string link_;
-    TripleBuffer<HandTarget> targets_;
+    BusOrders orders_; // the caller's
+    TripleBuffer<BusOrders> orders_box_;
     TripleBuffer<News> news_;
     News read_;
     std::mutex mutex_; // all below
     int master_ = -1;
     std::vector<BoardFirmware> boards_;
+    BusOrders taken_;
     SimulatedPlant plant_;
+    HungWeight weight_;
+    StringArray newtons_per_ampere_{};
     std::int64_t moved_ns_ = 0;
     CountArray counts_{};
     CountArray home_{}; // counts at power-up

@@ -1,8 +1,9 @@
-#include "serial/board_bus.h"
+#include "board_model/board_bus.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -35,14 +36,16 @@ bool make_raw(const char *slave) {
 
 BoardBus::BoardBus(const BusSettings &settings, std::string link)
     : settings_(settings), link_(std::move(link)),
-      boards_(settings.boards.begin(), settings.boards.end()), plant_(settings.plant) {
+      boards_(settings.boards.begin(), settings.boards.end()), plant_(settings.plant),
+      newtons_per_ampere_(motor_scale(settings.plant.motors).tension_per_ampere_n_a) {
     counts_ = plant_.counts();
     home_ = counts_;
     moved_ns_ = monotonic_ns();
     std::size_t string = 0;
     for (BoardFirmware &board : boards_) { // counted from power-up, which is at home
         for (std::size_t i = 0; i < board.layout().motors() && string < counts_.size(); ++i) {
-            board.turn(i, counts_[string++], 0.0);
+            board.turn(i, counts_[string] - settings.home_counts[string], 0.0);
+            ++string;
         }
         board.restart();
     }
@@ -129,9 +132,10 @@ bool BoardBus::serve(std::vector<std::uint8_t> &answer) {
 }
 
 void BoardBus::move_on(std::int64_t now_ns) {
-    HandTarget target;
-    if (targets_.read(target)) {
-        plant_.set_hand_target(target);
+    if (orders_box_.read(taken_)) {
+        plant_.set_hand_target(taken_.target);
+        plant_.set_hand_firmness(taken_.firmness);
+        weight_.hang(taken_.hung_string, taken_.weight_n);
     }
     const std::int64_t step_ns = std::min(now_ns - moved_ns_, kLongestStep_ns);
     moved_ns_ = now_ns;
@@ -140,7 +144,12 @@ void BoardBus::move_on(std::int64_t now_ns) {
     seen_.strongest = 0;
     seen_.currents = 0;
     seen_.cut_replies = 0;
+    seen_.flash_writes = 0;
+    std::size_t place = 0;
     for (const BoardFirmware &board : boards_) {
+        seen_.masks[place] = board.quadrature_mask;
+        seen_.ids[place++] = board.flash_id();
+        seen_.flash_writes += board.flash_writes();
         seen_.currents += board.executed(BoardCommand::current);
         seen_.cut_replies += board.cut_replies();
         for (std::size_t i = 0; i < board.layout().motors() && string < currents_a.size(); ++i) {
@@ -151,9 +160,19 @@ void BoardBus::move_on(std::int64_t now_ns) {
     }
     seen_.strongest_ever = std::max(seen_.strongest_ever, seen_.strongest);
     seen_.last_pull_ns = seen_.strongest > 0 ? now_ns : seen_.last_pull_ns;
+    double weighing_a = 0.0;
+    if (weight_.hangs()) { // its motor no longer pulls the grip
+        std::swap(weighing_a, currents_a[static_cast<std::size_t>(weight_.string())]);
+    }
     plant_.set_currents(currents_a);
     plant_.advance(static_cast<double>(step_ns) * 1e-9);
-    const CountArray counts = plant_.counts();
+    CountArray counts = plant_.counts();
+    if (weight_.hangs()) {
+        const auto i = static_cast<std::size_t>(weight_.string());
+        weight_.advance(weighing_a * newtons_per_ampere_[i], static_cast<double>(step_ns) * 1e-9);
+        counts[i] -= static_cast<std::int32_t>(
+            std::lround(weight_.height_m() / settings_.plant.metres_per_count));
+    }
     string = 0;
     for (BoardFirmware &board : boards_) {
         for (std::size_t i = 0; i < board.layout().motors() && string < counts.size(); ++i) {
@@ -165,7 +184,7 @@ void BoardBus::move_on(std::int64_t now_ns) {
         }
     }
     counts_ = counts;
-    News news{seen_, counts};
+    News news{seen_, counts, plant_.truth()};
     for (std::size_t i = 0; i < counts.size(); ++i) {
         news.counts[i] -= home_[i];
     }

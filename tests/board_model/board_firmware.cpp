@@ -1,4 +1,4 @@
-#include "serial/board_firmware.h"
+#include "board_model/board_firmware.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,12 @@ bool has_hardware_counter(std::size_t motor) {
 
 } // namespace
 
-BoardFirmware::BoardFirmware(const BoardLayout &layout) : layout_(layout) {
+BoardFirmware::BoardFirmware(const BoardLayout &layout) : layout_(layout), flash_id_(layout.id) {
     restart();
 }
 
 void BoardFirmware::restart() {
+    layout_.id = flash_id_;
     for (auto &lengths : lengths_) {
         for (std::size_t i = 0; i < lengths.size(); ++i) {
             lengths[i] =
@@ -125,7 +126,9 @@ void BoardFirmware::prepare_reply(BoardCommand command) {
         break;
     case BoardCommand::get_parameter:
         reply_.push_back(parameter_);
-        if (parameter_ == static_cast<std::uint8_t>(BoardParameter::quadrature_mask)) {
+        if (parameter_ == static_cast<std::uint8_t>(BoardParameter::board_id)) {
+            reply_.push_back(flash_id_);
+        } else if (parameter_ == static_cast<std::uint8_t>(BoardParameter::quadrature_mask)) {
             for (unsigned shift = 0; shift < 32; shift += 8) {
                 reply_.push_back(static_cast<std::uint8_t>(quadrature_mask >> shift & 0xFFU));
             }
@@ -157,12 +160,25 @@ void BoardFirmware::execute() {
         }
     } else if (command == BoardCommand::get_parameter) {
         parameter_ = command_[1];
-    } else if (command == BoardCommand::set_parameter &&
-               command_[1] == static_cast<std::uint8_t>(BoardParameter::quadrature_mask)) {
+    } else if (command == BoardCommand::set_parameter) {
+        set_parameter();
+    }
+}
+
+void BoardFirmware::set_parameter() {
+    const auto parameter = static_cast<BoardParameter>(command_[1]);
+    flash_writes_ += parameter != BoardParameter::torque_limits ? 1U : 0U;
+    if (forgets) {
+        return;
+    }
+    if (parameter == BoardParameter::quadrature_mask) {
         quadrature_mask = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             quadrature_mask |= std::uint32_t{command_[2 + i]} << 8U * i;
         }
+    } else if (parameter == BoardParameter::board_id) {
+        flash_id_ = command_[2] & 7U;
+        layout_.id = id_counts_at_once ? flash_id_ : layout_.id;
     }
 }
 
