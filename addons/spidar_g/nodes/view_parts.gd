@@ -22,7 +22,7 @@ const METAL_COLOUR: Color = Color(0.82, 0.83, 0.86)
 const PAD_COLOUR: Color = Color(0.16, 0.18, 0.22)
 const FORCE_COLOUR: Color = Color(0.85, 0.15, 0.55)
 ## Translucent, so that a held body inside the grip can be seen.
-const HEMISPHERE_ALPHA: float = 0.22
+const GLASS_ALPHA: float = 0.22
 
 var frame: MultiMeshInstance3D
 var strings: MultiMeshInstance3D
@@ -55,6 +55,8 @@ func _init() -> void:
 		remove_child(part)
 		grip.add_child(part)
 	_ball = _one(_sphere(RIGID_BALL_RADIUS_M), POLE_COLOURS[0])
+	_ball.material_override = _glass(POLE_COLOURS[0])
+	_ball.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 	grip.add_child(_ball)
 	for pole: int in 2:
 		_make_pole(pole)
@@ -156,9 +158,7 @@ func _make_pole(pole: int) -> void:
 	node.add_child(rod)
 	_rods.append(rod)
 	var half: MeshInstance3D = _one(_hemisphere(HEMISPHERE_RADIUS_M), POLE_COLOURS[pole])
-	var glass: StandardMaterial3D = _matte(Color(POLE_COLOURS[pole], HEMISPHERE_ALPHA))
-	glass.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
-	half.material_override = glass
+	half.material_override = _glass(POLE_COLOURS[pole])
 	half.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 	half.rotation.x = 0.5 * PI if pole == 0 else -0.5 * PI
 	node.add_child(half)
@@ -273,6 +273,12 @@ static func _matte(colour: Color) -> StandardMaterial3D:
 	material.albedo_color = colour
 	material.roughness = 0.6
 	material.cull_mode = BaseMaterial3D.CULL_DISABLED  # Hemispheres are open shells.
+	return material
+
+
+static func _glass(colour: Color) -> StandardMaterial3D:
+	var material: StandardMaterial3D = _matte(Color(colour, GLASS_ALPHA))
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
 	return material
 
 

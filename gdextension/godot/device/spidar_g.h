@@ -306,8 +306,7 @@ private:
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
     [[nodiscard]] godot::Dictionary describe_event(const spidar::DeviceEvent &event);
-    // Who asked for how much when a request is limited, and to what.
-    [[nodiscard]] std::string limited_request() const;
+    [[nodiscard]] std::string limited_request() const; // who asked for how much, and to what
     void tell_limited(const spidar::ServoSnapshot &before);
     void beat();
     void follow_grasp_action();
