@@ -120,7 +120,7 @@ func test_settings_that_no_device_can_have_are_refused() -> void:
 	config.serial_most_units = 5000
 	check(config.get_problem().contains("serial_most_units"), config.get_problem())
 	config.serial_most_units = 1024
-	config.serial_units_per_ampere = 0.0
+	config.serial_units_per_ampere = -1.0
 	check(config.get_problem().contains("serial_units_per_ampere"), config.get_problem())
 
 
