@@ -26,12 +26,17 @@ export_path=""
 
 custom_template/debug="{templates}/godot-template-debug"
 custom_template/release="{templates}/godot-template-release"
+debug/export_console_wrapper=0
 binary_format/embed_pck=false
 binary_format/architecture="x86_64"
 """
 # To play a task by script: goes after the program, before the folder of its results.
 PLAY = ["--headless", "--audio-driver", "Dummy", "--fixed-fps", "60", "--",
         "--play", "pick_and_place", "--level", "1", "--seed", "1", "--out"]
+
+# On a busy machine Godot's own physics may run out of job slots for a moment. And Debian's release template says the
+# other of every container that loses a child, in a project of three nodes too.
+NOISE = ("Jolt Physics job system", "Attempt to disconnect a nonexistent connection")
 
 _counts = [0, 0]
 
@@ -59,9 +64,9 @@ def run(command, folder):
 
 
 def errors_of(output):
-    """Of ours: on a busy machine Godot's own physics may run out of job slots for a moment, and says so."""
+    """What nobody expects: without Godot's own noise."""
     lines = re.findall(r"^.*(?:ERROR|WARNING).*$", output, re.M)
-    return [line for line in lines if "Jolt Physics job system" not in line]
+    return [line for line in lines if not any(noise in line for noise in NOISE)]
 
 
 def copy_project(source, target, platform="Linux", templates=""):

@@ -23,6 +23,10 @@ LIBRARY = "libspidar_g.linux.template_{}.x86_64.so"
 GUARD = "spidar_g_guard.x86_64"
 SENTENCE = "The SPIDAR-G add-on is not loaded: addons/spidar_g/bin holds no library for this system."
 OFF_LIMIT_MS = 50
+# A release program keeps its words for itself until it ends, unless it is told to say them at once.
+MAIN_LOOP = """run/main_scene="res://empty.tscn"
+run/main_loop_type="SerialGame"
+run/flush_stdout_on_print=true"""
 
 
 def demo(godot, templates, kind, folder):
@@ -62,7 +66,7 @@ def check_guard(godot, templates, kind, folder, board_model):
     with open(settings, encoding="utf-8") as file:
         text = file.read()
     with open(settings, "w", encoding="utf-8") as file:
-        file.write(text.replace('run/main_scene=""', 'run/main_scene="res://empty.tscn"\nrun/main_loop_type="SerialGame"'))
+        file.write(text.replace('run/main_scene=""', MAIN_LOOP))
     godot_project.prepare_project(project, godot)
     program = os.path.join(folder, "serial")
     exported.export(godot, project, kind, program)
