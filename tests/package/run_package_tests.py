@@ -85,7 +85,7 @@ def main():
         for library in (os.path.join(project, ADDON, name) for name in programs):
             found = needed_glibc(library)
             check(found <= GLIBC_FLOOR, f"{os.path.basename(library)} needs glibc {found[0]}.{found[1]}")
-        for library in (os.path.join(project, ADDON, name) for name in [*libraries, "bin/spidar_g_guard"]):
+        for library in (os.path.join(project, ADDON, name) for name in [*libraries, *sorted(set(guards.values()))]):
             check(not told_folders(library), f"{os.path.basename(library)} names no folder of its builder: "
                   f"{told_folders(library)[:3]}")
         with open(os.path.join(project, "project.godot"), "w", encoding="utf-8") as file:
