@@ -129,6 +129,15 @@ def version_header(version):
     )
 
 
+# --- Linux on arm64, cross-compiled -----------------------------------------------------------------
+
+
+def use_cross_compiler(env):
+    """Debian's cross-compiler. It finds headers that are the same for all in the host's /usr/include."""
+    prefix = "aarch64-linux-gnu-"
+    env.Replace(CC=prefix + "gcc", CXX=prefix + "g++", AR=prefix + "ar", RANLIB=prefix + "ranlib")
+
+
 # --- Windows, cross-compiled -----------------------------------------------------------------------
 
 MINGW = "x86_64-w64-mingw32-"
@@ -176,9 +185,21 @@ def windows_hidapi(env, build):
     return [hidapi.StaticLibrary(f"{build}/lib/hidapi", hidapi.SharedObject(f"{build}/obj/hidapi_hid", source))]
 
 
-def library_path(addon, platform_name, target):
-    name = f"spidar_g.{platform_name}.{target}.{architecture()}"
+def library_path(addon, platform_name, arch, target):
+    name = f"spidar_g.{platform_name}.{target}.{arch}"
     return f"{addon}/bin/{name}.dll" if platform_name == "windows" else f"{addon}/bin/lib{name}.so"
+
+
+def guard_path(addon, arch):
+    """The guard of serial boards; device/serial/port_guard.cpp looks for it by this name."""
+    return f"{addon}/bin/spidar_g_guard.{arch}"
+
+
+def other_libraries(addon, targets):
+    """What a release holds beside what is built for this machine, which is Linux on x86-64."""
+    paths = [library_path(addon, "windows", "x86_64", target) for target in targets]
+    paths += [library_path(addon, "linux", "arm64", target) for target in targets]
+    return [*paths, guard_path(addon, "arm64")]
 
 
 # --- compile_commands.json -----------------------------------------------------------------------
@@ -208,8 +229,8 @@ def find_hidapi(env):
         path = done.stdout.strip()
     if not os.path.isfile(path):
         raise BuildError(
-            f"{name} is missing: install hidapi with its static library (Debian: libhidapi-dev), "
-            "or give hidapi=FILE"
+            f"{name} is missing: install hidapi with its static library (Debian: libhidapi-dev, for another "
+            "processor libhidapi-dev:arm64), or give hidapi=FILE"
         )
     return [env.File(os.path.abspath(path))]
 

@@ -16,10 +16,14 @@ import zipfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 import godot_project  # noqa: E402
+from told_folders import told_folders  # noqa: E402
 
 ADDON = "addons/spidar_g/"
 NEEDED = ["README.md", "LICENSE.md", "THIRDPARTY.md", "plugin.cfg", "spidar_g.gdextension",
-          "udev/70-spidar-g.rules", "bin/spidar_g_guard"]
+          "udev/70-spidar-g.rules", "bin/spidar_g_guard.x86_64", "bin/spidar_g_guard.arm64",
+          "stand_in/.gdignore", "stand_in/spidar_g.gd"]
+PLATFORMS = ["linux.debug.x86_64", "linux.release.x86_64", "linux.debug.arm64", "linux.release.arm64",
+             "windows.debug.x86_64", "windows.release.x86_64"]
 # docs/building.md gives this number to the user.
 GLIBC_FLOOR = (2, 35)
 LIMIT_S = 120
@@ -44,6 +48,12 @@ def run_smoke(godot, project):
     return done.returncode, done.stdout
 
 
+def machine_of(program):
+    """The processor in an ELF file's header."""
+    with open(program, "rb") as file:
+        return {62: "x86_64", 183: "arm64"}.get(int.from_bytes(file.read(20)[18:], "little"))
+
+
 def needed_glibc(library):
     table = subprocess.run(["objdump", "-T", library], check=True, text=True, capture_output=True).stdout
     return max(tuple(int(n) for n in v.split(".")) for v in re.findall(r"GLIBC_(\d+\.\d+)", table))
@@ -61,15 +71,24 @@ def main():
         manifest = os.path.join(project, ADDON, "spidar_g.gdextension")
         with open(manifest, encoding="utf-8") as file:
             text = file.read()
-        libraries = re.findall(r'^\w+\.(?:debug|release)\.\w+ = "(.*)"', text, re.M)
-        check(len(libraries) == 4, "the manifest names four libraries")
+        named = dict(re.findall(r'^(\w+\.(?:debug|release)\.\w+) = "(.*)"', text, re.M))
+        libraries = list(named.values())
+        check(sorted(named) == sorted(PLATFORMS), f"the manifest names a library for each of {', '.join(named)}")
         for library in libraries:
             check(ADDON + library in names, f"holds {library}")
-        programs = [name for name in libraries if name.endswith(".so")] + ["bin/spidar_g_guard"]
+        guards = dict(re.findall(r'^(\w+\.\w+\.\w+) = \{ "res://addons/spidar_g/(.*)": "" \}', text, re.M))
+        check(all(guards.get(platform) == "bin/spidar_g_guard." + platform.split(".")[2]
+                  for platform in PLATFORMS if platform.startswith("linux")), "the manifest exports each Linux library's guard")
+        programs = [name for name in libraries if name.endswith(".so")] + sorted(set(guards.values()))
+        for name in programs:
+            machine = machine_of(os.path.join(project, ADDON, name))
+            check(machine == name.removesuffix(".so").split(".")[-1], f"{os.path.basename(name)} is for {machine}")
         for library in (os.path.join(project, ADDON, name) for name in programs):
             found = needed_glibc(library)
             check(found <= GLIBC_FLOOR, f"{os.path.basename(library)} needs glibc {found[0]}.{found[1]}")
-        for library in (os.path.join(project, ADDON, name) for name in [*libraries, "bin/spidar_g_guard"]):
+        # The debug DLL has mingw-w64's runtime inside, whose debug information names that one's own folders.
+        ours = [name for name in libraries if name.endswith(".so") or "release" in name]
+        for library in (os.path.join(project, ADDON, name) for name in [*ours, *sorted(set(guards.values()))]):
             check(not told_folders(library), f"{os.path.basename(library)} names no folder of its builder: "
                   f"{told_folders(library)[:3]}")
         with open(os.path.join(project, "project.godot"), "w", encoding="utf-8") as file:

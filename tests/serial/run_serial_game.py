@@ -45,19 +45,19 @@ def last_number(lines, word):
 
 
 class Play:
-    """Boards, and a game on them that pulls."""
+    """Boards, and a game on them that pulls: a command that takes the port as its last argument."""
 
-    def __init__(self, godot, program, folder):
-        for _ in range(TRIES):
+    def __init__(self, game, program, folder, tries=TRIES):
+        for number in range(1, tries + 1):
             self.link = os.path.join(folder, "port")
             self.boards = BoardModel(program, self.link)
-            self.game = Speaker([godot, "--headless", "--path", PROJECT, "--script",
-                                 "res://serial_game.gd", "--", self.link])
+            self.game = Speaker([*game, self.link])
             self.pulls = self.game.says("active", PULL_LIMIT_S)
             if self.pulls:
                 return
             print("\n".join(self.game.lines[-6:]))
-            self.end()
+            if number < tries:
+                self.end()
 
     def off_after_ms(self, sent_ns):
         """From this moment until no board has a current; None: some still has."""
@@ -75,11 +75,12 @@ class Play:
         self.boards.end()
 
 
-def killed(godot, program, folder, number, limit_ms):
+def killed(game, program, folder, number, limit_ms):
     name = signal.Signals(number).name
-    play = Play(godot, program, folder)
+    play = Play(game, program, folder)
     check(play.pulls, f"{name}: the game pulls")
     if not play.pulls:
+        play.end()
         return
     device = [line for line in play.game.lines if line.startswith("device")]
     check(device and device[0] == f'device B5M with id 1 at {play.link}, rate 2951, remarks ""', f"{name}: {device}")
@@ -133,14 +134,15 @@ def worked(godot, program, folder, script, options, last, limit_s):
 def main():
     godot, program = sys.argv[1:]
     godot_project.prepare_project(PROJECT, godot)
+    game = [godot, "--headless", "--path", PROJECT, "--script", "res://serial_game.gd", "--"]
     with tempfile.TemporaryDirectory() as folder:
         found_later(godot, program, folder, "unplug", "plug", "unplugged")
         found_later(godot, program, folder, "mute 1", "mute 0", "boards without power")
         worked(godot, program, folder, "calibrate", ["--errors", "7"], "calibrated", CALIBRATION_LIMIT_S)
         worked(godot, program, folder, "parameters", ["--mask", "0"], "done", PARAMETERS_LIMIT_S)
-        killed(godot, program, folder, signal.SIGKILL, OFF_LIMIT_MS)
-        killed(godot, program, folder, signal.SIGSTOP, OFF_LIMIT_MS)
-        killed(godot, program, folder, signal.SIGSEGV, OFF_LIMIT_MS)
+        killed(game, program, folder, signal.SIGKILL, OFF_LIMIT_MS)
+        killed(game, program, folder, signal.SIGSTOP, OFF_LIMIT_MS)
+        killed(game, program, folder, signal.SIGSEGV, OFF_LIMIT_MS)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 

@@ -11,13 +11,14 @@
 
 #include "board_model/known_buses.h"
 #include "device/loop/servo_loop.h"
+#include "device/serial/port_guard.h"
 #include "device/serial/serial_transport.h"
 #include "device/threads/real_time_thread.h"
 #include "support/servo_fixture.h"
 
 namespace spidar::test {
 
-inline constexpr const char *kGuardProgram = "addons/spidar_g/bin/spidar_g_guard";
+inline const std::string kGuardProgram = std::string("addons/spidar_g/bin/") + kGuardFile;
 
 inline void sleep_ms(int time_ms) {
     std::this_thread::sleep_for(std::chrono::milliseconds(time_ms));

@@ -20,13 +20,14 @@ build() {
     if compgen -G "addons/spidar_g/bin/*spidar_g.*" >/dev/null; then prepare_demo; fi
 }
 
-# The release: libraries for Linux and Windows, against the API in $GODOT_API (an extension_api.json of the lowest Godot
+# The release: libraries for Linux on x86-64 and arm64 and for Windows, against the API in $GODOT_API (an extension_api.json of the lowest Godot
 # supported), else that of the Godot in use. The tree's own libraries and manifest are then those of the release.
 package() {
     local target options=()
-    need "${build_needs[@]}" "${windows_needs[@]}"
+    need "${build_needs[@]}" "${windows_needs[@]}" "${cross_needs[@]}"
     find_godot
     find_jolt
+    find_arm64_hidapi
     python3 tools/fetch/fetch_hidapi.py
     if [[ -n ${GODOT_API:-} ]]; then
         [[ -e $GODOT_API ]] || die "GODOT_API=$GODOT_API: no such file"
@@ -39,8 +40,9 @@ package() {
     fi
     for target in template_debug template_release; do
         scons -Q -j"$jobs" platform=windows target=$target "${options[@]}" addon
+        scons -Q -j"$jobs" arch=arm64 hidapi="$arm64_hidapi" target=$target "${options[@]}" addon
     done
-    scons -Q -j"$jobs" "${options[@]}" with_windows=yes package
+    scons -Q -j"$jobs" "${options[@]}" with_others=yes package
 }
 
 package_and_try() {

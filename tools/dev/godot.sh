@@ -78,18 +78,20 @@ debian_mirror() {
              && $1 ~ /debian/ {print $1; exit}'
 }
 
-# private_apt FOLDER: an apt of its own in FOLDER, which knows godot_suite and nothing else. Prints its configuration file.
-# FOLDER is a plain name: apt's settings cannot hold every name a folder may have.
+# private_apt FOLDER [SUITE] [ARCHITECTURE]: an apt of its own in FOLDER, which knows that suite (godot_suite unless given)
+# and nothing else. Prints its configuration file. FOLDER is a plain name: apt's settings cannot hold every name a folder
+# may have.
 private_apt() {
-    local work=$1 keyring=/usr/share/keyrings/debian-archive-keyring.gpg mirror
+    local work=$1 suite=${2:-$godot_suite} architecture=${3:-$(dpkg --print-architecture)}
+    local keyring=/usr/share/keyrings/debian-archive-keyring.gpg mirror
     need "$keyring:debian-archive-keyring" >&2
     mirror=$(debian_mirror)
     [[ -n $mirror ]] || die "no Debian mirror among this machine's apt sources; install Godot" \
         "$minimum_godot or later yourself, on PATH or as GODOT, and give a checkout of Jolt by jolt=PATH"
     mkdir -p "$work"/{lists,archives}/partial "$work/empty"
     : >"$work/status"
-    printf '%s [signed-by=%s] %s %s main\n' deb "$keyring" "$mirror" "$godot_suite" \
-        deb-src "$keyring" "$mirror" "$godot_suite" >"$work/sources.list"
+    printf '%s [signed-by=%s] %s %s main\n' deb "$keyring" "$mirror" "$suite" \
+        deb-src "$keyring" "$mirror" "$suite" >"$work/sources.list"
     {
         # Proxies and the like are this machine's own; its hooks are not run.
         apt-config dump | grep -E '^Acquire::(http|https|ftp|Check|Retries)' || true
@@ -106,6 +108,8 @@ Dir::Etc::parts "$work/empty";
 Acquire::Languages "none";
 Acquire::IndexTargets::deb::DEP-11::DefaultEnabled "false";
 Acquire::Retries "3";
+APT::Architecture "$architecture";
+APT::Architectures { "$architecture"; };
 APT::Install-Recommends "false";
 APT::Sandbox::User "";
 Debug::NoLocking "true";
@@ -135,25 +139,73 @@ fetch_copy() { # fetch_copy FOLDER: unpacks into FOLDER/copy; an interrupted dow
     echo "$copy_version" >"$work/copy/made"
 }
 
+# Sets loader, libraries and patcher: the copy's own C library, the folder of its libraries, and the command that patches.
+look_into_copy() {
+    loader=$(find "$copy/root/usr/lib" -name 'ld-linux*.so.*' -type f | head -n 1)
+    libraries=$(dirname "$(find "$copy/root/usr/lib" -name libc.so.6 | head -n 1)")
+    patcher=("$loader" --library-path "$libraries" "$copy/root/usr/bin/patchelf")
+}
+
+# use_copy PROGRAM FOLDER: it takes its C library from the copy and its libraries from FOLDER. RPATH, not RUNPATH: it holds
+# for libraries of libraries, and for those that are loaded later by name, as the drivers of OpenGL are.
+use_copy() { "${patcher[@]}" --set-interpreter "$loader" --force-rpath --set-rpath "$2:$2/pulseaudio" "$1"; }
+
 # Patches the copy for the place where it is.
 settle_copy() {
-    local tree=$copy/root loader libraries library
-    loader=$(find "$tree/usr/lib" -name 'ld-linux*.so.*' -type f | head -n 1)
-    libraries=$(dirname "$(find "$tree/usr/lib" -name libc.so.6 | head -n 1)")
-    local patcher=("$loader" --library-path "$libraries" "$tree/usr/bin/patchelf")
+    local tree=$copy/root loader libraries patcher library
+    look_into_copy
     # A library with a path of its own does not search the program's: nor would what it loads be found.
     for library in "$libraries"/*.so* "$libraries"/pulseaudio/*.so*; do
         [[ -f $library && ! -L $library && -n $("${patcher[@]}" --print-rpath "$library" 2>/dev/null) ]] || continue
         "${patcher[@]}" --remove-rpath "$library"
     done
-    # A new file, then renamed: a Godot that runs keeps its own. RPATH, not RUNPATH: it holds for libraries of libraries,
-    # and for those that are loaded later by name, as the drivers of OpenGL are.
-    local folder=\$ORIGIN/../lib/${libraries##*/}
+    # A new file, then renamed: a Godot that runs keeps its own.
     cp "$tree/usr/bin/godot" "$tree/usr/bin/godot.new"
-    "${patcher[@]}" --set-interpreter "$loader" --force-rpath --set-rpath "$folder:$folder/pulseaudio" \
-        "$tree/usr/bin/godot.new"
+    use_copy "$tree/usr/bin/godot.new" "\$ORIGIN/../lib/${libraries##*/}"
     mv "$tree/usr/bin/godot.new" "$tree/usr/bin/godot"
     new_enough "$copy/godot" || die "the Godot of $godot_suite does not run here; install" \
         "Godot $minimum_godot or later yourself, on PATH or as GODOT"
     echo "$copy_version $copy" >"$copy/made"
+}
+
+# --- Export templates --------------------------------------------------------------------------------
+
+# Sets templates: a folder with the programs godot-template-debug and godot-template-release, Debian's own, of exactly the
+# version of the Godot in use. Those for the private Godot use its libraries, as what is exported by them does.
+find_templates() {
+    local version
+    version=$("$GODOT" --headless --version | tail -n 1)
+    [[ $version == *.debian* ]] || die "GODOT is version $version, not one of Debian's: a real export needs" \
+        "templates of the same version, and only Debian's are fetched"
+    templates=$cache/templates/$version
+    [[ ! -d $templates ]] || return 0
+    mkdir -p "$cache/templates"
+    (
+        flock 9
+        [[ ! -d $templates ]] || exit 0
+        echo "dev: fetching export templates into $templates"
+        fetch_templates "${version##*.debian}"
+    ) 9>"$cache/lock"
+}
+
+fetch_templates() { # fetch_templates DEBIAN_VERSION
+    local work configuration kind loader libraries patcher
+    work=$(mktemp -d)
+    # shellcheck disable=SC2064 # this folder, not one of a later call
+    trap "rm -rf '$work'" EXIT
+    configuration=$(private_apt "$work")
+    (cd "$work/archives" && APT_CONFIG=$configuration apt-get -qq download \
+        "godot-template-debug=$1" "godot-template-release=$1") ||
+        die "$godot_suite has no export templates of version $1 any more: remove $copy, and the next" \
+            "./dev build fetches the newer Godot"
+    mkdir -p "$work/programs"
+    for kind in debug release; do
+        dpkg-deb --extract "$work/archives/godot-template-$kind"_*.deb "$work/$kind"
+        mv "$work/$kind/usr/bin/godot-template-$kind" "$work/programs/"
+        if [[ $GODOT == "$copy/"* ]]; then
+            look_into_copy
+            use_copy "$work/programs/godot-template-$kind" "$libraries"
+        fi
+    done
+    mv "$work/programs" "$templates"
 }

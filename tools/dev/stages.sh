@@ -2,9 +2,12 @@
 # tools/dev/run_stages.py runs each as a process of its own.
 
 stage_build() {
+    local library
     checked scons -Q -j"$jobs" addon tests bench
-    checked shows_only_its_entry addons/spidar_g/bin/libspidar_g.*.template_debug.*.so
-    checked python3 tests/package/told_folders.py addons/spidar_g/bin/*.template_debug.*.so addons/spidar_g/bin/spidar_g_guard
+    for library in addons/spidar_g/bin/libspidar_g.*.template_debug.*.so; do
+        checked shows_only_its_entry "$library"
+    done
+    checked python3 tests/package/told_folders.py addons/spidar_g/bin/*.template_debug.*.so addons/spidar_g/bin/spidar_g_guard.*
 }
 
 shows_only_its_entry() { # nothing of the C++ runtime inside may meet the engine's own
@@ -79,7 +82,7 @@ stage_godot_tests() {
 stage_serial() {
     scons -Q -j"$jobs" addon spidar_serial_tests
     doctest build/bin/spidar_serial_tests --test-suite=quick
-    counted python3 tests/serial/run_serial_game.py "$GODOT" build/bin/spidar_serial_tests
+    counted python3 tests/serial/run_serial_game.py "$GODOT" build/bin/spidar_board_model
 }
 
 stage_serial_long() {
@@ -108,8 +111,19 @@ stage_editor() { # handles and calibration are worked by mouse and keyboard, gam
     counted python3 tests/editor/run_play_from_editor.py "$GODOT"
 }
 
-# The demo as a pack, away from its project.
-stage_export() { counted python3 tests/package/run_export_tests.py "$GODOT"; }
+# Packs, away from their projects, with the library and without.
+stage_pack() {
+    counted python3 tests/package/run_pack_tests.py "$GODOT"
+    counted python3 tests/package/run_missing_library_tests.py "$GODOT"
+}
+
+# Programs, away from their projects.
+stage_export() {
+    find_templates
+    scons -Q -j"$jobs" addon board_model
+    scons -Q -j"$jobs" target=template_release addon
+    counted python3 tests/package/run_export_tests.py "$GODOT" "$templates" build/bin/spidar_board_model
+}
 
 stage_mouse() { # a user with a real mouse, under an X server of its own
     need "${picture_needs[@]}" xdotool:xdotool
@@ -187,8 +201,8 @@ stage_windows() {
     need "${windows_needs[@]}" "${wine_needs[@]}"
     python3 tools/fetch/fetch_hidapi.py
     scons -Q -j"$jobs" platform=windows windows_tests addon
-    counted python3 tests/windows/run_windows_tests.py build/windows \
-        addons/spidar_g/bin/spidar_g.windows.template_debug.*.dll
+    scons -Q -j"$jobs" platform=windows target=template_release addon
+    counted python3 tests/windows/run_windows_tests.py build/windows addons/spidar_g/bin/spidar_g.windows.*.dll
 }
 
 stage_package() {

@@ -1,12 +1,11 @@
 @tool
 extends EditorPlugin
 ## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
-## small held things need. The nodes work without this plugin.
+## small held things need; and exports hold stand-ins for a missing library. The nodes work without this plugin.
+##
+## Scripts that name the library's classes do not load without it, so they are loaded only where it is.
 
-const CalibrationInspector := preload("calibration/calibration_inspector.gd")
-const GizmoPlugin := preload("gizmo/gizmo_plugin.gd")
-const ViewMenu := preload("gizmo/view_menu.gd")
-
+const ExportPlugin := preload("export_plugin.gd")
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
 ## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
 const SETTINGS: Dictionary[String, Variant] = {
@@ -15,32 +14,32 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
-var _calibration: CalibrationInspector = CalibrationInspector.new()
-var _gizmos: GizmoPlugin = null
-var _view_menu: ViewMenu = null
+## Those of the scene editor; null without the library.
+var _tools: RefCounted = null
+var _export: ExportPlugin = null
 
 
 func _enter_tree() -> void:
-	_calibration.history = get_undo_redo()
-	add_inspector_plugin(_calibration)
+	_export = ExportPlugin.new()
+	add_export_plugin(_export)
 	add_tool_menu_item(MENU_ITEM, _ask)
-	_gizmos = GizmoPlugin.new()
-	add_node_3d_gizmo_plugin(_gizmos)
-	_gizmos.start()
-	_view_menu = ViewMenu.new()
-	_view_menu.options = _gizmos.options
-	add_control_to_container(CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
+	if not ClassDB.class_exists(&"SpidarG"):
+		push_warning(
+			"The SPIDAR-G add-on has no library for this system (%s on %s): its nodes are not there. "
+			% [OS.get_name(), Engine.get_architecture_name()]
+			+ "Scripts that name them load if you delete addons/spidar_g/stand_in/.gdignore."
+		)
+		return
+	_tools = (load("res://addons/spidar_g/editor/scene_tools.gd") as Script).call(&"new", self)
 
 
 func _exit_tree() -> void:
-	_calibration.close_all()
-	remove_inspector_plugin(_calibration)
-	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
-	_view_menu.queue_free()
-	_gizmos.stop()
-	remove_node_3d_gizmo_plugin(_gizmos)
-	_gizmos = null
+	if _tools != null:
+		_tools.call(&"remove")
+		_tools = null
 	remove_tool_menu_item(MENU_ITEM)
+	remove_export_plugin(_export)
+	_export = null
 
 
 ## Shows what would change; nothing is written before the answer.

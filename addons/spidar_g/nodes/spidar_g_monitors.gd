@@ -25,6 +25,8 @@ func _enter_tree() -> void:
 		push_warning("SpidarGMonitors shows nothing: make it a child of a SpidarG node.")
 	if _device == null or not OS.is_debug_build() or Engine.is_editor_hint():
 		return
+	if not ClassDB.class_exists(&"SpidarG"):
+		return # Without the add-on's library a SpidarG is a stand-in, which has nothing to measure.
 	_device.fault_raised.connect(_count_fault)
 	_add("servo_rate_hz", _statistic.bind("servo_rate_hz"))
 	_add("lateness_p99_us", _statistic.bind("lateness_p99_us"))

@@ -66,6 +66,10 @@ func _ready() -> void:
 	if _state == null:
 		push_warning("SpidarGPanel shows nothing: add the scene spidar_g_panel.tscn in place of this node.")
 		return
+	if not ClassDB.class_exists(&"SpidarG"):
+		# Without the add-on's library a SpidarG is a stand-in, which says so.
+		_state.text = device.get_state_text() if device != null else ""
+		return
 	_tensions.title = "String tensions 1-8, N"
 	_tensions.least_high = 2.0
 	var tints: PackedColorArray = []

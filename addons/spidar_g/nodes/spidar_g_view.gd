@@ -112,7 +112,8 @@ func _get_configuration_warnings() -> PackedStringArray:
 
 ## The engine turns processing on just before _ready().
 func _follow() -> void:
-	var draws: bool = spidar != null and not Engine.is_editor_hint()
+	# Without the add-on's library a SpidarG is a stand-in, of which there is nothing to draw.
+	var draws: bool = spidar != null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG")
 	set_process(draws)
 	if _parts != null:
 		_parts.visible = draws

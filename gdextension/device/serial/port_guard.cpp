@@ -184,10 +184,10 @@ std::string guard_beside_library() {
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void *>(&guard_beside_library), &info) == 0 ||
         info.dli_fname == nullptr) {
-        return "spidar_g_guard";
+        return kGuardFile;
     }
     const std::string file = info.dli_fname;
-    return file.substr(0, file.rfind('/') + 1) + "spidar_g_guard";
+    return file.substr(0, file.rfind('/') + 1) + kGuardFile;
 }
 
 #else

@@ -46,7 +46,14 @@ private:
     std::int64_t answered_ns_ = 0;
 };
 
-// The program `spidar_g_guard` in the folder of the library or program that this code is linked into.
+// The guard's file. The libraries for both processors of Linux lie in one folder, and so do their guards.
+#if defined(__aarch64__)
+inline constexpr char kGuardFile[] = "spidar_g_guard.arm64";
+#else
+inline constexpr char kGuardFile[] = "spidar_g_guard.x86_64";
+#endif
+
+// The path of kGuardFile in the folder of the library or program that this code is linked into.
 [[nodiscard]] std::string guard_beside_library();
 
 } // namespace spidar

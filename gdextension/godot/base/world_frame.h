@@ -31,8 +31,10 @@ struct WorldFrame {
     static WorldFrame of(const godot::Transform3D &node, double workspace_scale,
                          int mirrored_axis) {
         Mat3 rotation = to_core(node.basis.orthonormalized());
-        if (mirrored_axis >= 0) {
-            rotation[mirrored_axis] = -rotation[mirrored_axis];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (axis == mirrored_axis) {
+                rotation[axis] = -rotation[axis];
+            }
         }
         return {rotation, to_core(node.origin), workspace_scale};
     }

@@ -296,13 +296,17 @@ TEST_CASE("kinematics: a pose that two root pairs explain is flagged, cold and w
         }
         // Every pose that fits, by the slow way.
         bool rival = false;
+        double least_m = branch.residual_rms_m;
         for (int pair = 0; pair < kRootPairCount; ++pair) {
             const PolishResult other =
                 polish_pose({rig.frame, rig.grip, lengths},
                             test::closed_form_pose(Vec3(kPaperHalfExtent_m),
                                                    rig.grip.pole_half_length_m, lengths, pair));
-            rival = rival || (other.converged && test::distance(other.pose, branch.pose) > 0.01 &&
-                              other.residual_rms_m < 2.0 * branch.residual_rms_m);
+            if (other.converged && test::distance(other.pose, branch.pose) > 0.01 &&
+                other.residual_rms_m < 2.0 * branch.residual_rms_m) {
+                rival = true;
+                least_m = std::fmin(least_m, other.residual_rms_m);
+            }
         }
         rig.kinematics.set_last_pose(branch.pose);
         const KinematicsResult warm = rig.kinematics.update(lengths);
@@ -314,7 +318,10 @@ TEST_CASE("kinematics: a pose that two root pairs explain is flagged, cold and w
             CHECK(warm.status == Status::ambiguous_pose);
             // Between two looks the flag stands.
             CHECK(rig.kinematics.update(lengths).status == Status::ambiguous_pose);
-            CHECK(rig.kinematics.solve_cold(lengths).status == Status::ambiguous_pose);
+            // Without memory a rival that fits 50 times better, more than noise explains, is the answer.
+            if (branch.residual_rms_m < 50.0 * least_m) {
+                CHECK(rig.kinematics.solve_cold(lengths).status == Status::ambiguous_pose);
+            }
             ++flagged;
         } else {
             plain += warm.status == Status::ok ? 1 : 0;

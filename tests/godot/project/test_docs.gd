@@ -3,6 +3,8 @@ extends "res://test_case.gd"
 
 const PAGE: String = "../../../docs/use_in_your_game.md"
 const LISTING: String = "Ten lines to a felt object"
+## It opens a scene of the reader's; tests/package/missing_library is the game that does so.
+const NOT_FELT: String = "Where there is no library"
 ## What stands around an example that is no script of its own.
 const AROUND: String = "extends Node3D\nvar device: SpidarG\nfunc example() -> void:\n"
 const FRAMES: int = 120
@@ -42,7 +44,8 @@ func test_the_listing_is_felt() -> void:
 func test_each_example_is_felt() -> void:
 	var blocks: Dictionary[String, String] = _blocks()
 	var examples: Dictionary[String, Dictionary] = _examples()
-	check_equal(blocks.size(), examples.size() + 1, "every example has its check, every check its example")
+	check_equal(blocks.size(), examples.size() + 2, "every example has its check, every check its example")
+	_compiled(NOT_FELT, blocks.get(NOT_FELT, ""))
 	for heading: String in examples:
 		if not check(blocks.has(heading), "the page has \"%s\"" % heading):
 			continue

@@ -114,7 +114,7 @@ bool CalibrationWorksheet::add_pose(const CountArray &counts) {
         double most = 0.0;
         for (std::size_t i = 0; i < kStringCount; ++i) {
             const double change = static_cast<double>(counts[i]) - poses_.back()[i];
-            most = std::fmax(most, std::fabs(change * start_.strings.scale_m_per_count[i]));
+            most = std::max(most, std::fabs(change * start_.strings.scale_m_per_count[i]));
         }
         if (!(most >= kPoseStep_m)) {
             return false;
