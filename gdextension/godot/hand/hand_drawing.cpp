@@ -80,9 +80,8 @@ godot::Ref<godot::ShaderMaterial> material_of(const char *depth, const char *alp
 
 // From the grip's centre to what of the tool is farthest from it.
 double reach_of(const HandPicture &picture) {
-    double reach_m =
-        0.5 * picture.jaws.gap_m(picture.proxy.grasp_rad) + pad_thickness_m(picture.jaws) +
-        pad_radius_m(picture.jaws);
+    double reach_m = 0.5 * picture.jaws.gap_m(picture.proxy.grasp_rad) +
+                     pad_thickness_m(picture.jaws) + pad_radius_m(picture.jaws);
     for (const HeldShapes::Part &part : picture.held) {
         reach_m = std::max(reach_m, glm::length((picture.in_grip * part.box.at).origin_m) +
                                         glm::length(part.box.half_extents_m));
@@ -186,7 +185,8 @@ void HandDrawing::shapes(const HandPicture &picture) {
 void HandDrawing::tool(const ToolPose &pose, const Jaws &jaws, const Pen &pen) {
     for (int side = 0; side < 2; ++side) {
         const Placement inner = Pads::face(side, jaws, pose);
-        const Placement outer{inner.origin_m + pad_thickness_m(jaws) * inner.rotation[0], inner.rotation};
+        const Placement outer{inner.origin_m + pad_thickness_m(jaws) * inner.rotation[0],
+                              inner.rotation};
         ring(inner, pad_radius_m(jaws), pen);
         ring(outer, pad_radius_m(jaws), pen);
         line(pose.position_m, inner.origin_m, pen);

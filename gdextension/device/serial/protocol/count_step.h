@@ -23,7 +23,7 @@ struct CountLimits {
 struct BoardMotion {
     std::array<std::uint16_t, kMostBoardMotors> positions{}; // low 16 bits of the counts
     std::array<std::int16_t, kMostBoardMotors> speeds{};     // counts a cycle of the control loop
-    std::array<std::int16_t, kMostBoardForces> forces{};         // of its force sensors
+    std::array<std::int16_t, kMostBoardForces> forces{};     // of its force sensors
 };
 
 [[nodiscard]] constexpr std::int32_t signed_step(std::uint16_t from, std::uint16_t to) noexcept {

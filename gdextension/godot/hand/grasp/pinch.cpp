@@ -31,8 +31,8 @@ struct Pressed {
 
     // Below 0: not between the pads.
     [[nodiscard]] double rank() const noexcept {
-        const bool is_between = sides[0].is_near && sides[1].is_near &&
-                                (sides[0].touches || sides[1].touches);
+        const bool is_between =
+            sides[0].is_near && sides[1].is_near && (sides[0].touches || sides[1].touches);
         return is_between ? std::max(std::min(sides[0].force_n, sides[1].force_n), 0.0) : -1.0;
     }
 };
