@@ -73,6 +73,10 @@ TEST_CASE("reply reader: the third reply that agrees is the first to be believed
     for (std::size_t i = 0; i < counts.size(); ++i) {
         CHECK(host.reader.count(0, i) == counts[i]);
     }
+    CHECK(host.reader.force_count(0) == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(host.reader.force(0, i) == 0x0123 + static_cast<int>(i));
+    }
     CHECK(host.reader.counters().garbage_bytes == 0);
     CHECK(host.reader.lost(host.asked) == 0);
 }
