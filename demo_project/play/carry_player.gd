@@ -26,7 +26,7 @@ var _opening := false
 
 
 func play() -> void:
-	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
+	hand.set_firmness(SpidarG.HAND_FIRM)
 	view.get_tree().process_frame.connect(func() -> void: penetration.note_drawn(tool_hand))
 	hand.stepped.connect(func() -> void: penetration.measure(tool_hand, view))
 	tool_hand.body_released.connect(func(_body: RigidBody3D) -> void: dropped += int(not _opening))

@@ -99,7 +99,7 @@ func _feel_detent(body: TaskBody) -> void:
 	for back in 2:
 		var last: Array[float] = [NAN]
 		var feel := func() -> void:
-			var truth := spidar.get_simulated_truth()
+			var truth := hand.truth()
 			var strings: PackedFloat64Array = truth["strings_wrench"]
 			var pull := -out.dot(Vector3(strings[0], strings[1], strings[2]))
 			var way := out.dot(linker.stretch_m()) - begins
@@ -121,7 +121,7 @@ func _tear_off(body: TaskBody) -> void:
 	_torn_at_n = NAN
 	_felt_max_n = 0.0
 	var feel := func() -> void:
-		var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
+		var strings: PackedFloat64Array = hand.truth()["strings_wrench"]
 		_felt_max_n = maxf(_felt_max_n, Vector3(strings[0], strings[1], strings[2]).length())
 	hand.stepped.connect(feel)
 	await hand.move_to(hand.wanted.translated(out * TEAR_M), TEAR_S)

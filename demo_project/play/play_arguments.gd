@@ -5,15 +5,17 @@ const EXIT_DONE := 0
 const EXIT_NOT_DONE := 1
 const EXIT_BAD_ARGUMENTS := 2
 const LEVELS := 3
+const SOURCES: PackedStringArray = ["simulated", "serial"]
 const HANDS: PackedStringArray = ["steady", "trembling", "clumsy"]
 ## Names of SpidarGConfig.preset.
 const DEVICES: PackedStringArray = ["custom", "paper", "x3r", "x3l", "x5r", "x5l", "x4"]
 const USAGE := (
 	"usage: ... -- --play TASK [--level L] [--seed N] --out DIR [--hand steady|trembling|clumsy]\n"
-	+ "              [--device paper|x3r|x3l|x5r|x5l|x4]\n"
-	+ "              [--carries N] [--display] [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
+	+ "              [--device paper|x3r|x3l|x5r|x5l|x4] [--source serial --serial-port PATH --model-port N]\n"
+	+ "              [--carries N] [--things N] [--display] [--pictures] [--movie] [--cut-output] [--freeze-pose]\n"
 	+ "       ... -- --participant N --out DIR [--trials K] [--things K] [--level L]    (simulated)\n"
-	+ "       ... -- [--task TASK] [--level L] [--seed N] [--device NAME] [--report FILE]    (interactive)"
+	+ "       ... -- [--task TASK] [--level L] [--seed N] [--device NAME] [--report FILE]    (interactive)\n"
+	+ "              [--source serial [--serial-port PATH] [--model-port N]]"
 )
 
 ## Task to play by script; empty: interactive.
@@ -26,6 +28,12 @@ var level := 1
 var hand := HANDS[0]
 ## SpidarGConfig.preset; -1: that of the demo.
 var preset := -1
+## One of SOURCES; empty: the simulated device for a script, the settings' for a person.
+var source := ""
+## Of the motor boards; empty: the only one of a USB bridge.
+var serial_port := ""
+## Where spidar_board_model hears what its hand does; 0: a person moves the grip.
+var model_port := 0
 ## Layout of the trial.
 var seed_number := 1
 ## Absolute folder for the results.
@@ -38,11 +46,11 @@ var display := false
 var pictures := false
 ## Absolute path of a file that says where things are on the screen; for a scripted user. Empty: none.
 var report := ""
-## A simulated participant of the experiment; 0: none. With it, counted trials per task and condition, and how many
-## things of each have to be placed (0: all).
+## How many things have to be placed; 0: all.
+var things := 0
+## A simulated participant of the experiment; 0: none. With it, counted trials per task and condition.
 var participant := 0
 var trials := 1
-var things := 0
 ## Save the frames of a short movie there, too.
 var movie := false
 ## Cut the motor currents inside the simulated device: nothing can be felt.
@@ -77,7 +85,7 @@ func read(words: PackedStringArray, tasks: PackedStringArray, carrying: PackedSt
 				cut_output = true
 			"--freeze-pose":
 				freeze_pose = true
-			"--play", "--task", "--level", "--seed", "--device", "--out", "--hand", "--report", "--participant", "--trials", "--things", "--carries":
+			"--play", "--task", "--level", "--seed", "--device", "--out", "--hand", "--report", "--participant", "--trials", "--things", "--carries", "--source", "--serial-port", "--model-port":
 				index += 1
 				if index >= words.size():
 					problem = "%s needs a value after it" % word
@@ -111,6 +119,16 @@ func _set_value(word: String, value: String, tasks: PackedStringArray) -> void:
 			if not HANDS.has(value):
 				problem = "--hand %s: no such hand; there is: %s" % [value, ", ".join(HANDS)]
 			hand = value
+		"--source":
+			if not SOURCES.has(value):
+				problem = "--source %s: no such source; there is: %s" % [value, ", ".join(SOURCES)]
+			source = value
+		"--serial-port":
+			serial_port = value
+		"--model-port":
+			if not value.is_valid_int() or value.to_int() < 1 or value.to_int() > 65535:
+				problem = "--model-port %s: must be a port, 1 to 65535" % value
+			model_port = value.to_int()
 		"--seed":
 			if not value.is_valid_int() or value.to_int() < 0:
 				problem = "--seed %s: must be a whole number of 0 or more" % value
@@ -134,6 +152,14 @@ func _find_conflict(carrying: PackedStringArray) -> String:
 		return "--play needs --out DIR: the folder for summary.csv and objects.csv"
 	if carries > 0 and not carrying.has(task):
 		return "--carries needs --play %s: elsewhere things link on the way" % " or ".join(carrying)
+	if source != "serial" and (serial_port != "" or model_port != 0):
+		return "--serial-port and --model-port need --source serial"
+	if scripted() and source == "serial" and model_port == 0:
+		return "--play with --source serial needs --model-port: a script never moves a real hand"
+	if model_port > 0 and preset > DEVICES.find("paper"):
+		return "--device with --model-port: the model of the boards is the paper's device"
+	if source == "serial" and (cut_output or freeze_pose or simulates()):
+		return "--cut-output, --freeze-pose and --participant are for the simulated device"
 	if simulates() and (scripted() or out_dir == ""):
 		return "--participant needs --out DIR, and no --play"
 	if simulates():

@@ -21,7 +21,11 @@ const CLUMSY_HASTE := 0.85
 ## Emitted after each step of the hand, before the device steps.
 signal stepped
 
+const ModelHand := preload("res://play/model_hand.gd")
+
 var spidar: SpidarG
+## In place of the simulated device's own hand; null: that one.
+var model: ModelHand
 ## Set from outside to make every coroutine return at its next step.
 var stopped := false
 ## Where the grip is wanted, and what the hand aims at.
@@ -104,6 +108,17 @@ func settle(tolerance_m: float, limit_s: float) -> bool:
 	return false
 
 
+## What really happens at the grip: grasp_angle, strings_wrench.
+func truth() -> Dictionary:
+	return spidar.get_simulated_truth() if model == null else model.truth
+
+
+func set_firmness(firmness: SpidarG.HandFirmness) -> void:
+	spidar.set_simulated_hand_firmness(firmness)
+	if model != null:
+		model.set_firmness(firmness)
+
+
 static func minimum_jerk(x: float) -> float:
 	return x * x * x * (10.0 + x * (6.0 * x - 15.0))
 
@@ -115,7 +130,10 @@ func _step(slow: bool) -> void:
 		_correction_m = _correction_m.limit_length(SIGHT_LIMIT_M)
 	_time_s += _tick_s()
 	var aim := Transform3D(wanted.basis, wanted.origin + _correction_m + _tremor())
-	spidar.simulated_hand_target(aim, grasp_angle_rad)
+	if model == null:
+		spidar.simulated_hand_target(aim, grasp_angle_rad)
+	else:
+		model.aim(spidar, aim, grasp_angle_rad)
 	await get_tree().physics_frame
 	stepped.emit()
 

@@ -46,6 +46,8 @@ var table_height_m := 0.0
 var pictures: PictureTaker
 var camera_rig: CameraRig
 var penetration := PenetrationMeter.new()
+## Coroutine, before each attempt: brings the device back to where it can be felt. Not valid: it always can.
+var be_ready := Callable()
 ## Enough to hold the heaviest, with pads that do not slip.
 var hold_squeeze_nm := 0.030
 ## Fingers open this much before they leave.
@@ -54,13 +56,15 @@ var let_go_m := CLEARANCE_M
 
 ## Coroutine: returns when every body was placed or given up.
 func play() -> void:
-	spidar.set_simulated_hand_firmness(SpidarG.HAND_FIRM)
+	hand.set_firmness(SpidarG.HAND_FIRM)
 	view.get_tree().process_frame.connect(func() -> void: penetration.note_drawn(tool_hand))
 	hand.stepped.connect(func() -> void: penetration.measure(tool_hand, view))
 	# Nobody waits for a picture: the play is the same with pictures and without.
 	pictures.take("start")
 	for body in order():
 		while body.attempts < MAX_ATTEMPTS and _worth_trying(body):
+			if be_ready.is_valid():
+				await be_ready.call()
 			body.attempts += 1
 			if await _pick(body):
 				await _deliver(body)
@@ -147,7 +151,7 @@ func _close_on(body: TaskBody) -> bool:
 	var tick_s := 1.0 / Engine.physics_ticks_per_second
 	var held := false
 	while patience_s > 0.0 and not hand.stopped:
-		var truth := spidar.get_simulated_truth()
+		var truth := hand.truth()
 		var angle_rad: float = truth["grasp_angle"]
 		var strings: PackedFloat64Array = truth["strings_wrench"]
 		sense.add(angle_rad, -strings[6])
@@ -188,7 +192,7 @@ func _weigh(body: TaskBody) -> void:
 		var feel := func() -> void:
 			var risen := spidar.get_grip_transform().origin.y - low.origin.y
 			if risen > HEFT_FROM * HEFT_M and risen < (1.0 - HEFT_FROM) * HEFT_M:
-				var strings: PackedFloat64Array = spidar.get_simulated_truth()["strings_wrench"]
+				var strings: PackedFloat64Array = hand.truth()["strings_wrench"]
 				pulls.append(-strings[1])
 		hand.stepped.connect(feel)
 		await hand.move_to(high if stroke == 0 else low, HEFT_S)

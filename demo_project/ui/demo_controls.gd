@@ -17,6 +17,7 @@ var _mouse: MouseHand
 var _settings: DemoSettings
 ## Where the grip stood when the clutch was pressed.
 var _clutched_at := Vector3.INF
+var _zeroing := false
 var _steps_left := 0
 var _task_name := ""
 var _actions: Dictionary[StringName, Callable] = {
@@ -52,10 +53,11 @@ func _exit_tree() -> void:
 
 
 func _physics_process(_delta: float) -> void:
+	_arm_when_zeroed()
 	if _steps_left > 0:
 		_steps_left -= 1
 		get_tree().paused = _steps_left == 0
-	if _clutched_at.is_finite() and _settings.source == DemoSettings.DEVICE:
+	if _clutched_at.is_finite() and _settings.source in [DemoSettings.DEVICE, DemoSettings.SERIAL]:
 		# A real hand goes on; the device's frame gives way, so that the grip stays in the scene.
 		_spidar.global_position += _clutched_at - _spidar.get_grip_transform().origin
 
@@ -120,8 +122,20 @@ func _toggle_forces() -> void:
 	_hud.show_notice("")
 	_spidar.clear_fault()
 	_spidar.forces_enabled = true
+	if _settings.source == DemoSettings.SERIAL:
+		_zeroing = _spidar.zero_at_home()
+		_hud.show_notice("Hold the grip at home, then move it: the zero is taken.")
+		return
 	# A real device arms only when told; a simulated one has armed itself by now.
 	_spidar.arm()
+
+
+## Motor boards count from anywhere: their zero is taken first.
+func _arm_when_zeroed() -> void:
+	if _zeroing and _spidar.get_state() == SpidarG.STATE_CALIBRATED:
+		_zeroing = false
+		_hud.show_notice("")
+		_spidar.arm()
 
 
 func _toggle_recording() -> void:

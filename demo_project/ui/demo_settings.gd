@@ -12,9 +12,10 @@ const SCALES: PackedFloat64Array = [0.5, 1.0, 2.0]
 ## What the grip in the scene follows, and grip_source in the results.
 const SIMULATED := "simulated" ## The simulated device, its hand moved by mouse and keys; with forces.
 const DEVICE := "device" ## A SPIDAR-G on USB.
+const SERIAL := "serial" ## A SPIDAR on serial motor boards.
 const MOUSE := "mouse" ## The paper's comparison: mouse and keys alone, never a force.
 const REPLAY := "replay" ## A recording, in the tasks; the menu needs a live hand.
-const SOURCES: PackedStringArray = [SIMULATED, DEVICE, MOUSE, REPLAY]
+const SOURCES: PackedStringArray = [SIMULATED, DEVICE, SERIAL, MOUSE, REPLAY]
 const CLUTCHES: PackedStringArray = ["held", "switched"]
 ## Where L puts the recordings.
 const RECORDINGS := "user://recordings"
@@ -22,6 +23,8 @@ const RECORDINGS := "user://recordings"
 var source := SIMULATED
 ## USB serial number of the device; empty: the first one found.
 var device_serial := ""
+## Of the motor boards; empty: the only one of a USB bridge.
+var serial_port := ""
 ## File in RECORDINGS.
 var recording := ""
 ## Whether F may turn the forces on; they are off at the start either way.
@@ -68,13 +71,18 @@ func apply(spidar: SpidarG) -> void:
 	if spidar.config != null:
 		spidar.config.rate_hz = rate_hz
 		spidar.config.device_serial = device_serial
-		spidar.config.transport = (
-			SpidarGConfig.TRANSPORT_DEVICE if source == DEVICE else SpidarGConfig.TRANSPORT_SIMULATED
-		)
+		spidar.config.serial_port = serial_port
+		match source:
+			DEVICE:
+				spidar.config.transport = SpidarGConfig.TRANSPORT_DEVICE
+			SERIAL:
+				spidar.config.transport = SpidarGConfig.TRANSPORT_SERIAL
+			_:
+				spidar.config.transport = SpidarGConfig.TRANSPORT_SIMULATED
 
 
 func may_have_forces() -> bool:
-	return forces_allowed and (source == SIMULATED or source == DEVICE)
+	return forces_allowed and source in [SIMULATED, DEVICE, SERIAL]
 
 
 ## Recordings that L has made, the newest first.

@@ -14,7 +14,11 @@ const OPEN_ANGLE_RAD := deg_to_rad(4.0)
 const SQUEEZE_NM := 0.10
 const CLOSED_ANGLE_RAD := deg_to_rad(52.0)
 
+const ModelHand := preload("res://play/model_hand.gd")
+
 var spidar: SpidarG
+## In place of the simulated device's own hand; null: that one.
+var model: ModelHand
 var camera: Camera3D
 ## Target in the device's frame.
 var position_m := Vector3.ZERO
@@ -82,9 +86,11 @@ func _physics_process(delta: float) -> void:
 	_move_grasp(delta)
 	var basis := Basis.from_euler(Vector3(pitch_rad, yaw_rad, roll_rad))
 	var in_device := Transform3D(basis, position_m * spidar.workspace_scale)
-	spidar.simulated_hand_target(
-		spidar.global_transform.orthonormalized() * in_device, grasp_angle_rad
-	)
+	var target := spidar.global_transform.orthonormalized() * in_device
+	if model == null:
+		spidar.simulated_hand_target(target, grasp_angle_rad)
+	else:
+		model.aim(spidar, target, grasp_angle_rad)
 
 
 func _on_motion(motion: InputEventMouseMotion) -> void:

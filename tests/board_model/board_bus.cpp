@@ -126,9 +126,19 @@ bool BoardBus::serve(std::vector<std::uint8_t> &answer) {
     }
     damage(answer);
     if (!answer.empty()) {
-        (void)!write(master_, answer.data(), answer.size());
+        late_.push_back({monotonic_ns() + std::int64_t{faults.delay_us.load()} * 1000, answer});
     }
     return true;
+}
+
+void BoardBus::send_due(std::int64_t now_ns) {
+    while (!late_.empty() && late_.front().due_ns <= now_ns) {
+        const std::vector<std::uint8_t> &bytes = late_.front().bytes;
+        if (master_ >= 0) {
+            (void)!write(master_, bytes.data(), bytes.size());
+        }
+        late_.pop_front();
+    }
 }
 
 void BoardBus::move_on(std::int64_t now_ns) {
@@ -200,6 +210,7 @@ void BoardBus::run() {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
             (void)serve(answer);
+            send_due(monotonic_ns());
             move_on(now_ns);
         }
         sleep_until_ns(now_ns + kTick_ns);

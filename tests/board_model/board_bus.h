@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -38,6 +39,7 @@ struct LineFaults {
     std::atomic<double> lost_bytes{0.0};
     std::atomic<double> garbage{0.0};
     std::atomic<bool> silent{false}; // the host hears nothing
+    std::atomic<int> delay_us{0};    // answers come so much later: a slow bridge
 };
 
 struct BusSeen {
@@ -99,6 +101,7 @@ private:
     bool serve(std::vector<std::uint8_t> &answer);
     void move_on(std::int64_t now_ns);
     void damage(std::vector<std::uint8_t> &answer);
+    void send_due(std::int64_t now_ns);
 
     const BusSettings settings_;
     const std::string link_;
@@ -109,6 +112,11 @@ private:
     std::mutex mutex_; // all below
     int master_ = -1;
     std::vector<BoardFirmware> boards_;
+    struct Late {
+        std::int64_t due_ns = 0;
+        std::vector<std::uint8_t> bytes;
+    };
+    std::deque<Late> late_; // answers on their way
     BusOrders taken_;
     SimulatedPlant plant_;
     HungWeight weight_;

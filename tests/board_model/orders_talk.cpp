@@ -96,6 +96,10 @@ void OrdersTalk::take(const std::string &order) {
         int mute = 0;
         words >> mute;
         bus_.faults.silent.store(mute != 0);
+    } else if (name == "slow") {
+        int delay_ms = 0;
+        words >> delay_ms;
+        bus_.faults.delay_us.store(1000 * delay_ms);
     } else if (name == "unplug") {
         bus_.unplug();
     } else if (name == "plug") {

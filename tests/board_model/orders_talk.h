@@ -5,6 +5,7 @@
 //   firmness 0|1|2                   light, normal, firm
 //   hang STRING WEIGHT_N             string 0 to 7 off the grip with a weight on it; -1 0: all strings on the grip
 //   mute 0|1                         1: the boards' answers do not come through
+//   slow MS                          answers come so much later
 //   unplug, plug                     the bridge's cable
 //   restart                          the boards' supply, for a moment
 //   look                             nothing

@@ -70,34 +70,45 @@ def check_project(godot):
     play([godot, "--path", project], project, "project without the library", False)
 
 
-def check_pack(godot):
-    project = game(godot, "exported")
+def pack_of(godot, project, name):
+    """The project's pack, alone in a folder; the project is gone."""
     godot_project.import_assets(godot, project)
     list_file = os.path.join(project, ".godot", "global_script_class_cache.cfg")
     with open(list_file, encoding="utf-8") as file:
         before = file.read()
-    folder = os.path.join(OUT, "pack")
-    pack = os.path.join(folder, "game.pck")
-    exported.export(godot, project, "pack", pack)
+    pack = os.path.join(OUT, name, "game.pck")
+    exported.export(godot, project, "pack", pack, GODOTS_OWN)
     with open(list_file, encoding="utf-8") as file:
-        check(file.read() == before, "the export leaves the project's list of classes as it was")
+        check(file.read() == before, f"{name}: the export leaves the project's list of classes as it was")
     shutil.rmtree(project)
-    os.makedirs(os.path.join(folder, ADDON))
+    return pack
+
+
+def check_pack(godot):
+    """For a system that has a library, and for one that has none."""
+    pack = pack_of(godot, game(godot, "with"), "pack_with")
+    folder = os.path.dirname(pack)
     shutil.copytree(os.path.join(ROOT, ADDON, "bin"), os.path.join(folder, ADDON, "bin"))
     play([godot, "--main-pack", pack], folder, "pack with the library", True)
-    shutil.rmtree(os.path.join(folder, "addons"))
-    play([godot, "--main-pack", pack], folder, "pack without the library", False)
+    pack = pack_of(godot, without_library(godot, "without"), "pack_without")
+    play([godot, "--main-pack", pack], os.path.dirname(pack), "pack without the library", False)
 
 
-def check_other_systems(godot):
-    """What Godot says of a manifest without a line for this system: as on macOS, for which there is none."""
-    project = game(godot, "other_system")
+def without_library(godot, name):
+    """The game with a manifest that names no library for this system: as on macOS, for which there is none."""
+    project = game(godot, name)
+    shutil.rmtree(os.path.join(project, ADDON, "bin"))
     manifest = os.path.join(project, ADDON, "spidar_g.gdextension")
     with open(manifest, encoding="utf-8") as file:
         text = file.read()
     check("macos" not in text, "the manifest names no library for macOS")
     with open(manifest, "w", encoding="utf-8") as file:
         file.write("".join(line for line in text.splitlines(True) if not line.startswith("linux.")))
+    return project
+
+
+def check_other_systems(godot):
+    project = without_library(godot, "other_system")
     output = exported.run([godot, "--headless", "--path", project, "--quit"], project)[1]
     told = re.search(r"^.*No GDExtension library found for current OS and architecture.*$", output, re.M)
     check(told, f"Godot says so: {told[0].strip() if told else output[-500:]}")

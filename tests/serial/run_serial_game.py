@@ -7,6 +7,7 @@ stopped, or ends by itself. Prints each check, then "N passed, N failed".
 
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -17,12 +18,17 @@ import godot_project  # noqa: E402
 from board_model.board_model import BoardModel, Speaker  # noqa: E402
 
 PROJECT = os.path.join(HERE, "game")
+DEMO = os.path.join(os.path.dirname(os.path.dirname(HERE)), "demo_project")
 PULL_LIMIT_S = 20  # from the start of Godot
 TRIES = 5  # a busy machine may hold the loop up until it stops itself
 OFF_LIMIT_MS = 50
 CALIBRATION_LIMIT_S = 150
 PARAMETERS_LIMIT_S = 40
+PLAY_LIMIT_S = 120
+PLAY_TRIES = 3
+PLAY_THINGS = 1
 # A node looks for its boards each half second, and a look at a port that nobody answers at takes as long again.
+SOFTER_S = 1.0  # the caps move within 0.3 s
 FIND_LIMIT_S = 2.0
 SEARCH_S = 2.5  # several looks
 # Of the game's time. A look in the game's own thread would take 40 %.
@@ -116,6 +122,25 @@ def found_later(godot, program, folder, before, after, name):
         game.end()
 
 
+def slow_link(godot, program, folder):
+    """Behind a bridge that keeps its bytes for 5 ms every wall is softer."""
+    stiffness = []
+    for delay_ms in (0, 5):
+        link = os.path.join(folder, "port")
+        with BoardModel(program, link) as boards:
+            boards.tell(f"slow {delay_ms}")
+            game = Speaker([godot, "--headless", "--path", PROJECT, "--script", "res://serial_game.gd", "--", link])
+            game.says("device", PULL_LIMIT_S)
+            time.sleep(SOFTER_S)
+            game.end()
+        stiffness.append(last_number(game.lines, "stiffness"))
+        latency_us = last_number(game.lines, "latency_us")
+        check(latency_us is not None and latency_us > 1000 * (delay_ms + 1),
+              f"link of {delay_ms} ms: latency {latency_us} us")
+    check(None not in stiffness and stiffness[1] < 0.5 * stiffness[0],
+          f"the stiffest wall falls from {stiffness[0]} to {stiffness[1]} N/m")
+
+
 def worked(godot, program, folder, script, options, last, limit_s):
     """A script that works the calibrator and does the comparing; last: the word at its end."""
     link = os.path.join(folder, "port")
@@ -131,15 +156,40 @@ def worked(godot, program, folder, script, options, last, limit_s):
             check(False, line)
 
 
+def played(godot, program, folder):
+    """The demo's pick and place on the boards: the scripted hand moves the grip of the model."""
+    told = ""
+    for _ in range(PLAY_TRIES):
+        link = os.path.join(folder, "port")
+        with BoardModel(program, link) as boards:
+            game = Speaker([godot, "--headless", "--audio-driver", "Dummy", "--path", DEMO, "--", "--play",
+                            "pick_and_place", "--things", str(PLAY_THINGS), "--out", os.path.join(folder, "play"),
+                            "--source", "serial", "--serial-port", link, "--model-port", str(boards.port)])
+            game.says("results:", PLAY_LIMIT_S)
+            told = [line for line in game.lines if line.startswith("pick_and_place")]
+            try:
+                code = game.process.wait(10)
+            except subprocess.TimeoutExpired:
+                code = None
+            game.end()
+        if code == 0:
+            break
+        print("\n".join(game.lines[-8:]))
+    check(code == 0, f"pick and place: {told}")
+
+
 def main():
     godot, program = sys.argv[1:]
     godot_project.prepare_project(PROJECT, godot)
+    godot_project.prepare_project(DEMO, godot)
     game = [godot, "--headless", "--path", PROJECT, "--script", "res://serial_game.gd", "--"]
     with tempfile.TemporaryDirectory() as folder:
         found_later(godot, program, folder, "unplug", "plug", "unplugged")
         found_later(godot, program, folder, "mute 1", "mute 0", "boards without power")
+        slow_link(godot, program, folder)
         worked(godot, program, folder, "calibrate", ["--errors", "7"], "calibrated", CALIBRATION_LIMIT_S)
         worked(godot, program, folder, "parameters", ["--mask", "0"], "done", PARAMETERS_LIMIT_S)
+        played(godot, program, folder)
         killed(game, program, folder, signal.SIGKILL, OFF_LIMIT_MS)
         killed(game, program, folder, signal.SIGSTOP, OFF_LIMIT_MS)
         killed(game, program, folder, signal.SIGSEGV, OFF_LIMIT_MS)

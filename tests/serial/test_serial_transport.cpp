@@ -172,6 +172,25 @@ TEST_CASE("serial transport: what keeps a port from being opened is told with it
     }
 }
 
+TEST_CASE("serial transport: the link's latency is measured, and a slow bridge shows") {
+    constexpr double kRate_hz = 1000.0;
+    const auto latency_of = [](int delay_us) {
+        BoardBus bus(one_b5m(), link_of_this_test());
+        bus.faults.delay_us.store(delay_us);
+        SerialTransport transport(settings_for(bus.link()));
+        CHECK(transport.latency_s(kRate_hz) == 0.0);
+        REQUIRE_MESSAGE(usable(transport.open()), transport.problem());
+        return transport.latency_s(kRate_hz);
+    };
+    const double quick_s = latency_of(0);
+    const double slow_s = latency_of(5000);
+    MESSAGE("latency " << 1e3 * quick_s << " ms, behind a bridge of 5 ms " << 1e3 * slow_s
+                       << " ms");
+    CHECK(quick_s > 0.001);  // a whole cycle, and the wire
+    CHECK(slow_s >= 0.0063); // that of the bridge in whole cycles, and the wire
+    CHECK(slow_s < 0.020);
+}
+
 TEST_CASE("serial transport: without a guard it reads, but says that it cannot pull, and sends no "
           "current") {
     BoardBus bus(one_b5m(), link_of_this_test());

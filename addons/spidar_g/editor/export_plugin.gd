@@ -1,12 +1,13 @@
 @tool
 extends EditorExportPlugin
-## Puts the stand-ins of addons/spidar_g/stand_in into every export, so that scripts that name SpidarG load where the game
-## has no library of the add-on. Where it has one, the library's own classes are found first and the stand-ins are not read.
+## Puts the stand-ins of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so that
+## scripts that name SpidarG load there. Beside a library they would be in the way of its classes.
 ##
 ## Godot finds a script's class by a list in the project's cache, which it copies when an export ends. For the time of the
 ## export the list holds the stand-ins too.
 
 const STAND_INS: String = "res://addons/spidar_g/stand_in"
+const MANIFEST: String = "res://addons/spidar_g/spidar_g.gdextension"
 const LIST_FILE: String = "global_script_class_cache.cfg"
 const LIST_KEY: String = "list"
 
@@ -18,7 +19,10 @@ func _get_name() -> String:
 	return "spidar_g"
 
 
-func _export_begin(_features: PackedStringArray, _is_debug: bool, _path: String, _flags: int) -> void:
+func _export_begin(features: PackedStringArray, _is_debug: bool, _path: String, _flags: int) -> void:
+	_list_path = ""
+	if _has_library(features):
+		return
 	var hidden: bool = ProjectSettings.get_setting("application/config/use_hidden_project_data_directory", true)
 	_list_path = "res://%s/%s" % [".godot" if hidden else "godot", LIST_FILE]
 	_list_before = FileAccess.get_file_as_bytes(_list_path)
@@ -36,12 +40,25 @@ func _export_begin(_features: PackedStringArray, _is_debug: bool, _path: String,
 
 
 func _export_end() -> void:
+	if _list_path == "":
+		return
 	if _list_before.is_empty():
 		DirAccess.remove_absolute(_list_path)
 		return
 	var file: FileAccess = FileAccess.open(_list_path, FileAccess.WRITE)
 	if file != null:
 		file.store_buffer(_list_before)
+
+
+## Whether the manifest names a library for a system of these features, as "linux.debug.x86_64" does.
+func _has_library(features: PackedStringArray) -> bool:
+	var manifest: ConfigFile = ConfigFile.new()
+	if manifest.load(MANIFEST) != OK:
+		return false
+	for tags: String in manifest.get_section_keys("libraries"):
+		if Array(tags.split(".")).all(features.has):
+			return true
+	return false
 
 
 ## What Godot's list says of a script.

@@ -1,11 +1,12 @@
 @tool
 extends EditorPlugin
 ## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
-## small held things need; and exports hold stand-ins for a missing library. The nodes work without this plugin.
+## small held things need; and exports for systems without a library hold stand-ins. The nodes work without this plugin.
 ##
 ## Scripts that name the library's classes do not load without it, so they are loaded only where it is.
 
 const ExportPlugin := preload("export_plugin.gd")
+
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
 ## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
 const SETTINGS: Dictionary[String, Variant] = {

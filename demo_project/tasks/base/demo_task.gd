@@ -6,6 +6,7 @@ const AutoAnimator := preload("res://ui/auto_animator.gd")
 const CarryPlayer := preload("res://play/carry_player.gd")
 const DemoControls := preload("res://ui/demo_controls.gd")
 const Hud := preload("res://ui/hud.gd")
+const ModelHand := preload("res://play/model_hand.gd")
 const MouseHand := preload("res://ui/mouse_hand.gd")
 const PictureQuality := preload("res://scene/picture_quality.gd")
 const PictureTaker := preload("res://play/picture_taker.gd")
@@ -65,7 +66,15 @@ func max_penetration_m() -> float:
 func _enter_tree() -> void:
 	# Before the device opens: a scripted play steps simulated time, so that equal seeds play equally.
 	var device: SpidarG = $SpidarG
-	if arguments.scripted():
+	if arguments.source == DemoSettings.SERIAL:
+		settings.source = DemoSettings.SERIAL
+		settings.serial_port = arguments.serial_port
+		settings.workspace_scale = 1.0 if arguments.scripted() else settings.workspace_scale
+		device.release_on_focus_loss = not arguments.scripted()
+		if DisplayServer.get_name() == "headless":
+			Engine.max_fps = Engine.physics_ticks_per_second # else frames without end take a processor from the model
+		settings.apply(device)
+	elif arguments.scripted():
 		device.drive_mode = SpidarG.DRIVE_STEPPED
 		device.config.transport = SpidarGConfig.TRANSPORT_SIMULATED # A script never moves a real hand.
 	else:
@@ -83,6 +92,9 @@ func _apply_preset(config: SpidarGConfig) -> void:
 
 func _ready() -> void:
 	process_physics_priority = 10 # after the device and the tool have stepped
+	if arguments.model_port > 0:
+		_scripted_hand.model = ModelHand.new(arguments.model_port)
+		_mouse_hand.model = _scripted_hand.model
 	_watch_hand()
 	_feedback.setup(self, _hud)
 	_hud.setup(spidar, tool_hand, goal)
@@ -100,6 +112,8 @@ func _ready() -> void:
 
 func _start_layout() -> void:
 	_lay_out()
+	if arguments.scripted() and arguments.things > 0:
+		most_bodies = arguments.things
 	if most_bodies > 0:
 		bodies.resize(mini(bodies.size(), most_bodies))
 	if spidar.config.has_rigid_grip():

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "device/calibration/fault_clearing.h"
 #include "device/safety/monitors/thermal_budget.h"
 #include "device/safety/motor_heat.h"
 #include "device/safety/safety_gate.h"
@@ -51,6 +52,7 @@ struct CalibrationRig::Impl {
     double since_beat_s = 0.0;
     double since_sample_s = 0.0;
     double script_time_s = 0.0;
+    FaultClearing clearing;
     RigOrders orders;
     RigNews news;
 
@@ -138,7 +140,9 @@ void CalibrationRig::Impl::cycle(double dt_s) noexcept {
         watch_writer();
     }
     since_report_s += dt_s;
+    const bool was_lost = news.status == Status::read_failed;
     news.status = transport->read(reading);
+    news.losses += news.status == Status::read_failed && !was_lost ? 1U : 0U;
     if (usable(news.status)) {
         has_reading = true;
         since_report_s = 0.0;
@@ -234,6 +238,8 @@ void CalibrationRig::Impl::drive(double dt_s) noexcept {
         pulling = pulling || tension > 0.0;
     }
     command.motors_on = pulling;
+    command.clear_faults =
+        clearing.step(orders.task.number, usable(reading.device_status)) && !pulling;
     const Status written = write(command);
     if (pulling && !usable(written)) {
         stop_task(TaskVerdict::not_ready);

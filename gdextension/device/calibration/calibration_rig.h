@@ -52,6 +52,7 @@ struct RigNews {
     Status device_status = Status::ok;
     CountArray counts{};
     std::uint64_t readings = 0;
+    std::uint32_t losses = 0; // times the device was lost: unplugged, or as if
     double time_s = 0.0;
     bool motors_on = false;
     StringArray tensions_n{}; // commanded

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/serial/board_talk.h"
+#include "device/threads/real_time_thread.h"
 
 namespace spidar {
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr int kTries = 3;
 constexpr int kScans = 4;
+constexpr int kRoundTrips = 15;
+constexpr int kSlowestRoundTrip_ms = 40; // more than twice what a bridge with a long timer takes
 
 bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
     BoardFrame frame;
@@ -111,6 +114,33 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
     return true;
 }
 
+// As the servo loop asks, but with nothing else on the way, so that each answer's question is known. 0: too few came.
+double measure_round_trip(SerialPort &port, const std::vector<BoardLayout> &boards) {
+    BoardFrame frame;
+    std::size_t length = 0;
+    for (const BoardLayout &board : boards) {
+        append_current(frame, board, {});
+        length += reply_length(board, BoardCommand::current);
+    }
+    std::vector<double> times_s;
+    for (int i = 0; i < kRoundTrips; ++i) {
+        forget_input(port);
+        const std::int64_t start_ns = monotonic_ns();
+        if (!port.write(frame.bytes(), kWrite_ms)) {
+            break;
+        }
+        if (listen(port, length, kSlowestRoundTrip_ms).size() >= length) {
+            times_s.push_back(1e-9 * static_cast<double>(monotonic_ns() - start_ns));
+        }
+    }
+    if (times_s.size() < kRoundTrips / 2) {
+        return 0.0;
+    }
+    const auto middle = times_s.begin() + static_cast<std::ptrdiff_t>(times_s.size() / 2);
+    std::nth_element(times_s.begin(), middle, times_s.end());
+    return *middle;
+}
+
 } // namespace
 
 Status open_session(const std::string &path, std::uint32_t baud, const std::atomic<bool> &give_up,
@@ -136,6 +166,7 @@ Status open_session(const std::string &path, std::uint32_t baud, const std::atom
     if (!question(*port, opened, problem)) {
         return Status::protocol_mismatch;
     }
+    opened.round_trip_s = measure_round_trip(*port, opened.boards);
     forget_input(*port);
     opened.writer = port->another();
     opened.reader = std::move(port);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <thread>
 #include <utility>
@@ -360,6 +361,17 @@ std::vector<BoardLayout> SerialTransport::boards() const {
 
 double SerialTransport::highest_rate_hz() const {
     return spidar::highest_rate_hz(boards(), impl_->settings.baud);
+}
+
+// The answer waits for the loop's next cycle. What is made of it then has to go through the wire.
+double SerialTransport::latency_s(double rate_hz) const {
+    const std::lock_guard<std::mutex> lock(impl_->mutex);
+    const double trip_s = impl_->session.round_trip_s;
+    if (!(trip_s > 0.0 && rate_hz > 0.0)) {
+        return 0.0;
+    }
+    return std::ceil(trip_s * rate_hz) / rate_hz +
+           round_time_s(impl_->session.boards, impl_->settings.baud);
 }
 
 std::string SerialTransport::problem() const {

@@ -58,6 +58,9 @@ public:
     [[nodiscard]] std::vector<BoardLayout> boards() const;
     // How often the wire lets all boards be asked (unit: Hz). A loop that is faster leaves commands out, and counts them.
     [[nodiscard]] double highest_rate_hz() const;
+    // From counts being taken to the currents made from them acting, for a loop of this rate (unit: s). Measured whenever the
+    // boards are found; 0 while it is not known.
+    [[nodiscard]] double latency_s(double rate_hz) const;
     // Why open() failed; empty after a success.
     [[nodiscard]] std::string problem() const;
     // What works, but not as it should: no guard, a slow bridge, encoders that are not read. Empty: nothing.

@@ -31,6 +31,7 @@ std::unique_ptr<Transport> open_serial(const CalibrationTarget &target, Calibrat
         problem = "SpidarGConfig." + problem;
     }
     opened.real = transport != nullptr;
+    opened.counts_restart = true; // the boards tell 16 bits of a count that begins at power-up
     opened.remarks = transport ? transport->remarks() : std::string();
     return transport;
 }

@@ -28,6 +28,7 @@ struct CalibrationTarget {
 struct CalibrationOpened {
     DeviceClaim claim;
     bool real = false;
+    bool counts_restart = false;       // from elsewhere, whenever the device was lost
     std::uint32_t counts_per_turn = 0; // real: as the device says; 0: it does not
     std::string fallback;              // why the simulated device stands in
     std::string remarks;               // serial boards: what works, but not as it should

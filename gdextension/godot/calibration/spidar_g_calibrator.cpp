@@ -165,11 +165,26 @@ bool SpidarGCalibrator::poll() {
         return true; // still opening
     }
     give();
+    const std::uint32_t losses = news_.losses;
     rig_->latest(news_);
+    if (news_.losses != losses && opened_->counts_restart) {
+        forget_lost_counts();
+    }
     fetch_samples();
     take_task_result();
     follow();
     return true;
+}
+
+// What was read before the loss no longer fits what is read after it.
+void SpidarGCalibrator::forget_lost_counts() {
+    sheet_.clear_zero();
+    for (std::size_t string = 0; string < spidar::kStringCount; ++string) {
+        sheet_.clear_lengths(string);
+    }
+    clear_poses();
+    refuse("poll: the boards were lost for a moment and their counts begin anew: zero, lengths and "
+           "poses are forgotten. Read the zero again.");
 }
 
 void SpidarGCalibrator::give() {

@@ -138,6 +138,7 @@ private:
                             const godot::Ref<SpidarGCalibration> &calibration);
     bool begin_sheet();
     void take_task_result();
+    void forget_lost_counts();
     void fetch_samples();
     void finish_job();
     void follow();

@@ -15,11 +15,12 @@ std::string serial_boards_text(const SerialTransport &transport) {
     return text;
 }
 
-void describe_serial(const SerialTransport &transport, godot::Dictionary &info) {
+void describe_serial(const SerialTransport &transport, double rate_hz, godot::Dictionary &info) {
     const SerialCounters count = transport.counters();
     info["product"] = to_godot(serial_boards_text(transport));
     info["path"] = to_godot(transport.port());
     info["remarks"] = to_godot(transport.remarks());
+    info["latency_s"] = transport.latency_s(rate_hz);
     info["highest_rate_hz"] = transport.highest_rate_hz();
     info["reports"] = whole(count.rounds);
     info["reports_lost"] = whole(count.lost);

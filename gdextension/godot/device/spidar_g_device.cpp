@@ -206,7 +206,7 @@ godot::Dictionary SpidarG::get_device_info() const {
     info["serial"] = spidar::to_godot(device.serial);
     info["path"] = spidar::to_godot(device.path);
     if (serial_ != nullptr) {
-        spidar::describe_serial(*serial_, info);
+        spidar::describe_serial(*serial_, settings_.rate_hz, info);
     }
     if (!real) {
         return info;

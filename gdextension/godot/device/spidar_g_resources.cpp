@@ -71,10 +71,11 @@ void SpidarG::want_limits(const spidar::LiveLimits &limits) {
 // delays are not in what its echoes tell.
 void SpidarG::watch_latency() {
     constexpr double kNoticed = 1.1;
-    if (hid_ == nullptr || !loop_ || !settings_.render.caps_from_latency) {
+    if ((hid_ == nullptr && serial_ == nullptr) || !loop_ || !settings_.render.caps_from_latency) {
         return;
     }
-    const double measured_s = hid_->latency_s();
+    const double measured_s =
+        hid_ != nullptr ? hid_->latency_s() : serial_->latency_s(settings_.rate_hz);
     if (measured_s <= kNoticed * settings_.render.latency_s) {
         return;
     }

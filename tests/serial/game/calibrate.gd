@@ -23,6 +23,9 @@ const TRIES := 5
 
 var _model: BoardModel
 var _calibrator := SpidarGCalibrator.new()
+## What an attempt has checked, until it counts.
+var _waits := false
+var _later := PackedStringArray()
 
 
 func _initialize() -> void:
@@ -45,11 +48,8 @@ func _run() -> void:
 		_check(not _calibrator.get_live()["simulated"], "it is no simulated device")
 		_check(_calibrator.get_live()["remarks"] == "", "remarks: %s" % _calibrator.get_live()["remarks"])
 		await _check_wiring()
-		await _read_zero()
-		await _read_ruler()
-		await _move_freely()
-		await _weigh()
-		await _compare(_calibrator.make_calibration())
+		await _lose_the_zero()
+		await _measure()
 	_calibrator.close()
 	var closed := await _until(func() -> bool: return _calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED)
 	_check(closed, "closed")
@@ -71,6 +71,37 @@ func _check_wiring() -> void:
 		var expected := SpidarGCalibrator.VERDICT_WRONG_SIGN if string == REVERSED else SpidarGCalibrator.VERDICT_DONE
 		_check(told["verdict"] == expected, "wiring of string %d: %s" % [string, told["text"]])
 		_check(_calibrator.is_reversed(string) == (string == REVERSED), "sign of string %d" % string)
+
+
+## Once more when a busy machine held the boards up for so long that they were lost: then the zero is forgotten, as it must be.
+func _measure() -> void:
+	for attempt in TRIES:
+		_later = PackedStringArray()
+		_waits = attempt + 1 < TRIES
+		await _read_zero()
+		await _read_ruler()
+		await _move_freely()
+		await _weigh()
+		await _compare(_calibrator.make_calibration())
+		if _calibrator.get_zero()["repeats"] > 0:
+			break
+		print("again: %s" % _calibrator.get_problem())
+		_calibrator.clear_zero()
+	_waits = false
+	for line in _later:
+		print(line)
+
+
+func _lose_the_zero() -> void:
+	await _wait_still()
+	_check(_calibrator.take_zero(), "a zero %s" % _calibrator.get_problem())
+	_model.tell("unplug")
+	await _wait_s(0.3)
+	_model.tell("plug")
+	await _until(func() -> bool: return _calibrator.get_zero()["repeats"] == 0)
+	_check(_calibrator.get_zero()["repeats"] == 0, "unplugged, the zero is forgotten: %s" % _calibrator.get_problem())
+	await _until(func() -> bool: return _calibrator.take_zero())
+	_calibrator.clear_zero()
 
 
 func _read_zero() -> void:
@@ -171,4 +202,8 @@ func _until(condition: Callable, limit_s: float = 5.0) -> bool:
 
 
 func _check(good: bool, what: String) -> void:
-	print("%s calibration: %s" % ["ok  " if good else "FAIL", what])
+	var line := "%s calibration: %s" % ["ok  " if good else "FAIL", what]
+	if _waits:
+		_later.append(line)
+	else:
+		print(line)

@@ -72,6 +72,8 @@ func _ask() -> void:
 		return
 	var info := _device.get_device_info()
 	print("share %d" % (100 * _device_us / (Time.get_ticks_usec() - _began_us)))
+	print("latency_us %d" % (1e6 * info["latency_s"]))
+	print("stiffness %d" % _device.get_stiffness_limits().x)
 	print("device %s at %s, rate %.0f, remarks \"%s\"" % [info["product"], info["path"], info["highest_rate_hz"], info["remarks"]])
 	_device.forces_enabled = true
 	_device.zero_at_home()
