@@ -20,13 +20,17 @@ bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device) {
     return !shared && is(filter.vendor_id, device.vendor_id) &&
            is(filter.product_id, device.product_id) &&
            (device.usage_page == 0 || device.usage_page == kHidUsagePage) &&
-           (filter.serial.empty() || filter.serial == device.serial) &&
+           (filter.serial.empty() || filter.serial == name_of(device)) &&
            (filter.path.empty() || filter.path == device.path) &&
            device.product.compare(0, filter.product.size(), filter.product) == 0;
 }
 
+const std::string &name_of(const HidDeviceInfo &device) noexcept {
+    return device.serial.empty() ? device.path : device.serial;
+}
+
 std::string claim_name(const HidDeviceInfo &device) {
-    const std::string &name = device.serial.empty() ? device.path : device.serial;
+    const std::string &name = name_of(device);
     return name.empty() ? std::string() : "hid:" + name;
 }
 

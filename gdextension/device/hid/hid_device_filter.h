@@ -13,15 +13,17 @@ namespace spidar {
 struct HidDeviceFilter {
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
-    std::string serial;
+    std::string serial;               // name_of() the device
     std::string product = "SPIDAR-G"; // the product string begins with this
     std::string path;                 // of the system: tells devices without a serial number apart
 };
 
 [[nodiscard]] bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device);
 
-// Under which name a device is claimed and its motors' heat is kept: its serial number, or its path where it has none.
-// Empty of no device.
+// Its serial number, or its path where it has none.
+[[nodiscard]] const std::string &name_of(const HidDeviceInfo &device) noexcept;
+
+// Under which name a device is claimed and its motors' heat is kept. Empty of no device.
 [[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
 
 // Those that match, in the order of their serial numbers, each path once. no_device when there is none.

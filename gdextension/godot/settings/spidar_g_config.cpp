@@ -157,9 +157,7 @@ void SpidarGConfig::_validate_property(godot::PropertyInfo &property) const {
     }
     std::string serials;
     for (const spidar::HidDeviceInfo &device : spidar::plugged_in_devices()) {
-        if (!device.serial.empty()) {
-            serials += (serials.empty() ? "" : ",") + device.serial;
-        }
+        serials += (serials.empty() ? "" : ",") + spidar::name_of(device);
     }
     property.hint = godot::PROPERTY_HINT_ENUM_SUGGESTION;
     property.hint_string = spidar::to_godot(serials);

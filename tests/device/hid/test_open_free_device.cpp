@@ -88,6 +88,19 @@ TEST_CASE("open free device: no device, or only another maker's") {
     CHECK(first.transport);
 }
 
+TEST_CASE("open free device: a device without a serial number is chosen by its path") {
+    const auto bus = std::make_shared<FakeHidBus>();
+    bus->add("")->info.path = "/dev/hidraw0";
+    bus->add("")->info.path = "/dev/hidraw1";
+    HidDeviceFilter filter;
+    filter.serial = "/dev/hidraw1";
+    const Opened named(bus, "one", filter);
+    REQUIRE(named.transport);
+    CHECK(named.transport->device().path == "/dev/hidraw1");
+    filter.serial = "/dev/hidraw7";
+    CHECK(Opened(bus, "two", filter).status == Status::no_device);
+}
+
 TEST_CASE("open free device: devices without a serial number are told apart by their paths") {
     const auto bus = std::make_shared<FakeHidBus>();
     const auto left = bus->add("");
