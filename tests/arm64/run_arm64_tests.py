@@ -20,9 +20,7 @@ import run_godot_tests  # noqa: E402
 from godot_project import prepare_project  # noqa: E402
 
 LIMIT_S = 1500
-REAL_TIME = "waits in real time for a servo thread, which is too slow under qemu"
-LONG = "takes more than half an hour under qemu"
-# Files of tests that are not run, and why.
+# Files of tests that are not run, and why. timed_*.gd are never run here: they need a game in real time.
 NOT_RUN = {}
 
 
