@@ -8,8 +8,13 @@ namespace spidar::test {
 
 class HungWeight {
 public:
-    // A string of -1 takes the weight away. The same string again: as it hangs.
+    // A string of -1 takes the weight away: it is let down by hand, as no string gets longer in no time. The same string
+    // again: as it hangs.
     void hang(int string, double weight_n) noexcept {
+        if (string < 0) {
+            weight_n_ = 0.0;
+            return;
+        }
         if (string != string_) {
             string_ = string;
             height_m_ = 0.0;
@@ -17,12 +22,19 @@ public:
         }
         weight_n_ = weight_n;
     }
-    [[nodiscard]] bool hangs() const noexcept { return string_ >= 0 && weight_n_ > 0.0; }
+    [[nodiscard]] bool hangs() const noexcept {
+        return string_ >= 0 && (weight_n_ > 0.0 || height_m_ > 0.0);
+    }
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double height_m() const noexcept { return height_m_; }
 
     // pull_n: of the motor. Friction of the drum is against the movement, and holds the weight while it can.
     void advance(double pull_n, double dt_s) noexcept {
+        if (!(weight_n_ > 0.0)) {
+            speed_m_s_ = 0.0;
+            height_m_ = std::max(0.0, height_m_ - kLetDown_m_s * dt_s);
+            return;
+        }
         const double force_n = pull_n - weight_n_;
         const double mass_kg = weight_n_ / kGravity_m_s2 + kRotor_kg;
         const double hold_n = kFriction_n + mass_kg * std::fabs(speed_m_s_) / std::max(dt_s, 1e-6);
@@ -42,6 +54,7 @@ public:
 
 private:
     static constexpr double kGravity_m_s2 = 9.81;
+    static constexpr double kLetDown_m_s = 0.2;
     static constexpr double kRotor_kg = 0.017; // as the plant's
     static constexpr double kFriction_n = 0.05;
     static constexpr double kViscous_n_s_m = 0.3;

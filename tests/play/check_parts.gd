@@ -304,7 +304,7 @@ func _check_settings() -> void:
 	for source in DemoSettings.SOURCES:
 		again.source = source
 		forces.append(again.may_have_forces())
-	_check(forces == [true, true, false, false], "forces with %s: %s" % [DemoSettings.SOURCES, forces])
+	_check(forces == [true, true, true, false, false], "forces with %s: %s" % [DemoSettings.SOURCES, forces])
 	DirAccess.remove_absolute(ProjectSettings.globalize_path(DemoSettings.PATH))
 	if kept != "":
 		var file := FileAccess.open(DemoSettings.PATH, FileAccess.WRITE)

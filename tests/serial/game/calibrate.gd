@@ -147,6 +147,7 @@ func _weigh() -> void:
 		var told := await _task(SpidarGCalibrator.TASK_WEIGHING, string, WEIGHT_N)
 		_check(told["verdict"] == SpidarGCalibrator.VERDICT_DONE, "weighed: %s" % told["text"])
 		_model.tell("hang -1 0")
+		await _wait_s(0.3) # it is let down
 		var gain: float = _calibrator.get_weights(string)["gain"]
 		var truth: float = gains[string]
 		_check(absf(gain / truth - 1.0) <= GAIN_LIMIT, "motor gain of string %d: %.3f, truth %.3f" % [string, gain, truth])
