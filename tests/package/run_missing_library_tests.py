@@ -20,7 +20,8 @@ SENTENCE = re.compile(r"^WARNING: The SPIDAR-G add-on has no library for this sy
 EDITOR_SENTENCE = re.compile(r"^WARNING: The SPIDAR-G add-on has no library for this system \(\w+ on \w+\): its nodes", re.M)
 # What Godot itself prints of a library that is not there, and of a scene that was not opened.
 GODOTS_OWN = re.compile(r"FileAccess::exists\(path\)|dynamic library not found|Error loading extension|"
-                        r"No GDExtension library found|library found for GDExtension|Can't open GDExtension|get_system_processor")
+                        r"No GDExtension library found|library found for GDExtension|Can't open GDExtension|get_system_processor|"
+                        r"completed with warnings")
 
 
 def game(godot, name):
