@@ -59,6 +59,8 @@ void draw_errors(unsigned seed, BusSettings &settings) {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         settings.plant.length_offset_error_m[i] = 0.005 * normal(random);
         settings.plant.length_gain_error[i] = common + 0.005 * normal(random);
+        // As SpidarGConfig.simulated_gain_errors: more counts a metre are a smaller drum, which pulls harder.
+        settings.plant.motors.effective_radius_m[i] /= 1.0 + settings.plant.length_gain_error[i];
         settings.plant.motors.tension_gain[i] = 1.0 + 0.12 * even(random);
         settings.home_counts[i] = static_cast<std::int32_t>(20'000.0 * even(random));
     }

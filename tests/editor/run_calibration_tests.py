@@ -283,6 +283,23 @@ def copy_project(scene=SCENE):
         file.write(scene)
 
 
+def on_a_screen(what, work):
+    """Calls work(display, check) with a screen of its own, and prints what came of it. The exit code."""
+    check = Checks()
+    began = time.monotonic()
+    xvfb, display = start_xvfb()
+    try:
+        work(display, check)
+    except GaveUp as reason:
+        check(False, str(reason))
+    finally:
+        xvfb.terminate()
+        xvfb.wait()
+    print(f"{what}: {time.monotonic() - began:.0f} s")
+    print(f"{check.passed} passed, {check.failed} failed")
+    return 1 if check.failed or not check.passed else 0
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("godot")
@@ -290,19 +307,9 @@ def main():
     chosen = options.parse_args()
     copy_project()
     prepare_project(PROJECT, chosen.godot)
-    check = Checks()
-    began = time.monotonic()
-    xvfb, display = start_xvfb()
-    try:
-        run(chosen.godot, display, chosen.pictures, check)
-    except GaveUp as reason:
-        check(False, str(reason))
-    finally:
-        xvfb.terminate()
-        xvfb.wait()
-    print(f"calibration in the editor: {time.monotonic() - began:.0f} s")
-    print(f"{check.passed} passed, {check.failed} failed")
-    return 1 if check.failed or not check.passed else 0
+    return on_a_screen(
+        "calibration in the editor", lambda display, check: run(chosen.godot, display, chosen.pictures, check)
+    )
 
 
 if __name__ == "__main__":

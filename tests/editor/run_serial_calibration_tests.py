@@ -163,23 +163,14 @@ def main():
     options.add_argument("model")
     options.add_argument("--pictures", help="a folder for pictures of the panel (needs ImageMagick's import)")
     chosen = options.parse_args()
-    check = panel.Checks()
-    began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         link = os.path.join(folder, "port")
         panel.copy_project(SCENE.format(link=link))
         prepare_project(panel.PROJECT, chosen.godot)
-        xvfb, display = panel.start_xvfb()
-        try:
-            run(chosen.godot, display, chosen.model, link, chosen.pictures, check)
-        except panel.GaveUp as reason:
-            check(False, str(reason))
-        finally:
-            xvfb.terminate()
-            xvfb.wait()
-    print(f"calibration of serial boards in the editor: {time.monotonic() - began:.0f} s")
-    print(f"{check.passed} passed, {check.failed} failed")
-    return 1 if check.failed or not check.passed else 0
+        return panel.on_a_screen(
+            "calibration of serial boards in the editor",
+            lambda display, check: run(chosen.godot, display, chosen.model, link, chosen.pictures, check),
+        )
 
 
 if __name__ == "__main__":

@@ -8,30 +8,22 @@ arm64_hidapi=$arm64_copy/hidapi/usr/lib/aarch64-linux-gnu/libhidapi-hidraw.a
 # What `scons arch=arm64` takes from outside: hidapi's static library of the suite that this machine has. That of a newer
 # one would ask for its newer C library.
 find_arm64_hidapi() {
-    [[ ! -e $arm64_hidapi ]] || return 0
-    is_debian || die "give hidapi's static library for arm64: scons arch=arm64 hidapi=FILE"
-    mkdir -p "$cache"
-    (
-        flock 9
-        [[ ! -e $arm64_hidapi ]] || exit 0
-        echo "dev: fetching hidapi for arm64 into $arm64_copy"
-        fetch_arm64 "$arm64_copy/hidapi" "$(sed -nE 's/^VERSION_CODENAME=//p' /etc/os-release)" download libhidapi-dev
-    ) 9>"$cache/lock"
+    [[ -e $arm64_hidapi ]] || is_debian ||
+        die "give hidapi's static library for arm64: scons arch=arm64 hidapi=FILE"
+    fetch_once "$arm64_hidapi" "hidapi for arm64" fetch_arm64 "$arm64_copy/hidapi" \
+        "$(sed -nE 's/^VERSION_CODENAME=//p' /etc/os-release)" download libhidapi-dev
 }
 
 # Sets arm64_godot: Debian's Godot for arm64, of the suite that the private one comes from.
 find_arm64_godot() {
     arm64_godot=$arm64_copy/run_godot
-    [[ ! -x $arm64_godot ]] || return 0
-    mkdir -p "$cache"
-    (
-        flock 9
-        [[ ! -x $arm64_godot ]] || exit 0
-        echo "dev: fetching Godot for arm64 into $arm64_copy"
-        fetch_arm64 "$arm64_copy/root" "$godot_suite" "-y --download-only install" godot
-        ln -sfn usr/lib "$arm64_copy/root/lib" # where programs look for their loader
-        under_qemu "$arm64_copy/root" "$arm64_copy/root/usr/bin/godot" "$arm64_godot"
-    ) 9>"$cache/lock"
+    fetch_once "$arm64_godot" "Godot for arm64" fetch_arm64_godot
+}
+
+fetch_arm64_godot() {
+    fetch_arm64 "$arm64_copy/root" "$godot_suite" "-y --download-only install" godot
+    ln -sfn usr/lib "$arm64_copy/root/lib" # where programs look for their loader
+    under_qemu "$arm64_copy/root" "$arm64_copy/root/usr/bin/godot" "$arm64_godot"
 }
 
 fetch_arm64() { # fetch_arm64 FOLDER SUITE "APT-GET COMMAND" PACKAGE: unpacks it, and what the command fetches with it

@@ -178,14 +178,8 @@ find_templates() {
     [[ $version == *.debian* ]] || die "GODOT is version $version, not one of Debian's: a real export needs" \
         "templates of the same version, and only Debian's are fetched"
     templates=$cache/templates/$version
-    [[ ! -d $templates ]] || return 0
     mkdir -p "$cache/templates"
-    (
-        flock 9
-        [[ ! -d $templates ]] || exit 0
-        echo "dev: fetching export templates into $templates"
-        fetch_templates "${version##*.debian}"
-    ) 9>"$cache/lock"
+    fetch_once "$templates" "export templates" fetch_templates "${version##*.debian}"
 }
 
 fetch_templates() { # fetch_templates DEBIAN_VERSION

@@ -10,15 +10,9 @@ find_jolt() {
     for argument in "$@"; do
         [[ $argument != jolt=* ]] || return 0
     done
-    [[ ! -d $jolt_copy ]] || return 0
-    is_debian || die "Jolt $jolt_version is needed: give a checkout of its sources by ./dev build jolt=PATH"
-    mkdir -p "$cache"
-    (
-        flock 9
-        [[ ! -d $jolt_copy ]] || exit 0
-        echo "dev: fetching Jolt's sources into $jolt_copy"
-        fetch_jolt
-    ) 9>"$cache/lock"
+    [[ -e $jolt_copy ]] || is_debian ||
+        die "Jolt $jolt_version is needed: give a checkout of its sources by ./dev build jolt=PATH"
+    fetch_once "$jolt_copy" "Jolt's sources" fetch_jolt
 }
 
 fetch_jolt() {

@@ -15,21 +15,18 @@ find_kernel() {
     fi
     [[ -n $package ]] || die "apt knows no kernel: run apt-get update as root"
     kernel=$cache/kernel/$package
-    [[ ! -e $kernel/vmlinuz ]] || return 0
-    mkdir -p "$cache"
-    (
-        flock 9
-        [[ ! -e $kernel/vmlinuz ]] || exit 0
-        echo "dev: fetching $package into $cache"
-        local work=$cache/kernel.part
-        rm -rf "$work"
-        mkdir -p "$work/files" "$cache/kernel"
-        (cd "$work" && apt-get -qq -o APT::Sandbox::User= download "$package")
-        dpkg-deb --fsys-tarfile "$work"/*.deb | tar -x -C "$work/files" --wildcards \
-            --no-anchored --transform='s,.*/,,' 'boot/vmlinuz-*' {usb-common,usbcore,hid}.ko \
-            {hid-generic,usbhid,uhid,udc-core,configfs,libcomposite,usb_f_hid,dummy_hcd}.ko
-        mv "$work"/files/vmlinuz-* "$work/files/vmlinuz"
-        mv "$work/files" "$kernel"
-        rm -rf "$work"
-    ) 9>"$cache/kernel.lock"
+    fetch_once "$kernel/vmlinuz" "$package" fetch_kernel "$package"
+}
+
+fetch_kernel() { # fetch_kernel PACKAGE: into $kernel
+    local work=$cache/kernel.part
+    rm -rf "$work"
+    mkdir -p "$work/files" "$cache/kernel"
+    (cd "$work" && apt-get -qq -o APT::Sandbox::User= download "$1")
+    dpkg-deb --fsys-tarfile "$work"/*.deb | tar -x -C "$work/files" --wildcards \
+        --no-anchored --transform='s,.*/,,' 'boot/vmlinuz-*' {usb-common,usbcore,hid}.ko \
+        {hid-generic,usbhid,uhid,udc-core,configfs,libcomposite,usb_f_hid,dummy_hcd}.ko
+    mv "$work"/files/vmlinuz-* "$work/files/vmlinuz"
+    mv "$work/files" "$kernel"
+    rm -rf "$work"
 }

@@ -25,6 +25,18 @@ present() { # a program, a header (its name has a slash) or a file (its path is 
 
 is_debian() { command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null; }
 
+# fetch_once PATH WHAT COMMAND...: runs the command unless the path is there; one process of this user at a time
+fetch_once() {
+    [[ ! -e $1 ]] || return 0
+    mkdir -p "$cache"
+    (
+        flock 9
+        [[ ! -e $1 ]] || exit 0
+        echo "dev: fetching $2 into $cache"
+        "${@:3}"
+    ) 9>"$cache/lock"
+}
+
 need() { # need PROBE:PACKAGE...
     local entry missing=() packages=()
     for entry in "$@"; do

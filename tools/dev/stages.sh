@@ -88,6 +88,8 @@ stage_serial() {
 stage_serial_long() {
     scons -Q -j"$jobs" spidar_serial_tests
     doctest build/bin/spidar_serial_tests --test-suite=long
+    need "${picture_needs[@]}" xdotool:xdotool
+    counted python3 tests/editor/run_serial_calibration_tests.py "$GODOT" build/bin/spidar_board_model
 }
 
 stage_play() {

@@ -24,7 +24,6 @@ constexpr StringVectors kX3lJoints_m{Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 
                                      Vec3(0, 0.0225, 0),         Vec3(0, 0.0225, 0),
                                      Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591),
                                      Vec3(0, -0.0225, 0),        Vec3(0, -0.0225, 0)};
-constexpr double kX3MetresPerCount = 1.66555e-5;
 
 // Not turned in their frames, and so with joints along the axes.
 constexpr StringVectors kX5rMotors_m{
@@ -55,43 +54,27 @@ constexpr BoardWiring kX5rBoards{
 constexpr BoardWiring kX5lBoards{0.091 * kUnitsPerVolt};
 constexpr BoardWiring kX4Boards{
     0.08 * kUnitsPerVolt, {-1, -1, 1, 1, 1, 1, -1, -1}, {1, 1, -1, -1, -1, -1, 1, 1}};
-constexpr double kX3MinTension_n = 0.3;
-constexpr double kX3MaxTension_n = 20.0;
 
-DevicePreset rigid(const char *name, const StringVectors &motors_m,
-                   const StringVectors &joints_m) noexcept {
+// What a device counts, and what its driver keeps the strings between.
+struct Drive {
+    double metres_per_count;
+    double min_tension_n;
+    double max_tension_n;
+};
+constexpr Drive kX3Drive{1.66555e-5, 0.3, 20.0};
+constexpr Drive kX4Drive{3.485e-5, 0.2, 20.0};
+constexpr Drive kX5Drive{2.25e-5, 0.3, 6.0};
+
+DevicePreset rigid(const char *name, const StringVectors &motors_m, const StringVectors &joints_m,
+                   const Drive &drive, const BoardWiring &boards = {}) noexcept {
     DevicePreset preset;
     preset.name = name;
     preset.frame.motors_m = motors_m;
     preset.grip = make_rigid_grip(joints_m);
-    return preset;
-}
-
-DevicePreset x3(const char *name, const StringVectors &motors_m,
-                const StringVectors &joints_m) noexcept {
-    DevicePreset preset = rigid(name, motors_m, joints_m);
-    preset.metres_per_count = kX3MetresPerCount;
-    preset.min_tension_n = kX3MinTension_n;
-    preset.max_tension_n = kX3MaxTension_n;
-    return preset;
-}
-
-DevicePreset x5(const char *name, const StringVectors &motors_m, const StringVectors &joints_m,
-                const BoardWiring &boards) noexcept {
-    DevicePreset preset = rigid(name, motors_m, joints_m);
-    preset.metres_per_count = 2.25e-5;
-    preset.min_tension_n = 0.3;
-    preset.max_tension_n = 6.0;
+    preset.metres_per_count = drive.metres_per_count;
+    preset.min_tension_n = drive.min_tension_n;
+    preset.max_tension_n = drive.max_tension_n;
     preset.boards = boards;
-    return preset;
-}
-
-DevicePreset x4() noexcept {
-    DevicePreset preset = rigid("SpidarG6X4", kX4Motors_m, kX4Joints_m);
-    preset.metres_per_count = 3.485e-5;
-    preset.min_tension_n = 0.2;
-    preset.max_tension_n = 20.0;
-    preset.boards = kX4Boards;
     return preset;
 }
 
@@ -110,15 +93,15 @@ DevicePreset paper() noexcept {
 DevicePreset device_preset(Preset preset) noexcept {
     switch (preset) {
     case Preset::spidar_g6_x3r:
-        return x3("SpidarG6X3R", kX3rMotors_m, kX3rJoints_m);
+        return rigid("SpidarG6X3R", kX3rMotors_m, kX3rJoints_m, kX3Drive);
     case Preset::spidar_g6_x3l:
-        return x3("SpidarG6X3L", kX3lMotors_m, kX3lJoints_m);
+        return rigid("SpidarG6X3L", kX3lMotors_m, kX3lJoints_m, kX3Drive);
     case Preset::spidar_g6_x5r:
-        return x5("SpidarG6X5R", kX5rMotors_m, kX5rJoints_m, kX5rBoards);
+        return rigid("SpidarG6X5R", kX5rMotors_m, kX5rJoints_m, kX5Drive, kX5rBoards);
     case Preset::spidar_g6_x5l:
-        return x5("SpidarG6X5L", kX5lMotors_m, kX5lJoints_m, kX5lBoards);
+        return rigid("SpidarG6X5L", kX5lMotors_m, kX5lJoints_m, kX5Drive, kX5lBoards);
     case Preset::spidar_g6_x4:
-        return x4();
+        return rigid("SpidarG6X4", kX4Motors_m, kX4Joints_m, kX4Drive, kX4Boards);
     case Preset::paper:
         break;
     }

@@ -3,6 +3,7 @@
 #include "device/hid/open_free_device.h"
 #include "device/serial/open_serial_device.h"
 #include "device/simulation/simulated_transport.h"
+#include "godot/settings/spidar_g_config.h"
 
 namespace spidar {
 
@@ -27,9 +28,7 @@ std::unique_ptr<Transport> open_serial(const CalibrationTarget &target, Calibrat
                                        std::string &problem) {
     Status status = Status::ok;
     auto transport = open_serial_device(target.serial, kOwner, opened.claim, status, problem);
-    if (problem.starts_with("serial_port")) {
-        problem = "SpidarGConfig." + problem;
-    }
+    problem = SpidarGConfig::told_of(problem);
     opened.real = transport != nullptr;
     opened.counts_restart = true; // the boards tell 16 bits of a count that begins at power-up
     opened.remarks = transport ? transport->remarks() : std::string();

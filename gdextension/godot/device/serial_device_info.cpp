@@ -1,6 +1,7 @@
 #include "godot/device/serial_device_info.h"
 
 #include "device/contract/device_claims.h"
+#include "device/serial/board_talk.h"
 #include "device/serial/serial_port.h"
 #include "godot/base/type_conversions.h"
 
@@ -9,8 +10,7 @@ namespace spidar {
 std::string serial_boards_text(const SerialTransport &transport) {
     std::string text;
     for (const BoardLayout &board : transport.boards()) {
-        text += (text.empty() ? "" : ", ") + std::string(name_of_model(board.info.model)) +
-                " with id " + std::to_string(board.id);
+        text += (text.empty() ? "" : ", ") + name_of(board);
     }
     return text;
 }

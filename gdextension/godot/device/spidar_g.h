@@ -124,9 +124,9 @@ public:
         return _get_configuration_warnings();
     }
 
-    // Tells what was not taken: by request_rejected and in the output.
     // "SpidarG "name": message", as every message of the node begins.
     [[nodiscard]] godot::String named(const std::string &message) const;
+    // Tells what was not taken: by request_rejected and in the output.
     void refuse(const std::string &message) const;
 
     // Device (spidar_g.cpp).

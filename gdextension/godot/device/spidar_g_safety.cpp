@@ -156,6 +156,9 @@ void SpidarG::publish_forces() {
 
 // Closes the fingers of a rigid grip.
 void SpidarG::follow_grasp_action() {
+    if (settings_.grip.kind != spidar::GripKind::rigid || !settings_.fingers.by_game) {
+        return;
+    }
     const double share = config_or_default().grasp_action_strength();
     if (share != command_.grasp_share) {
         command_.grasp_share = share;

@@ -6,15 +6,6 @@
 
 using spidar::Status;
 
-namespace {
-
-// A problem of the device's settings names its field, which a user finds in the config.
-[[nodiscard]] std::string told_of_config(const std::string &problem) {
-    return (problem.starts_with("serial_port") ? "SpidarGConfig." : "") + problem;
-}
-
-} // namespace
-
 bool SpidarG::looks_for_serial() const {
     return config_or_default().get_transport() == SpidarGConfig::TRANSPORT_SERIAL &&
            drive_mode_ != DRIVE_STEPPED;
@@ -34,7 +25,7 @@ void SpidarG::watch_serial_search() {
     Status status = Status::ok;
     std::string problem;
     if (serial_search_->take_failure(status, problem)) {
-        refuse_device(status, told_of_config(problem), true);
+        refuse_device(status, SpidarGConfig::told_of(problem), true);
     }
 }
 
@@ -49,7 +40,7 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
         problem = spidar::describe(status);
     }
     if (!transport) {
-        problem = told_of_config(problem);
+        problem = SpidarGConfig::told_of(problem);
         return nullptr;
     }
     serial_ = transport.get();

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "core/calibration/motor_calibration.h"
-#include "core/presets/presets.h"
 #include "godot/settings/spidar_g_config.h"
 
 namespace {
@@ -49,13 +48,15 @@ std::string SpidarGConfig::serial_problem() const {
     return {};
 }
 
+std::string SpidarGConfig::told_of(const std::string &problem) {
+    return (problem.starts_with("serial_port") ? "SpidarGConfig." : "") + problem;
+}
+
 spidar::SerialTransportSettings SpidarGConfig::serial_settings() const {
     spidar::SerialTransportSettings settings;
     settings.port = serial_port_.utf8().get_data();
     const spidar::BoardWiring wiring =
-        preset_ == kPresetCustom
-            ? spidar::BoardWiring()
-            : spidar::device_preset(static_cast<spidar::Preset>(preset_ - 1)).boards;
+        preset_ == kPresetCustom ? spidar::BoardWiring() : preset_device().boards;
     if (serial_units_per_ampere_ > 0.0) {
         settings.units_per_a = serial_units_per_ampere_;
     } else if (wiring.units_per_newton > 0.0) {

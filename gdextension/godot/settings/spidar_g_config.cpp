@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/analysis/geometry_report.h"
-#include "core/presets/presets.h"
 #include "godot/base/type_conversions.h"
 #include "godot/settings/plugged_in_devices.h"
 
@@ -45,10 +44,6 @@ std::string refuse_eight(const char *field, const godot::PackedFloat64Array &val
         }
     }
     return {};
-}
-
-spidar::DevicePreset preset_of(int value) {
-    return spidar::device_preset(static_cast<spidar::Preset>(value - 1));
 }
 
 } // namespace
@@ -127,9 +122,10 @@ godot::Vector3 SpidarGConfig::get_effective_frame_size() const {
     if (preset_ <= kPresetCustom || preset_ > spidar::kPresetCount) {
         return frame_size_;
     }
-    spidar::Vec3 low = preset_of(preset_).frame.motors_m[0];
+    const spidar::DevicePreset device = preset_device();
+    spidar::Vec3 low = device.frame.motors_m[0];
     spidar::Vec3 high = low;
-    for (const spidar::Vec3 &motor : preset_of(preset_).frame.motors_m) {
+    for (const spidar::Vec3 &motor : device.frame.motors_m) {
         low = glm::min(low, motor);
         high = glm::max(high, motor);
     }
@@ -140,8 +136,12 @@ double SpidarGConfig::get_effective_pole_half_length() const {
     return servo_settings().grip.pole_half_length_m;
 }
 
+spidar::DevicePreset SpidarGConfig::preset_device() const {
+    return spidar::device_preset(static_cast<spidar::Preset>(preset_ - 1));
+}
+
 bool SpidarGConfig::has_rigid_grip() const {
-    return servo_settings().grip.kind == spidar::GripKind::rigid;
+    return preset_ != kPresetCustom && preset_device().grip.kind == spidar::GripKind::rigid;
 }
 
 void SpidarGConfig::_validate_property(godot::PropertyInfo &property) const {
@@ -200,7 +200,7 @@ spidar::ServoSettings SpidarGConfig::servo_settings() const {
     double metres_per_count = spidar::kPaperMetresPerCount;
     double most_tension_n = tension_max_;
     if (preset_ != kPresetCustom) {
-        const spidar::DevicePreset device = preset_of(preset_);
+        const spidar::DevicePreset device = preset_device();
         settings.frame = device.frame;
         settings.grip = device.grip;
         metres_per_count = device.metres_per_count;

@@ -12,6 +12,7 @@
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
+#include "core/presets/presets.h"
 #include "device/hid/hid_device_filter.h"
 #include "device/serial/serial_transport.h"
 #include "device/settings/servo_settings.h"
@@ -135,6 +136,8 @@ public:
     [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
     // How far grasp_action is pressed, 0 to 1; 0 where it does not count.
     [[nodiscard]] double grasp_action_strength() const;
+    // A problem of a device that begins with the name of a setting, as a user of this resource finds it.
+    [[nodiscard]] static std::string told_of(const std::string &problem);
     // What this resource checks on its own (the rest is checked with the whole ServoSettings).
     [[nodiscard]] std::string own_problem() const;
 
@@ -146,6 +149,8 @@ public:
     void _validate_property(godot::PropertyInfo &property) const;
 
 private:
+    // Of any preset but Custom. One that is out of range gives the paper's device.
+    [[nodiscard]] spidar::DevicePreset preset_device() const;
     [[nodiscard]] std::string serial_problem() const;
     [[nodiscard]] std::string grasp_problem() const;
     [[nodiscard]] bool has_grasp_action() const;

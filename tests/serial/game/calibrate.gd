@@ -1,8 +1,6 @@
 ## The whole calibration of motor boards by SpidarGCalibrator: -- PORT UDP_PORT. The boards' model has errors that only it
 ## knows, and plays the hand; what is found is compared with its truth. Prints "ok" and "FAIL" lines, then "calibrated".
-extends SceneTree
-
-const BoardModel := preload("board_model.gd")
+extends "calibrator_script.gd"
 
 const ZERO_READINGS := 3
 const POSES := 320
@@ -17,12 +15,11 @@ const WEIGHT_N := 2.0
 const LENGTH_LIMIT_M := 0.2e-3
 const GAIN_LIMIT := 0.02
 const RULER_LIMIT := 0.004
+const LIMIT_S := 5.0
 const TASK_LIMIT_S := 20.0
 ## A busy machine holds the boards' answers up; the rig then ends the task, and it is asked for again.
 const TRIES := 5
 
-var _model: BoardModel
-var _calibrator := SpidarGCalibrator.new()
 ## What an attempt has checked, until it counts.
 var _waits := false
 var _later := PackedStringArray()
@@ -42,7 +39,7 @@ func _run() -> void:
 	config.serial_motors = _motors()
 	_check(not _calibrator.open(config, null, true), "simulated time is refused: %s" % _calibrator.get_problem())
 	_check(_calibrator.open(config, null), "asks for the boards %s" % _calibrator.get_problem())
-	var open := await _until(func() -> bool: return _calibrator.get_live()["readings"] > 0)
+	var open := await _until(func() -> bool: return _calibrator.get_live()["readings"] > 0, LIMIT_S)
 	_check(open, "opened %s" % _calibrator.get_problem())
 	if open:
 		_check(not _calibrator.get_live()["simulated"], "it is no simulated device")
@@ -51,7 +48,7 @@ func _run() -> void:
 		await _lose_the_zero()
 		await _measure()
 	_calibrator.close()
-	var closed := await _until(func() -> bool: return _calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED)
+	var closed := await _until(func() -> bool: return _calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED, LIMIT_S)
 	_check(closed, "closed")
 	_check(_model.tell()["flash_writes"] == 0, "nothing was written to the boards' flash")
 	print("calibrated")
@@ -98,9 +95,9 @@ func _lose_the_zero() -> void:
 	_model.tell("unplug")
 	await _wait_s(0.3)
 	_model.tell("plug")
-	await _until(func() -> bool: return _calibrator.get_zero()["repeats"] == 0)
+	await _until(func() -> bool: return _calibrator.get_zero()["repeats"] == 0, LIMIT_S)
 	_check(_calibrator.get_zero()["repeats"] == 0, "unplugged, the zero is forgotten: %s" % _calibrator.get_problem())
-	await _until(func() -> bool: return _calibrator.take_zero())
+	await _until(func() -> bool: return _calibrator.take_zero(), LIMIT_S)
 	_calibrator.clear_zero()
 
 
@@ -140,7 +137,7 @@ func _move_freely() -> void:
 
 
 func _weigh() -> void:
-	var gains: Array = _model.tell()["tension_gains"]
+	var errors := _model.tell()
 	for string in WEIGHED:
 		_model.tell("hang %d %f" % [string, WEIGHT_N])
 		await _wait_s(0.2)
@@ -149,7 +146,8 @@ func _weigh() -> void:
 		_model.tell("hang -1 0")
 		await _wait_s(0.3) # it is let down
 		var gain: float = _calibrator.get_weights(string)["gain"]
-		var truth: float = gains[string]
+		# With the drum's nominal radius: the smaller one pulls harder.
+		var truth: float = errors["tension_gains"][string] * (1.0 + errors["gain_errors"][string])
 		_check(absf(gain / truth - 1.0) <= GAIN_LIMIT, "motor gain of string %d: %.3f, truth %.3f" % [string, gain, truth])
 
 
@@ -166,6 +164,10 @@ func _compare(found: SpidarGCalibration) -> void:
 		for string in 8:
 			var read_m := found.string_offsets[string] + found.string_scales[string] * (counts[string] - found.zero_counts[string])
 			square += pow(read_m - lengths[string], 2) / 64.0
+	for string in WEIGHED:
+		var truth: float = _model.tell()["tension_gains"][string]
+		var gain := found.tension_gains[string]
+		_check(absf(gain / truth - 1.0) <= GAIN_LIMIT, "motor gain of string %d with its own radius: %.3f, truth %.3f" % [string, gain, truth])
 	_check(sqrt(square) <= LENGTH_LIMIT_M, "lengths at 8 places: %.4f mm rms, limit %.1f" % [1e3 * sqrt(square), 1e3 * LENGTH_LIMIT_M])
 
 
@@ -183,23 +185,12 @@ func _task(task: SpidarGCalibrator.Task, string: int, weight_n: float) -> Dictio
 
 func _wait_still() -> void:
 	await _wait_s(0.7)
-	await _until(func() -> bool: return _model.tell().get("still", false))
+	await _until(func() -> bool: return _model.tell().get("still", false), LIMIT_S)
 	await _wait_s(0.3)
 
 
 func _wait_s(time_s: float) -> void:
 	await _until(func() -> bool: return false, time_s)
-
-
-## Looks at the calibrator in each frame, as a panel does.
-func _until(condition: Callable, limit_s: float = 5.0) -> bool:
-	var began_ms := Time.get_ticks_msec()
-	while Time.get_ticks_msec() - began_ms < 1e3 * limit_s:
-		_calibrator.poll()
-		if condition.call():
-			return true
-		await process_frame
-	return false
 
 
 func _check(good: bool, what: String) -> void:

@@ -1,11 +1,9 @@
 ## What the boards keep in their flash, by SpidarGCalibrator: -- PORT UDP_PORT. Prints "ok" and "FAIL" lines, then "done".
-extends SceneTree
+extends "calibrator_script.gd"
 
-const BoardModel := preload("board_model.gd")
+const LIMIT_S := 8.0
 
-var _model: BoardModel
 var _config := SpidarGConfig.new()
-var _calibrator := SpidarGCalibrator.new()
 
 
 func _initialize() -> void:
@@ -32,23 +30,23 @@ func _refuse_while_in_use() -> void:
 	device.name = "Player"
 	device.config = _config
 	root.add_child(device)
-	await _until(func() -> bool: return device.get_state() != SpidarG.STATE_CLOSED)
+	await _until(func() -> bool: return device.get_state() != SpidarG.STATE_CLOSED, LIMIT_S)
 	_check(_calibrator.read_boards(_config), "asks while a node has the port")
-	await _until(func() -> bool: return not _calibrator.is_using_boards())
+	await _until(func() -> bool: return not _calibrator.is_using_boards(), LIMIT_S)
 	_check(_calibrator.get_problem().contains("\"Player\""), "refused: %s" % _calibrator.get_problem())
 	device.free()
 	_calibrator.open(_config, null)
-	await _until(func() -> bool: return _calibrator.get_live()["readings"] > 0)
+	await _until(func() -> bool: return _calibrator.get_live()["readings"] > 0, LIMIT_S)
 	var remarks: String = _calibrator.get_live()["remarks"]
 	_check(remarks.contains("quadrature"), "the calibrator says what is wrong: %s" % remarks)
 	_check(not _calibrator.read_boards(_config), "open: %s" % _calibrator.get_problem())
 	_calibrator.close()
-	await _until(func() -> bool: return _calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED)
+	await _until(func() -> bool: return _calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED, LIMIT_S)
 
 
 func _read() -> void:
 	_check(_calibrator.read_boards(_config), "reads %s" % _calibrator.get_problem())
-	await _until(func() -> bool: return not _calibrator.is_using_boards())
+	await _until(func() -> bool: return not _calibrator.is_using_boards(), LIMIT_S)
 	var boards := _calibrator.get_boards()
 	_check(boards.size() == 1, "boards: %s %s" % [boards, _calibrator.get_problem()])
 	if boards.size() == 1:
@@ -75,7 +73,7 @@ func _set_mask() -> void:
 	var told := _calibrator.propose_board_parameter(1, SpidarGCalibrator.PARAMETER_QUADRATURE_MASK, 255)
 	_check(_flash_writes() == 0, "a proposal sends nothing")
 	_check(_calibrator.write_board_parameter(told["board"]), "confirmed %s" % _calibrator.get_problem())
-	await _until(func() -> bool: return not _calibrator.is_using_boards())
+	await _until(func() -> bool: return not _calibrator.is_using_boards(), LIMIT_S)
 	var result := _calibrator.get_board_result()
 	_check(result["known"] and result["written"] and result["value_before"] == 0 and result["value_found"] == 255, "%s" % result["text"])
 	_check(_calibrator.get_boards().is_empty(), "to be read again")
@@ -86,16 +84,6 @@ func _set_mask() -> void:
 func _flash_writes() -> int:
 	OS.delay_msec(5)
 	return int(_model.tell()["flash_writes"])
-
-
-func _until(condition: Callable, limit_s: float = 8.0) -> bool:
-	var began_ms := Time.get_ticks_msec()
-	while Time.get_ticks_msec() - began_ms < 1e3 * limit_s:
-		_calibrator.poll()
-		if condition.call():
-			return true
-		await process_frame
-	return false
 
 
 func _check(good: bool, what: String) -> void:
