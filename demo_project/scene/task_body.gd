@@ -38,9 +38,15 @@ var _materials: Array[StandardMaterial3D] = []
 
 
 func _ready() -> void:
-	if has_meta("spidar_squeeze_nm_rad"):
+	if squeeze_stiffness() > 0.0:
 		felt.width_tolerance_m = FeltRecord.WIDTH_TOLERANCE_SOFT_M
 	body_entered.connect(_on_body_entered)
+
+
+## How soft it is between the fingers, N m/rad; 0: as hard as the device can render.
+func squeeze_stiffness() -> float:
+	var surface := get_node_or_null(^"Surface") as SpidarGSurface
+	return surface.material.squeeze_stiffness if surface != null else 0.0
 
 
 ## Of the node Shape: width, height and depth of a box, a cylinder or a ball.

@@ -11,6 +11,8 @@
 #include "godot/settings/project_options.h"
 #include "godot/settings/spidar_g_calibration.h"
 #include "godot/settings/spidar_g_config.h"
+#include "godot/surface/spidar_g_material.h"
+#include "godot/surface/spidar_g_surface.h"
 #include "godot/workspace/spidar_g_workspace.h"
 
 namespace {
@@ -19,6 +21,8 @@ void initialize(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         GDREGISTER_CLASS(SpidarGConfig);
         GDREGISTER_CLASS(SpidarGCalibration);
+        GDREGISTER_CLASS(SpidarGMaterial);
+        GDREGISTER_CLASS(SpidarGSurface);
         GDREGISTER_CLASS(SpidarGCalibrator);
         GDREGISTER_CLASS(SpidarGWorkspace);
         GDREGISTER_CLASS(SpidarG);

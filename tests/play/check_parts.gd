@@ -161,7 +161,7 @@ func _check_catalogue() -> void:
 			masses[object.mass] = true
 			widths[object.width_m] = true
 			frictions[object.physics_material_override.friction] = true
-			squeezes[object.get_meta(&"spidar_squeeze_nm_rad", 0.0)] = true
+			squeezes[object.squeeze_stiffness()] = true
 			_check(object.width_m <= 0.052, "%s is wider than the fingers hold" % object.label)
 			object.free()
 		_check(masses.size() >= 3 and widths.size() >= 3, "level %d: masses and widths" % level)

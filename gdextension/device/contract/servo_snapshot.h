@@ -37,6 +37,7 @@ struct TouchPointReport {
     Vec3 normal{0.0};  // out of the scene
     Vec3 force_n{0.0}; // on the tool
     double gap_m = 0.0;
+    double slip_m_s = 0.0; // along the surface; 0: friction holds it
 };
 
 inline constexpr int kMostTouchParts = 32;

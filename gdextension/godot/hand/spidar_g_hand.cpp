@@ -46,6 +46,9 @@ void SpidarGHand::_enter_tree() {
     set_physics_process(spidar_ != nullptr && !godot::Engine::get_singleton()->is_editor_hint());
     update_configuration_warnings();
     place_.entered(*this);
+    if (!godot::Engine::get_singleton()->is_editor_hint()) {
+        surroundings_.open();
+    }
 }
 
 void SpidarGHand::_ready() {

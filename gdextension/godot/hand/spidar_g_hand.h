@@ -28,6 +28,7 @@
 #include "godot/hand/hand_place.h"
 #include "godot/hand/pads.h"
 #include "godot/hand/scene/surroundings.h"
+#include "godot/hand/surface_news.h"
 #include "godot/hand/touch_scenes.h"
 
 // A number with its setter and getter. What makes no sense is refused with an error.
@@ -166,6 +167,7 @@ private:
     spidar::Surroundings surroundings_;
     spidar::TouchedBodies touched_;
     spidar::BodyPushes pushes_;
+    spidar::SurfaceNews news_;
 
     spidar::Pinch pinch_;
     double pinch_age_s_ = 0.0; // since both pads lay on it last

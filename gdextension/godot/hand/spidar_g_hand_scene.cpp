@@ -129,7 +129,7 @@ spidar::HandFeel SpidarGHand::feel() const {
     feel.friction = contact_friction_;
     feel.centres_itself = !hold_.holds() && spidar_->get_state() != SpidarG::STATE_ACTIVE;
     feel.pinched = hold_.holds() ? 0 : pinch_.body;
-    feel.squeeze_nm_rad = hold_.holds() ? held_squeeze_nm_rad_ : pinch_.squeeze_nm_rad;
+    feel.squeeze_nm_rad = hold_.holds() ? held_squeeze_nm_rad_ : pinch_.facts.squeeze_nm_rad;
     const double per_frame = spidar::physics_ticks_per_second() /
                              std::max(Engine::get_singleton()->get_time_scale(), 1.0);
     // Stiffness is per device metre, the body moves in scene metres.
@@ -212,6 +212,7 @@ void SpidarGHand::withdraw() {
     squeeze_nm_ = 0.0;
     pushes_.clear();
     touched_.clear();
+    news_.clear(*this);
     drawing_.hide();
 }
 

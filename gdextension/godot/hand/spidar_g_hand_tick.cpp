@@ -60,6 +60,7 @@ void SpidarGHand::_physics_process(double delta) {
         push_bodies(clock_.elapsed_s());
     }
     draw();
+    news_.tell(spidar_->snapshot().touch, touched_, now_, *this);
 }
 
 // At the end: a velocity that a push has just given, and that the physics step has not yet set against the floor and all else
@@ -159,7 +160,7 @@ void SpidarGHand::attach(RigidBody3D &body) {
     hold_.attach(*this, body, grip, off_m * spidar_->get_workspace_scale());
     held_shapes_.take(body, spidar_->get_workspace_scale());
     held_stop_rad_ = proxy.grasp_rad;
-    held_squeeze_nm_rad_ = pinch_.squeeze_nm_rad;
+    held_squeeze_nm_rad_ = pinch_.facts.squeeze_nm_rad;
     watch_.reset();
     load_.reset();
     held_ = {};

@@ -41,16 +41,6 @@ DofGains stiffness_of(const HandFeel &feel, const ServoSettings &settings) noexc
     return stiffness;
 }
 
-double friction_of(const BodyFacts &facts, double hand_friction) noexcept {
-    if (facts.hand_friction > 0.0) {
-        return facts.hand_friction;
-    }
-    if (!facts.has_material) {
-        return hand_friction;
-    }
-    return combined_friction(hand_friction, facts.friction, facts.rough);
-}
-
 // 0: it does not give way.
 double softness_of(const NearShape &shape, const HandFeel &feel) noexcept {
     const double own_n_m = shape.facts.stiffness_n_m;
@@ -73,7 +63,9 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
         part.belt_m_s = shape.belt_m_s;
         part.belt_rad_s = shape.belt_rad_s;
         part.stiffness_n_m = softness_of(shape, feel);
-        part.friction = friction_of(shape.facts, feel.friction);
+        part.damping_n_s_m = shape.facts.damping_n_s_m;
+        part.friction = shape.facts.slipping_friction(feel.friction);
+        part.traits = shape.traits;
         part.id = shape.id;
         part.groups = shape.seen_by;
         touch.shapes.push_back(shape.shape);

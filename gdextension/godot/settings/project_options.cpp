@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char *kConfig = "spidar_g/device/default_config";
 constexpr const char *kHardware = "spidar_g/device/use_hardware";
+constexpr const char *kMaterial = "spidar_g/hand/default_material";
 constexpr const char *kForce = "spidar_g/safety/largest_force_n";
 constexpr const char *kPanicKey = "spidar_g/safety/panic_key";
 
@@ -45,6 +46,24 @@ Variant option(const char *name) {
     return ProjectSettings::get_singleton()->get_setting(name, Variant());
 }
 
+// Null where the option is empty; an error where it names no resource of that kind.
+template <typename Kind>
+godot::Ref<Kind> resource_of(const char *name) {
+    const Variant set = option(name);
+    if (set.get_type() != Variant::STRING || static_cast<String>(set).is_empty()) {
+        return {};
+    }
+    const String path(set);
+    const godot::Ref<Kind> resource(Variant(godot::ResourceLoader::get_singleton()->load(path)));
+    if (resource.is_null()) {
+        godot::UtilityFunctions::push_error(
+            String("Project setting ") + String(name) + String(" = \"") + path +
+            String("\" is no ") + String(Kind::get_class_static()) +
+            String(": choose a resource of that kind, or clear it."));
+    }
+    return resource;
+}
+
 std::string key_choices() {
     const auto choice = [](const char *name, godot::Key key) {
         return std::string(",") + name + ":" + std::to_string(static_cast<int>(key));
@@ -59,6 +78,7 @@ std::string key_choices() {
 void register_project_options() {
     const ProjectOptions standard;
     add_option(kConfig, String(), godot::PROPERTY_HINT_FILE, "*.tres,*.res");
+    add_option(kMaterial, String(), godot::PROPERTY_HINT_FILE, "*.tres,*.res");
     add_option(kHardware, standard.use_hardware, godot::PROPERTY_HINT_NONE, "");
     add_option(kForce, standard.largest_force_n, godot::PROPERTY_HINT_RANGE, "0.1,40,0.1,suffix:N");
     add_option(kPanicKey, standard.panic_key, godot::PROPERTY_HINT_ENUM, to_godot(key_choices()));
@@ -85,19 +105,11 @@ ProjectOptions project_options() {
 }
 
 godot::Ref<SpidarGConfig> project_config() {
-    const Variant set = option(kConfig);
-    if (set.get_type() != Variant::STRING || static_cast<String>(set).is_empty()) {
-        return {};
-    }
-    const String path(set);
-    const godot::Ref<SpidarGConfig> config(
-        Variant(godot::ResourceLoader::get_singleton()->load(path)));
-    if (config.is_null()) {
-        godot::UtilityFunctions::push_error(
-            String("Project setting ") + String(kConfig) + String(" = \"") + path +
-            String("\" is no SpidarGConfig: choose a resource of that kind, or clear it."));
-    }
-    return config;
+    return resource_of<SpidarGConfig>(kConfig);
+}
+
+godot::Ref<SpidarGMaterial> project_material() {
+    return resource_of<SpidarGMaterial>(kMaterial);
 }
 
 } // namespace spidar

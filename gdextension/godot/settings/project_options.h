@@ -5,6 +5,7 @@
 #include <godot_cpp/classes/ref.hpp>
 
 #include "godot/settings/spidar_g_config.h"
+#include "godot/surface/spidar_g_material.h"
 
 namespace spidar {
 
@@ -23,5 +24,9 @@ struct ProjectOptions {
 // The resource that stands in where a node has no config. Null where none is set; an error is told where what is
 // set is no SpidarGConfig.
 [[nodiscard]] godot::Ref<SpidarGConfig> project_config();
+
+// The material of bodies that have none of their own. Null where none is set; an error is told where what is set is no
+// SpidarGMaterial.
+[[nodiscard]] godot::Ref<SpidarGMaterial> project_material();
 
 } // namespace spidar

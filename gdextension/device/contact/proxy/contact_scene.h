@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/contact/proxy/surface_traits.h"
 #include "device/contact/proxy/tool.h"
 #include "device/contact/shapes/cooked_shape.h"
 #include "device/contact/shapes/placement.h"
@@ -25,10 +26,16 @@ struct ScenePart {
     // Of this part's own surface, in series with the tool's; 0: it does not give way.
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
-    double friction = 0.0;            // Coulomb coefficient
+    double friction = 0.0; // Coulomb coefficient, of a contact that slips
+    SurfaceTraits traits;
     std::int32_t id = 0;              // of this shape of this body; persistent
     std::uint8_t groups = kAllGroups; // what of the tool touches it
 };
+
+// The part of it that lies in a surface with this normal.
+[[nodiscard]] inline Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
+    return v - glm::dot(normal, v) * normal;
+}
 
 // Of the shape where point_m is.
 [[nodiscard]] inline Vec3 surface_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {

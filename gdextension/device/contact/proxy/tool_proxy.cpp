@@ -15,16 +15,11 @@ namespace spidar {
 
 namespace {
 
-// Of the margin, what the tool may move before the closest points are looked for again.
-constexpr double kPartOfMargin = 0.75;
 constexpr int kMostPasses = 3;
 // A row that stops the proxy from further off than this, or whose normal turns from cycle to cycle by more than that, is
 // looked at again from where it stopped: of an edge it is only the tangent, which a proxy that slides over a seam must not
 // feel.
 constexpr double kAnticipated_m = 1e-6;
-// Two points of a pair closer than this, with normals that agree, say the same.
-constexpr double kSamePoint_m = 3e-4;
-constexpr double kSameNormal = 0.9998; // 1 degree
 
 double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexcept {
     double sum = 0.0;
@@ -57,74 +52,6 @@ void ToolProxy::put(const ToolPose &pose) noexcept {
     pose_ = pose;
     device_ = pose;
     placed_ = true;
-}
-
-// The nearest are kept; of two that say the same the nearer one.
-void ToolProxy::offer(const ProxyContact &contact) noexcept {
-    int worst = 0;
-    for (int i = 0; i < count_; ++i) {
-        ProxyContact &other = contacts_[static_cast<std::size_t>(i)];
-        const bool same = other.tool_part == contact.tool_part &&
-                          other.scene_part == contact.scene_part &&
-                          glm::dot(other.normal, contact.normal) > kSameNormal &&
-                          glm::distance(other.point_m, contact.point_m) < kSamePoint_m;
-        if (same) {
-            other = contact.gap_m < other.gap_m ? contact : other;
-            return;
-        }
-        worst = other.gap_m > contacts_[static_cast<std::size_t>(worst)].gap_m ? i : worst;
-    }
-    if (count_ < kMaxPoints) {
-        contacts_[static_cast<std::size_t>(count_++)] = contact;
-    } else if (contact.gap_m < contacts_[static_cast<std::size_t>(worst)].gap_m) {
-        contacts_[static_cast<std::size_t>(worst)] = contact;
-    }
-}
-
-double ToolProxy::margin_for(const ContactScene &scene, double dt_s) const noexcept {
-    double fastest_m_s = 0.0; // where the tool is
-    for (int s = 0; s < scene.count; ++s) {
-        const ScenePart &part = scene.parts[static_cast<std::size_t>(s)];
-        fastest_m_s = std::max(fastest_m_s, glm::length(surface_velocity(part, pose_.position_m)));
-    }
-    return settings_.margin_m + fastest_m_s * dt_s / (1.0 - kPartOfMargin);
-}
-
-void ToolProxy::find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
-                              ProxyMemory &memory) noexcept {
-    count_ = 0;
-    ClosestPoints found;
-    for (int t = 0; t < tool.count; ++t) {
-        const ToolPart &part = tool.parts[static_cast<std::size_t>(t)];
-        const Placement at = placement_of(part, tool.jaws, pose_);
-        for (int s = 0; s < scene.count; ++s) {
-            const ScenePart &other = scene.parts[static_cast<std::size_t>(s)];
-            if ((part.groups & other.groups) == 0) {
-                continue;
-            }
-            const Vec3 tool_m =
-                glm::transpose(other.at.rotation) * (at.origin_m - other.at.origin_m);
-            if (is_far(*part.shape, tool_m, *other.shape, margin_m)) {
-                continue;
-            }
-            ++queries_;
-            const Status status = closest_points(*part.shape, at, *other.shape, other.at, margin_m,
-                                                 memory.of(part, other), found);
-            for (int i = 0; usable(status) && i < found.count; ++i) {
-                const ContactPoint &point = found.points[static_cast<std::size_t>(i)];
-                ProxyContact contact;
-                contact.tool_part = static_cast<std::uint8_t>(t);
-                contact.scene_part = static_cast<std::uint8_t>(s);
-                contact.tool_id = part.id;
-                contact.scene_id = other.id;
-                contact.face = point.face;
-                contact.point_m = point.on_shape_m;
-                contact.normal = point.normal;
-                contact.gap_m = point.gap_m;
-                offer(contact);
-            }
-        }
-    }
 }
 
 ToolProxy::Move ToolProxy::scaled(const Displacement &by) const noexcept {
@@ -253,7 +180,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
 
 // The pushes that the hand feels: with damping, and with what gives way behind a surface.
 void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-                     const Twist &velocity) noexcept {
+                     const Twist &velocity, double dt_s) noexcept {
     const Move pull = scaled(between(device, pose_));
     Rows rows = rows_;
     std::array<int, kMaxSceneParts> touching{};
@@ -287,9 +214,12 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
                                               velocity, contact.point_m) -
                                surface_velocity(other, contact.point_m);
         const double damping_s = settings_.damping_s + other.damping_n_s_m * softness_m_n;
-        // The damper acts as a deeper spring: so the push stays one-sided, and shared.
-        rows[k].depth =
-            std::max(0.0, rows[k].depth - damping_s * glm::dot(contact.normal, speed_m_s));
+        const double height_m = other.traits.texture.depth_m > 0.0
+                                    ? press_into(contact, other, own_push(rows[k]), speed_m_s, dt_s)
+                                    : 0.0;
+        // The damper and the texture act as a deeper spring: so the push stays one-sided, and shared.
+        rows[k].depth = std::max(0.0, rows[k].depth + height_m -
+                                          damping_s * glm::dot(contact.normal, speed_m_s));
         note_own(k);
     }
     const auto stop = static_cast<std::size_t>(count_);
@@ -362,6 +292,8 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     if (!known) {
         return; // nothing pushes, and the proxy waits
     }
+    has_traits_ = std::any_of(scene.parts.begin(), scene.parts.begin() + scene.count,
+                              [](const ScenePart &part) { return acts(part.traits); });
     const double margin_m = margin_for(scene, dt_s);
     double left_s = dt_s; // of the scene's motion
     bool again = true;
@@ -374,8 +306,11 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
         }
         left_s = 0.0;
     }
-    push(tool, scene, device, velocity);
+    push(tool, scene, device, velocity, dt_s);
     rub(tool, scene, device, velocity, dt_s);
+    if (has_traits_) {
+        act_by_traits(tool, scene);
+    }
     device_ = device;
 }
 
@@ -385,11 +320,11 @@ bool ToolProxy::is_sound() const noexcept {
         for (int i = 0; sound && i < count; ++i) {
             const ProxyContact &contact = contacts[static_cast<std::size_t>(i)];
             sound = contact.tool_part < kMaxToolParts && contact.scene_part < kMaxSceneParts &&
-                    are_flags(contact.rubs);
+                    are_flags(contact.rubs, contact.sticks);
         }
         return sound;
     };
-    return are_flags(placed_, idle_) && points_to_parts(contacts_, count_) &&
+    return are_flags(placed_, idle_, has_traits_) && points_to_parts(contacts_, count_) &&
            points_to_parts(before_, before_count_) && row_count_ >= 0 && row_count_ <= kMaxRows;
 }
 

@@ -8,6 +8,7 @@
 // guarantee.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -20,6 +21,9 @@
 
 namespace spidar {
 
+// Of a contact that slides, single cycles hold, where the encoders step back: it slips until it has held for so long.
+inline constexpr double kHolds_s = 0.03;
+
 // A point where tool and scene are within the margin.
 struct ProxyContact {
     std::uint8_t tool_part = 0; // place in Tool::parts and ContactScene::parts
@@ -30,10 +34,16 @@ struct ProxyContact {
     Vec3 point_m{0.0}; // on the surface of the scene
     Vec3 normal{0.0};  // out of the scene
     double gap_m = 0.0;
-    double push_n = 0.0;  // along the normal, 0 when it does not touch
-    Vec3 friction_n{0.0}; // on the tool
-    Vec3 stretch_m{0.0};  // of the friction's spring
-    bool rubs = false;    // some contact of its pair pushes: its stretch goes on
+    double push_n = 0.0;      // along the normal, 0 when it does not touch
+    Vec3 friction_n{0.0};     // on the tool
+    Vec3 stretch_m{0.0};      // of the friction's spring
+    double slip_m_s = 0.0;    // along the surface; 0: its friction holds
+    double held_s = kHolds_s; // since its friction gave way last, up to kHolds_s
+    double slips_s = -1.0;    // for so long by now; below 0: it does not slip
+    bool rubs = false;        // some contact of its pair pushes: its stretch goes on
+    bool sticks = false;      // its pair has touched, and was not pulled apart since (adhesion)
+    Vec3 slope{0.0};          // of a texture's height where it pushes, along the surface
+    Vec3 drawn_n{0.0};        // on the tool, by texture, adhesion and magnet
 };
 
 // What it gave a part of the scene in this cycle.
@@ -87,6 +97,8 @@ private:
     using Rows = std::array<ConstraintRow, kMaxRows>;
     // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
     using Move = std::array<double, 8>;
+    // Of the margin, what the tool may move before the closest points are looked for again.
+    static constexpr double kPartOfMargin = 0.75;
     // Normals further apart than this are of different surfaces (3e-3 rad).
     static constexpr double kTurned = 1.0 - 4.5e-6;
     static constexpr double kOpen = -1.0; // depth of a row that never pushes
@@ -100,6 +112,10 @@ private:
     // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.
     [[nodiscard]] Move unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
                                  const Vec3 &direction) const noexcept;
+    // How far to look at a part.
+    [[nodiscard]] double look_m(const ScenePart &part, double margin_m) const noexcept {
+        return has_traits_ ? std::max(margin_m, reach_m(part.traits)) : margin_m;
+    }
     // How far to look in a cycle: the tool may move by kPartOfMargin of it, and what moves comes nearer meanwhile.
     [[nodiscard]] double margin_for(const ContactScene &scene, double dt_s) const noexcept;
     void find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
@@ -131,13 +147,29 @@ private:
                                 const Tool &tool, const ContactScene &scene, double margin_m,
                                 double dt_s, ProxyMemory &memory) noexcept;
     void push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
-              const Twist &velocity) noexcept;
+              const Twist &velocity, double dt_s) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
     // Of the same pair, in the last cycle, on a surface turned little; null: none. touching: that pushed, or that rubs.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
+    // Goes on with `slips_s`, from `before` it, and returns the coefficient of this cycle. stretch_m: of the friction's spring;
+    // m_per_coefficient: where a coefficient of 1 lets it slip.
+    double friction_now(ProxyContact &contact, const ScenePart &other, double before_s,
+                        double stretch_m, double m_per_coefficient, double slides_m_s,
+                        double dt_s) const noexcept;
+    // Traits of the surfaces (tool_proxy_surface.cpp). How far off they are felt.
+    [[nodiscard]] double magnet_range_m(const SurfaceTraits &traits) const noexcept;
+    [[nodiscard]] double reach_m(const SurfaceTraits &traits) const noexcept;
+    // Sets the contact's slope; returns the height of the texture under it, at most 0. push_n: without the texture.
+    double press_into(ProxyContact &contact, const ScenePart &other, double push_n,
+                      const Vec3 &speed_m_s, double dt_s) const noexcept;
+    [[nodiscard]] bool stuck_before(const ProxyContact &contact) const noexcept;
+    [[nodiscard]] double attraction_n(const ProxyContact &contact,
+                                      const ScenePart &other) const noexcept;
+    void attract(const ContactScene &scene) noexcept;
+    void act_by_traits(const Tool &tool, const ContactScene &scene) noexcept;
 
     ProxySettings settings_;
     Move root_{}; // of the stiffnesses
@@ -156,7 +188,8 @@ private:
     Wrench wrench_{};
     std::array<PartForce, kMaxSceneParts> given_{};
     double stop_push_nm_ = 0.0;
-    bool idle_ = true; // the last cycle left no contact and no force behind
+    bool idle_ = true;        // the last cycle left no contact and no force behind
+    bool has_traits_ = false; // some part in this cycle
     int queries_ = 0;
     int passes_ = 0;
 };

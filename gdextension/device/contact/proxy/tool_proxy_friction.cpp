@@ -13,9 +13,13 @@ namespace {
 
 // A friction spring goes over to a contact whose surface is turned by less than this.
 constexpr double kSameSurface = 0.7;
+// A contact that begins to slip comes down from the static coefficient in this time: what is felt is a slip, not a blow.
+constexpr double kSlip_s = 0.005;
+// Slower than this, a contact that slipped stands: above what the velocity of a grip at rest shows.
+constexpr double kStands_m_s = 0.003;
 
-Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
-    return v - glm::dot(normal, v) * normal;
+double most_friction(const ScenePart &part) noexcept {
+    return std::max(part.friction, part.traits.static_friction);
 }
 
 } // namespace
@@ -49,6 +53,27 @@ bool ToolProxy::pair_pushes(const ProxyContact &contact) const noexcept {
     return false;
 }
 
+double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other, double before_s,
+                               double stretch_m, double m_per_coefficient, double slides_m_s,
+                               double dt_s) const noexcept {
+    const double more = most_friction(other) - other.friction;
+    contact.slips_s = before_s;
+    if (!(more > 0.0)) {
+        contact.slips_s = -1.0;
+    } else if (before_s >= 0.0) {
+        contact.slips_s = before_s + dt_s;
+        const bool stands = other.traits.catches_again || slides_m_s < kStands_m_s;
+        if (contact.slips_s > kSlip_s && stands) {
+            contact.slips_s = -1.0;
+        }
+    } else if (stretch_m > most_friction(other) * m_per_coefficient) {
+        contact.slips_s = 0.0;
+    }
+    const double kept =
+        contact.slips_s < 0.0 ? 1.0 : std::max(0.0, 1.0 - contact.slips_s / kSlip_s);
+    return other.friction + kept * more;
+}
+
 // Springs along surfaces turn the tool by their levers. They are softened where they would turn it harder than the springs
 // of its turns and grasp: the part that is left.
 double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
@@ -58,7 +83,7 @@ double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
     double turns = 0.0;
     for (int i = 0; i < count_; ++i) {
         const ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
-        if (!(contact.push_n > 0.0) || !(scene.parts[contact.scene_part].friction > 0.0)) {
+        if (!(contact.push_n > 0.0) || !(most_friction(scene.parts[contact.scene_part]) > 0.0)) {
             continue;
         }
         const Vec3 lever_m = contact.point_m - pose_.position_m;
@@ -81,7 +106,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
     double all_n = 0.0;
     for (int i = 0; i < count_; ++i) {
         const ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
-        all_n += scene.parts[contact.scene_part].friction > 0.0 ? contact.push_n : 0.0;
+        all_n += most_friction(scene.parts[contact.scene_part]) > 0.0 ? contact.push_n : 0.0;
     }
     const double all_n_m =
         all_n > 0.0 ? settings_.stiffness[0] * part_at_levers(tool, scene, all_n) : 0.0;
@@ -89,7 +114,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
     for (int i = 0; i < count_; ++i) {
         ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
         const ScenePart &other = scene.parts[contact.scene_part];
-        contact.rubs = other.friction > 0.0 && pair_pushes(contact);
+        contact.rubs = most_friction(other) > 0.0 && pair_pushes(contact);
         if (contact.rubs) {
             const ToolPart &part = tool.parts[contact.tool_part];
             const Vec3 surface_m_s = rubbing_velocity(other, contact.point_m);
@@ -100,18 +125,23 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
             Vec3 stretch_m = along_surface(carried_m + slid_m, contact.normal);
             // Where the cone ends: the same for all points, for each has the share of its push of stiffness and limit. A corner
             // that is lifted for a moment goes on with them, and finds its own place again.
-            const double most_m = other.friction * all_n / all_n_m;
             const double size_m = glm::length(stretch_m);
+            const Vec3 slides_m_s = along_surface(
+                point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,
+                contact.normal);
+            const double coefficient =
+                friction_now(contact, other, last != nullptr ? last->slips_s : -1.0, size_m,
+                             all_n / all_n_m, glm::length(slides_m_s), dt_s);
+            const double most_m = coefficient * all_n / all_n_m;
+            contact.held_s = std::min((last != nullptr ? last->held_s : kHolds_s) + dt_s, kHolds_s);
             if (size_m > most_m) {
+                contact.held_s = 0.0;
                 stretch_m *= most_m / size_m;
             }
             contact.stretch_m = stretch_m;
+            contact.slip_m_s = contact.held_s < kHolds_s ? glm::length(slides_m_s) : 0.0;
             if (contact.push_n > 0.0) {
-                const double limit_n = other.friction * contact.push_n;
-                const Vec3 slides_m_s = along_surface(
-                    point_velocity(part, tool.jaws, device, velocity, contact.point_m) -
-                        surface_m_s,
-                    contact.normal);
+                const double limit_n = coefficient * contact.push_n;
                 Vec3 rub_n = -(all_n_m * contact.push_n / all_n) *
                              (stretch_m + settings_.damping_s * slides_m_s);
                 const double size_n = glm::length(rub_n);

@@ -162,6 +162,8 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
         ScenePart part = touch.scene.parts[k];
         part.friction =
             capped(part.friction, kMaxFriction, GainClamp::Gain::friction, s, false, clamp);
+        part.traits.static_friction = capped(part.traits.static_friction, kMaxFriction,
+                                             GainClamp::Gain::friction, s, false, clamp);
         part.velocity_m_s = capped_speed(part.velocity_m_s, s, clamp);
         part.belt_m_s = capped_speed(part.belt_m_s, s, clamp);
         shape_numbers_[k] = part.shape->number();
@@ -320,8 +322,9 @@ void TouchRenderer::report(TouchReport &report) const noexcept {
                                                       contact.point_m,
                                                       contact.normal,
                                                       contact.push_n * contact.normal +
-                                                          contact.friction_n,
-                                                      contact.gap_m};
+                                                          contact.friction_n + contact.drawn_n,
+                                                      contact.gap_m,
+                                                      contact.slip_m_s};
     }
 }
 

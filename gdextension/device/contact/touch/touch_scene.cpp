@@ -4,10 +4,24 @@
 #include <cmath>
 
 #include "core/base/finite.h"
+#include "core/base/sound_state.h"
 
 namespace spidar {
 
 namespace {
+
+Status validate_traits(const SurfaceTraits &traits) noexcept {
+    const SurfaceTexture &texture = traits.texture;
+    if (!all_finite(traits.static_friction, traits.adhesion_n, traits.magnet_n,
+                    traits.magnet_range_m, texture.wavelength_m, texture.depth_m, texture.across)) {
+        return Status::not_finite;
+    }
+    const bool smooth = texture.depth_m == 0.0;
+    const bool good = traits.static_friction >= 0.0 && traits.adhesion_n >= 0.0 &&
+                      traits.magnet_n >= 0.0 && traits.magnet_range_m >= 0.0 &&
+                      (smooth || (texture.depth_m > 0.0 && texture.wavelength_m > 0.0));
+    return good ? Status::ok : Status::invalid_request;
+}
 
 Status validate_part(const ScenePart &part) noexcept {
     if (!all_finite(part.at) ||
@@ -16,8 +30,9 @@ Status validate_part(const ScenePart &part) noexcept {
         return Status::not_finite;
     }
     const bool good = part.shape != nullptr && part.stiffness_n_m >= 0.0 &&
-                      part.damping_n_s_m >= 0.0 && part.friction >= 0.0;
-    return good ? Status::ok : Status::invalid_request;
+                      part.damping_n_s_m >= 0.0 && part.friction >= 0.0 &&
+                      are_flags(part.traits.catches_again);
+    return good ? validate_traits(part.traits) : Status::invalid_request;
 }
 
 Status validate_part(const ToolPart &part) noexcept {

@@ -11,7 +11,9 @@ static_assert(count_members<TouchScene>() == 9, "TouchScene changed: list its fi
 static_assert(count_members<Tool>() == 4, "Tool changed: list its fields here");
 static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
 static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
-static_assert(count_members<ScenePart>() == 11, "ScenePart changed: list its fields here");
+static_assert(count_members<ScenePart>() == 12, "ScenePart changed: list its fields here");
+static_assert(count_members<SurfaceTraits>() == 6, "SurfaceTraits changed: list its fields here");
+static_assert(count_members<SurfaceTexture>() == 3, "SurfaceTexture changed: list its fields here");
 
 namespace {
 
@@ -60,6 +62,14 @@ void visit_part(Part &part,
     visit("stiffness_n_m", 0, part.stiffness_n_m);
     visit("damping_n_s_m", 0, part.damping_n_s_m);
     visit("friction", 0, part.friction);
+    visit("static_friction", 0, part.traits.static_friction);
+    visit("catches_again", 0, part.traits.catches_again);
+    visit("adhesion_n", 0, part.traits.adhesion_n);
+    visit("magnet_n", 0, part.traits.magnet_n);
+    visit("magnet_range_m", 0, part.traits.magnet_range_m);
+    visit("texture.wavelength_m", 0, part.traits.texture.wavelength_m);
+    visit("texture.depth_m", 0, part.traits.texture.depth_m);
+    visit_vector("texture.across", 0, part.traits.texture.across, visit);
     visit("id", 0, part.id);
     visit("groups", 0, part.groups);
 }

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include <godot_cpp/classes/physics_direct_body_state3d.hpp>
-#include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
@@ -32,14 +31,6 @@ std::string text(const char *format, Values... values) {
     return buffer;
 }
 
-double friction_on(const RigidBody3D &body, double pad_friction) {
-    const godot::Ref<godot::PhysicsMaterial> material = body.get_physics_material_override();
-    if (material.is_null()) {
-        return pad_friction;
-    }
-    return combined_friction(pad_friction, material->get_friction(), material->is_rough());
-}
-
 double gravity_on(const RigidBody3D &body) {
     const auto *state = PhysicsServer3D::get_singleton()->body_get_direct_state(body.get_rid());
     return state != nullptr ? static_cast<double>(state->get_total_gravity().length()) : 0.0;
@@ -48,7 +39,7 @@ double gravity_on(const RigidBody3D &body) {
 // Empty: it holds.
 std::string problem_of(const Pinch &pinch, const RigidBody3D &body, const GraspJudge::Terms &terms,
                        double finger_force_n) {
-    const double friction = friction_on(body, terms.pad_friction);
+    const double friction = pinch.facts.resting_friction(terms.pad_friction);
     const double carried_n = 2.0 * friction * finger_force_n;
     const double weight_n = terms.weight_scale * body.get_mass() * gravity_on(body);
     if (body.is_freeze_enabled()) {

@@ -16,8 +16,7 @@ public:
     enum class Verdict { wait, hold, refuse };
 
     struct Terms {
-        double pad_friction =
-            1.0; // a body whose physics material is smoother takes its own, unless it is marked rough
+        double pad_friction = 1.0; // on a body that says nothing of its own
         double min_force_n = 0.1;  // least finger force that holds anything, however light
         double weight_scale = 1.0; // of the weight that friction has to carry
     };

@@ -79,7 +79,7 @@ Pinch find_pinch(const TouchReport &report, const TouchedBodies &bodies) noexcep
     pinch.opposition_deg =
         std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) * 180.0 / std::numbers::pi;
     pinch.width_rad = report.grasp_rad;
-    pinch.squeeze_nm_rad = hardest->body->squeeze_nm_rad;
+    pinch.facts = hardest->body->facts;
     return pinch;
 }
 

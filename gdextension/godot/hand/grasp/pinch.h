@@ -20,7 +20,7 @@ struct Pinch {
     std::uint64_t collider = 0;  // instance id; 0: a body without an object
     double opposition_deg = 0.0; // between the normals of the two sides: 180 for a box held square
     double width_rad = 0.0;      // grasp angle of the proxy
-    double squeeze_nm_rad = 0.0; // what the body's metadata tell; 0: nothing
+    BodyFacts facts;
 };
 
 // The body that one pad lies on and the other nearly, the hardest pressed if there are several.

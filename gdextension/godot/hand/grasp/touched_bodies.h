@@ -15,7 +15,7 @@ struct TouchedBody {
     godot::RID rid;
     std::uint64_t collider = 0; // instance id; 0: a body without an object
     bool is_pushed = false;     // physics moves it
-    double squeeze_nm_rad = 0.0;
+    BodyFacts facts;
     Placement at; // of the shape, as it was published last; device frame
     std::int64_t tick = 0;
 
@@ -30,9 +30,8 @@ public:
     void note(const std::vector<NearShape> &shapes) {
         ++tick_;
         for (const NearShape &shape : shapes) {
-            bodies_[shape.id] = {
-                shape.body, shape.collider, shape.mass_kg > 0.0, shape.facts.squeeze_nm_rad,
-                shape.at,   tick_};
+            bodies_[shape.id] = {shape.body,  shape.collider, shape.mass_kg > 0.0,
+                                 shape.facts, shape.at,       tick_};
         }
         std::erase_if(bodies_,
                       [this](const auto &one) { return tick_ - one.second.tick > kKeptTicks; });

@@ -31,26 +31,6 @@ using godot::PhysicsServer3D;
 // Shapes beyond those near that are looked at in a tick.
 constexpr std::size_t kShapesPerTick = 8;
 
-double positive_meta(const Object &object, const godot::StringName &name) {
-    if (!object.has_meta(name)) {
-        return 0.0;
-    }
-    const godot::Variant value = object.get_meta(name);
-    if (value.get_type() != godot::Variant::FLOAT && value.get_type() != godot::Variant::INT) {
-        return 0.0;
-    }
-    const auto number = static_cast<double>(value);
-    return std::isfinite(number) && number > 0.0 ? number : 0.0;
-}
-
-bool has_material(const Object *object) {
-    if (const auto *still = Object::cast_to<godot::StaticBody3D>(object)) {
-        return still->get_physics_material_override().is_valid();
-    }
-    const auto *rigid = Object::cast_to<godot::RigidBody3D>(object);
-    return rigid != nullptr && rigid->get_physics_material_override().is_valid();
-}
-
 Placement in_frame(const WorldFrame &frame, const Mat3 &axes, const Vec3 &origin) {
     return {frame.point_to_device(origin), glm::transpose(frame.rotation) * take_apart(axes).turn};
 }
@@ -282,21 +262,8 @@ void NearBody::read_shapes(ShapeShelf &shelf, std::int32_t &next_id) {
     }
 }
 
-void NearBody::read_facts(const Names &names) {
-    auto *server = PhysicsServer3D::get_singleton();
-    // The server keeps both flags as a minus sign.
-    const auto friction =
-        static_cast<double>(server->body_get_param(rid_, PhysicsServer3D::BODY_PARAM_FRICTION));
-    const auto bounce =
-        static_cast<double>(server->body_get_param(rid_, PhysicsServer3D::BODY_PARAM_BOUNCE));
-    facts_.friction = std::abs(friction);
-    facts_.rough = std::signbit(friction);
-    const Object *object = ObjectDB::get_instance(object_);
-    facts_.has_material =
-        is_node_ ? has_material(object) : friction != 1.0 || bounce != 0.0 || std::signbit(bounce);
-    facts_.stiffness_n_m = object != nullptr ? positive_meta(*object, names.stiffness) : 0.0;
-    facts_.hand_friction = object != nullptr ? positive_meta(*object, names.friction) : 0.0;
-    facts_.squeeze_nm_rad = object != nullptr ? positive_meta(*object, names.squeeze) : 0.0;
+void NearBody::read_facts(BodyFactsReader &reader) {
+    facts_ = reader.read(rid_, object_, is_node_);
 }
 
 bool NearBody::spares(std::uint64_t other) const {

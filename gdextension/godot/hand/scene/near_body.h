@@ -1,7 +1,6 @@
 // One body of the physics server that stands near the hand: its shapes, its place, its motion and how it feels. Main thread.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,12 +10,12 @@
 #include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/variant/rid.hpp>
-#include <godot_cpp/variant/string_name.hpp>
 #include <godot_cpp/variant/transform3d.hpp>
 
 #include "device/contact/shapes/placement.h"
 #include "godot/base/node_motion.h"
 #include "godot/base/world_frame.h"
+#include "godot/hand/scene/body_facts.h"
 #include "godot/hand/scene/shape_shelf.h"
 
 namespace godot {
@@ -24,23 +23,6 @@ class CollisionObject3D;
 }
 
 namespace spidar {
-
-// Of what touches a body whose PhysicsMaterial has a friction of its own: a rough one raises it, any other lowers it.
-[[nodiscard]] inline double combined_friction(double mine, double own, bool is_rough) noexcept {
-    return is_rough ? std::max(mine, own) : std::min(mine, own);
-}
-
-// What a game says of a body. 0 in the last three: it does not say.
-struct BodyFacts {
-    // Of its PhysicsMaterial; has_material is false for a node without one, and for a server body as the server made it.
-    bool has_material = false;
-    double friction = 1.0;
-    bool rough = false; // of two frictions the larger one counts
-    // Metadata spidar_stiffness_n_m, spidar_friction, spidar_squeeze_nm_rad of the collider.
-    double stiffness_n_m = 0.0;
-    double hand_friction = 0.0;
-    double squeeze_nm_rad = 0.0;
-};
 
 struct BodyShape {
     godot::RID shape;
@@ -72,13 +54,6 @@ void for_owned_shapes(
 
 class NearBody {
 public:
-    // Names of metadata, made once.
-    struct Names {
-        godot::StringName stiffness{"spidar_stiffness_n_m"};
-        godot::StringName friction{"spidar_friction"};
-        godot::StringName squeeze{"spidar_squeeze_nm_rad"};
-    };
-
     NearBody(const godot::RID &rid, std::uint64_t object);
 
     [[nodiscard]] const godot::RID &rid() const noexcept { return rid_; }
@@ -90,7 +65,7 @@ public:
     void read_place(const Moment &moment);
     // Sees to the list of shapes. next_id: the first id that is free.
     void read_shapes(ShapeShelf &shelf, std::int32_t &next_id);
-    void read_facts(const Names &names);
+    void read_facts(BodyFactsReader &reader);
     // It has that body among its collision exceptions. Unknown, so false, of a body without a node.
     [[nodiscard]] bool spares(std::uint64_t other) const;
 

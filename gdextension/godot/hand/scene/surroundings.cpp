@@ -164,7 +164,10 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
     }
     ++counts_.bodies;
     if (tick_ >= body.facts_tick) {
-        body.read_facts(names_);
+        body.read_facts(facts_);
+        for (const std::string &message : facts_.take_messages()) {
+            tell(message);
+        }
         // Not all bodies in the same tick.
         body.facts_tick = tick_ + kFactsTicks / 2 + body.rid().get_id() % kFactsTicks;
         body.spares_held = body.spares(held_object_);
@@ -265,6 +268,20 @@ void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t
     candidates_.push_back(candidate);
 }
 
+// The body's traits as a shape at `at` has them.
+SurfaceTraits Surroundings::in_shape(const NearBody &body, const Placement &at) {
+    SurfaceTraits traits = body.facts().traits;
+    const WorldFrame &frame = body.frame();
+    traits.magnet_range_m /= frame.scale;
+    traits.texture.wavelength_m /= frame.scale;
+    traits.texture.depth_m /= frame.scale;
+    if (traits.texture.across != Vec3(0.0)) {
+        const Vec3 in_scene = take_apart(body.basis()).turn * traits.texture.across;
+        traits.texture.across = glm::transpose(at.rotation) * frame.turn_to_device(in_scene);
+    }
+    return traits;
+}
+
 void Surroundings::list_nearest() {
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate &a, const Candidate &b) {
         return a.clearance_m != b.clearance_m
@@ -302,6 +319,7 @@ void Surroundings::list_nearest() {
         near.mass_kg = body.mass_kg();
         near.seen_by = candidate.seen_by;
         near.facts = body.facts();
+        near.traits = in_shape(body, near.at);
         shapes_.push_back(std::move(near));
     }
     counts_.shapes = static_cast<int>(shapes_.size());

@@ -67,6 +67,7 @@ struct NearShape {
     double mass_kg = 0.0;     // 0 unless physics moves the body
     std::uint8_t seen_by = 0; // SeenBy
     BodyFacts facts;
+    SurfaceTraits traits; // device metres, the shape's own axes
 };
 
 struct SurroundingsCounts {
@@ -95,6 +96,8 @@ public:
     // Nearest first in shapes(). held: null while nothing is held; held_object: the instance id of the held body.
     void update(const SearchSpace &space, const SearchVolume &pads,
                 const SearchVolume *held = nullptr, std::uint64_t held_object = 0);
+    // Reads what holds for the whole project: when the node enters its scene.
+    void open() { facts_.open(); }
     // Forgets all bodies: when the node leaves its scene.
     void clear();
 
@@ -141,10 +144,11 @@ private:
     void keep_most_possible();
     void add_candidate(NearBody &body, std::size_t index, std::uint8_t seen);
     void list_nearest();
+    [[nodiscard]] static SurfaceTraits in_shape(const NearBody &body, const Placement &at);
     void tell(const std::string &message) { messages_.push_back(message); }
 
     ShapeShelf shelf_;
-    NearBody::Names names_;
+    BodyFactsReader facts_;
     godot::Variant rid_key_;
     godot::Variant collider_key_;
     std::array<Searcher, 2> searchers_; // pads, held

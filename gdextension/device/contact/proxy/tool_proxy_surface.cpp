@@ -1,0 +1,159 @@
+// What the surfaces of the proxy's contacts do beside pushing and rubbing: textures, adhesion and magnets.
+#include "device/contact/proxy/tool_proxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "device/contract/dof_lanes.h"
+
+namespace spidar {
+
+namespace {
+
+// Crests that pass faster than this, in crests a servo cycle, are flattened, and are gone at twice that: sampled so seldom
+// they would be felt as another, slower texture.
+constexpr double kFinestPassing = 0.125;
+// Of the stiffness between grip and proxy, what the slopes of a texture may add along the surface. A harder push would make a
+// valley so stiff that the link's latency lets the hand shake in it: there the texture is flattened.
+constexpr double kTextureShare = 0.5;
+// Adhesion rises with the stiffness between grip and proxy, and then falls as steeply: it ends at twice the way to its top.
+constexpr double kAdhesionWays = 2.0;
+
+struct Relief {
+    double height_m = 0.0; // of the surface, at most 0
+    Vec3 slope{0.0};       // of the height along the part's axes
+};
+
+Relief relief_at(const SurfaceTexture &texture, const Vec3 &local_m, const Vec3 &normal) noexcept {
+    const double k_m = 2.0 * std::numbers::pi / texture.wavelength_m;
+    const double half_m = 0.5 * texture.depth_m;
+    Relief relief;
+    if (texture.across != Vec3(0.0)) {
+        const double phase = k_m * glm::dot(texture.across, local_m);
+        relief.height_m = half_m * (std::cos(phase) - 1.0);
+        relief.slope = -half_m * k_m * std::sin(phase) * texture.across;
+        return relief;
+    }
+    // Along the surface alone: an axis counts as far as it lies in it. The squares of a normal's parts add up to 1, so the
+    // shares do too.
+    for (int axis = 0; axis < 3; ++axis) {
+        const double share = 0.5 * (1.0 - normal[axis] * normal[axis]);
+        relief.height_m += share * half_m * (std::cos(k_m * local_m[axis]) - 1.0);
+        relief.slope[axis] = -share * half_m * k_m * std::sin(k_m * local_m[axis]);
+    }
+    return relief;
+}
+
+} // namespace
+
+double ToolProxy::magnet_range_m(const SurfaceTraits &traits) const noexcept {
+    return traits.magnet_n > 0.0
+               ? std::max(traits.magnet_range_m, traits.magnet_n / settings_.stiffness[0])
+               : 0.0;
+}
+
+double ToolProxy::reach_m(const SurfaceTraits &traits) const noexcept {
+    return std::max(magnet_range_m(traits),
+                    kAdhesionWays * traits.adhesion_n / settings_.stiffness[0]);
+}
+
+double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, double push_n,
+                             const Vec3 &speed_m_s, double dt_s) const noexcept {
+    const SurfaceTexture &texture = other.traits.texture;
+    const Mat3 &turn = other.at.rotation;
+    const Relief relief =
+        relief_at(texture, glm::transpose(turn) * (contact.point_m - other.at.origin_m),
+                  glm::transpose(turn) * contact.normal);
+    const Vec3 slides_m_s = along_surface(speed_m_s, contact.normal);
+    const double passing = glm::length(slides_m_s) * dt_s / texture.wavelength_m;
+    const double k_m = 2.0 * std::numbers::pi / texture.wavelength_m;
+    const double stiffens_n_m = push_n * 0.5 * texture.depth_m * k_m * k_m;
+    const double most_n_m = kTextureShare * settings_.stiffness[0];
+    const double kept = std::clamp(2.0 - passing / kFinestPassing, 0.0, 1.0) *
+                        std::min(1.0, most_n_m / std::max(stiffens_n_m, most_n_m));
+    contact.slope = along_surface(kept * (turn * relief.slope), contact.normal);
+    return kept * relief.height_m;
+}
+
+bool ToolProxy::stuck_before(const ProxyContact &contact) const noexcept {
+    return std::any_of(before_.begin(), before_.begin() + before_count_,
+                       [&contact](const ProxyContact &other) {
+                           return other.sticks && other.tool_id == contact.tool_id &&
+                                  other.scene_id == contact.scene_id;
+                       });
+}
+
+// On the tool, towards the surface.
+double ToolProxy::attraction_n(const ProxyContact &contact, const ScenePart &other) const noexcept {
+    const SurfaceTraits &traits = other.traits;
+    const double gap_m = std::max(contact.gap_m, 0.0);
+    const double range_m = magnet_range_m(traits);
+    double pull_n = range_m > 0.0 ? traits.magnet_n * std::max(0.0, 1.0 - gap_m / range_m) : 0.0;
+    if (contact.sticks) {
+        const double top_m = traits.adhesion_n / settings_.stiffness[0];
+        pull_n += traits.adhesion_n *
+                  std::clamp(std::min(gap_m / top_m, kAdhesionWays - gap_m / top_m), 0.0, 1.0);
+    }
+    return pull_n;
+}
+
+// A pair of tool and scene parts attracts as its nearest point does, however many points it has: they share the pull by what
+// each would pull alone.
+void ToolProxy::attract(const ContactScene &scene) noexcept {
+    std::array<double, kMaxPoints> alone_n{};
+    for (int i = 0; i < count_; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        ProxyContact &contact = contacts_[k];
+        const ScenePart &other = scene.parts[contact.scene_part];
+        contact.sticks = other.traits.adhesion_n > 0.0 &&
+                         (pair_pushes(contact) ||
+                          (stuck_before(contact) && contact.gap_m < reach_m(other.traits)));
+        alone_n[k] = attraction_n(contact, other);
+    }
+    for (int i = 0; i < count_; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!(alone_n[k] > 0.0)) {
+            continue;
+        }
+        double most_n = 0.0;
+        double sum_n = 0.0;
+        for (int j = 0; j < count_; ++j) {
+            const auto other = static_cast<std::size_t>(j);
+            if (contacts_[other].tool_part == contacts_[k].tool_part &&
+                contacts_[other].scene_part == contacts_[k].scene_part) {
+                most_n = std::max(most_n, alone_n[other]);
+                sum_n += alone_n[other];
+            }
+        }
+        contacts_[k].drawn_n -= most_n * alone_n[k] / sum_n * contacts_[k].normal;
+    }
+}
+
+void ToolProxy::act_by_traits(const Tool &tool, const ContactScene &scene) noexcept {
+    attract(scene);
+    DofLanes sum = lanes(wrench_);
+    for (int i = 0; i < count_; ++i) {
+        ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
+        // Downhill, as the height's own energy has it.
+        contact.drawn_n -= contact.push_n * contact.slope;
+        if (contact.drawn_n == Vec3(0.0)) {
+            continue;
+        }
+        const DofLanes acts = lanes(moves_along(tool.parts[contact.tool_part], tool.jaws, pose_,
+                                                contact.point_m, contact.drawn_n));
+        for (std::size_t dof = 0; dof < sum.size(); ++dof) {
+            sum[dof] += acts[dof];
+        }
+        PartForce &gets = given_[contact.scene_part];
+        gets.force_n -= contact.drawn_n;
+        gets.moment_nm -= glm::cross(contact.point_m - scene.parts[contact.scene_part].at.origin_m,
+                                     contact.drawn_n);
+    }
+    wrench_ = of_lanes<Wrench>(sum);
+}
+
+} // namespace spidar

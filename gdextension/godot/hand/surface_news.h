@@ -1,0 +1,29 @@
+// Tells the SpidarGSurface of each body that the hand touches, by itself or by what it holds. Main thread only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/contract/servo_snapshot.h"
+#include "godot/base/world_frame.h"
+#include "godot/hand/grasp/touched_bodies.h"
+
+namespace godot {
+class Object;
+}
+
+namespace spidar {
+
+class SurfaceNews {
+public:
+    // Once a physics tick. frame: of the device's node.
+    void tell(const TouchReport &report, const TouchedBodies &bodies, const WorldFrame &frame,
+              godot::Object &hand);
+    // The hand touches nothing any more.
+    void clear(godot::Object &hand);
+
+private:
+    std::vector<std::uint64_t> touched_; // instance ids of the bodies with a surface
+};
+
+} // namespace spidar

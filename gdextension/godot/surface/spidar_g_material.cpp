@@ -1,0 +1,96 @@
+#include "godot/surface/spidar_g_material.h"
+
+#include <algorithm>
+
+#include <godot_cpp/variant/utility_functions.hpp>
+
+#include "core/base/describe_value.h"
+#include "godot/base/resource_field.h"
+#include "godot/base/type_conversions.h"
+
+void SpidarGMaterial::refuse(const std::string &message) const {
+    godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGMaterial." + message));
+}
+
+void SpidarGMaterial::take(const char *name, double value, double least, double most,
+                           const char *unit, double &kept) {
+    if (value == kNotSaid && least == kNotSaid) {
+        // Nothing is said.
+    } else if (const std::string problem =
+                   spidar::range_sentence({name, value, unit, std::max(least, 0.0), most});
+               !problem.empty()) {
+        refuse(problem + (least == kNotSaid ? " -1 leaves it to the physics material." : "") +
+               " The old value stays.");
+        return;
+    }
+    if (value != kept) {
+        kept = value;
+        emit_changed();
+    }
+}
+
+void SpidarGMaterial::set_stick_slip(bool wanted) {
+    if (wanted != stick_slip_) {
+        stick_slip_ = wanted;
+        emit_changed();
+    }
+}
+
+void SpidarGMaterial::set_texture_direction(const godot::Vector3 &direction) {
+    if (!direction.is_finite()) {
+        refuse("texture_direction is not finite: give a direction in the body's frame, or zero for "
+               "pits. It stays as it was.");
+        return;
+    }
+    if (direction != texture_direction_) {
+        texture_direction_ = direction;
+        emit_changed();
+    }
+}
+
+spidar::SurfaceTraits SpidarGMaterial::traits() const {
+    spidar::SurfaceTraits traits;
+    traits.static_friction = std::max(static_friction_, 0.0);
+    traits.catches_again = stick_slip_;
+    traits.adhesion_n = adhesion_;
+    traits.magnet_n = magnet_force_;
+    traits.magnet_range_m = magnet_range_;
+    if (texture_wavelength_ > 0.0) {
+        const godot::Vector3 across = texture_direction_.normalized();
+        traits.texture = {texture_wavelength_, texture_depth_, spidar::to_core(across)};
+    }
+    return traits;
+}
+
+void SpidarGMaterial::_bind_methods() {
+    using Self = SpidarGMaterial;
+    constexpr auto real = godot::Variant::FLOAT;
+    ADD_GROUP("Press", "");
+    SPIDAR_G_BIND_FIELD(Self, real, stiffness, godot::PROPERTY_HINT_RANGE, "0,2000,1,suffix:N/m");
+    SPIDAR_G_BIND_FIELD(Self, real, damping, godot::PROPERTY_HINT_RANGE, "0,10,0.1,suffix:N s/m");
+    SPIDAR_G_BIND_FIELD(Self, real, squeeze_stiffness, godot::PROPERTY_HINT_RANGE,
+                        "0,0.4,0.01,suffix:N m/rad");
+    ADD_GROUP("Slide", "");
+    SPIDAR_G_BIND_FIELD(Self, real, dynamic_friction, godot::PROPERTY_HINT_RANGE, "-1,2,0.01");
+    SPIDAR_G_BIND_FIELD(Self, real, static_friction, godot::PROPERTY_HINT_RANGE, "-1,2,0.01");
+    spidar::bind_checked<&Self::set_stick_slip, "", "set_stick_slip", "stick_slip">();
+    godot::ClassDB::bind_method(godot::D_METHOD("is_stick_slip"), &Self::is_stick_slip);
+    ADD_PROPERTY(godot::PropertyInfo(godot::Variant::BOOL, "stick_slip"), "set_stick_slip",
+                 "is_stick_slip");
+    ADD_GROUP("Pull", "");
+    SPIDAR_G_BIND_FIELD(Self, real, adhesion, godot::PROPERTY_HINT_RANGE, "0,5,0.05,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, magnet_force, godot::PROPERTY_HINT_RANGE, "0,5,0.05,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, magnet_range, godot::PROPERTY_HINT_RANGE,
+                        "0,0.1,0.001,suffix:m");
+    ADD_GROUP("Texture", "texture_");
+    SPIDAR_G_BIND_FIELD(Self, real, texture_wavelength, godot::PROPERTY_HINT_RANGE,
+                        "0,0.05,0.0001,suffix:m");
+    SPIDAR_G_BIND_FIELD(Self, real, texture_depth, godot::PROPERTY_HINT_RANGE,
+                        "0,0.002,0.00001,suffix:m");
+    spidar::bind_checked<&Self::set_texture_direction, "", "set_texture_direction",
+                         "texture_direction">();
+    godot::ClassDB::bind_method(godot::D_METHOD("get_texture_direction"),
+                                &Self::get_texture_direction);
+    ADD_PROPERTY(godot::PropertyInfo(godot::Variant::VECTOR3, "texture_direction"),
+                 "set_texture_direction", "get_texture_direction");
+}

@@ -1,0 +1,68 @@
+// SpidarGMaterial: how a surface feels. What it does not say, it leaves to the body's PhysicsMaterial, to the project's
+// default material and to the hand, in the order of docs/haptic_rendering.md. The class reference is
+// gdextension/doc_classes/SpidarGMaterial.xml.
+#pragma once
+
+#include <string>
+
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "device/contact/proxy/surface_traits.h"
+#include "godot/base/strict.h"
+
+// A number with its setter and getter. One outside its range is refused with an error, and the old one stays.
+#define SPIDAR_G_MATERIAL_NUMBER(m_name, m_default, m_least, m_most, m_unit)                       \
+public:                                                                                            \
+    void set_##m_name(double p_value) {                                                            \
+        take(#m_name, p_value, m_least, m_most, m_unit, m_name##_);                                \
+    }                                                                                              \
+    [[nodiscard]] double get_##m_name() const {                                                    \
+        return m_name##_;                                                                          \
+    }                                                                                              \
+                                                                                                   \
+private:                                                                                           \
+    double m_name##_ = m_default
+
+class SpidarGMaterial : public godot::Resource {
+    GDCLASS(SpidarGMaterial, godot::Resource)
+    SPIDAR_G_CHECKED_CALLS
+
+    // 0: the hand's own.
+    SPIDAR_G_MATERIAL_NUMBER(stiffness, 0.0, 0.0, 1.0e4, "N/m");
+    SPIDAR_G_MATERIAL_NUMBER(damping, 0.0, 0.0, 100.0, "N s/m");
+    SPIDAR_G_MATERIAL_NUMBER(squeeze_stiffness, 0.0, 0.0, 10.0, "N m/rad");
+    // kNotSaid: not said.
+    SPIDAR_G_MATERIAL_NUMBER(dynamic_friction, kNotSaid, kNotSaid, 10.0, "");
+    SPIDAR_G_MATERIAL_NUMBER(static_friction, kNotSaid, kNotSaid, 10.0, "");
+    SPIDAR_G_MATERIAL_NUMBER(adhesion, 0.0, 0.0, 20.0, "N");
+    SPIDAR_G_MATERIAL_NUMBER(magnet_force, 0.0, 0.0, 20.0, "N");
+    SPIDAR_G_MATERIAL_NUMBER(magnet_range, 0.01, 0.0, 1.0, "m"); // of the scene
+    SPIDAR_G_MATERIAL_NUMBER(texture_wavelength, 0.0, 0.0, 1.0, "m");
+    SPIDAR_G_MATERIAL_NUMBER(texture_depth, 0.0, 0.0, 0.1, "m");
+
+public:
+    static constexpr double kNotSaid = -1.0;
+
+    void set_stick_slip(bool wanted);
+    [[nodiscard]] bool is_stick_slip() const { return stick_slip_; }
+    void set_texture_direction(const godot::Vector3 &direction);
+    [[nodiscard]] godot::Vector3 get_texture_direction() const { return texture_direction_; }
+
+    // Lengths in metres of the scene, directions in the body's frame. static_friction is set where the material says one.
+    [[nodiscard]] spidar::SurfaceTraits traits() const;
+
+    // A value of a type that its property does not take, or that makes no sense: told, and not kept.
+    void refuse(const std::string &message) const;
+
+protected:
+    static void _bind_methods();
+
+private:
+    void take(const char *name, double value, double least, double most, const char *unit,
+              double &kept);
+
+    bool stick_slip_ = false;
+    godot::Vector3 texture_direction_;
+};

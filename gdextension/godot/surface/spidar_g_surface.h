@@ -1,0 +1,64 @@
+// SpidarGSurface: gives the body that is its parent a SpidarGMaterial, and tells when a hand touches it and slips on it.
+// Main thread only. The class reference is gdextension/doc_classes/SpidarGSurface.xml.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "godot/surface/spidar_g_material.h"
+
+class SpidarGSurface : public godot::Node {
+    GDCLASS(SpidarGSurface, godot::Node)
+    SPIDAR_G_CHECKED_CALLS
+
+public:
+    // How a hand touches the body in one physics tick.
+    struct Touch {
+        double force_n = 0.0;
+        double slip_m_s = 0.0; // 0: it does not slip. Device metres a second.
+        godot::Vector3 point;  // in the world
+    };
+
+    // That of a body, by the body's instance id; null: none.
+    [[nodiscard]] static SpidarGSurface *of(std::uint64_t body);
+
+    void set_material(const godot::Ref<SpidarGMaterial> &material);
+    [[nodiscard]] godot::Ref<SpidarGMaterial> get_material() const { return material_; }
+
+    // Once a physics tick by each hand that touches the body, and once with no force by one that has left it. Emits the
+    // signals of what has changed.
+    void note(godot::Object &hand, const Touch &touch);
+
+    [[nodiscard]] bool is_touched() const { return !touches_.empty(); }
+    // Of all hands.
+    [[nodiscard]] double get_touch_force() const;
+    [[nodiscard]] double get_slip_speed() const;
+
+    void refuse(const std::string &message) const;
+
+    void _enter_tree() override;
+    void _exit_tree() override;
+    [[nodiscard]] godot::PackedStringArray _get_configuration_warnings() const override;
+    [[nodiscard]] godot::PackedStringArray get_warnings() const {
+        return _get_configuration_warnings();
+    }
+
+protected:
+    static void _bind_methods();
+
+private:
+    struct ByHand {
+        std::uint64_t hand = 0;
+        Touch touch;
+    };
+
+    godot::Ref<SpidarGMaterial> material_;
+    std::uint64_t body_ = 0;
+    std::vector<ByHand> touches_; // of hands that touch it now
+};
