@@ -10,9 +10,11 @@
 
 namespace spidar {
 
-inline constexpr int kMaxConstraints = 8;       // of planes
-inline constexpr int kMaxPoints = 24;           // of shapes
-inline constexpr int kMaxRows = kMaxPoints + 1; // with the stop of the jaws
+inline constexpr int kMaxConstraints = 8;                    // of planes
+inline constexpr int kMaxPoints = 24;                        // of shapes
+inline constexpr int kMaxLimits = 6;                         // of joints
+inline constexpr int kMaxRows = kMaxPoints + 1 + kMaxLimits; // with the stop of the jaws
+static_assert(kMaxRows <= 32);                               // RowPushes::active_mask
 
 // Row i of the problem: constraint i asks row . move + compliance * push >= depth, with `move` in units of sqrt(energy), so
 // that the energy of a move is its squared length / 2. Lane 7 is zero.
@@ -40,7 +42,7 @@ using GodObjectSolution = RowPushes<kMaxConstraints>;
 // Exact: minimises |move|^2 / 2 under all rows, by the active set. Equal rows share equally. first_guess: the
 // active set to begin with, for instance the last one; the answer does not depend on it beyond rounding.
 // softness: added to the diagonal, relative to it; takes this part off the stiffness of a lone constraint and makes rows that
-// depend on each other share. Not finite input gives no push. For 8 and for 25 rows.
+// depend on each other share. Not finite input gives no push. For kMaxConstraints and for kMaxRows.
 template <int kRows>
 [[nodiscard]] RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
                                           std::uint32_t first_guess, double softness) noexcept;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "device/contact/proxy/tool_joint.h"
 #include "device/contact/shapes/placement.h"
 #include "device/contact/shapes/tool_shape.h"
 #include "device/contract/motion.h"
@@ -58,6 +59,9 @@ struct Tool {
     Jaws jaws;
     // The jaws close no further than this, nor beyond jaws.closed_rad: on what they hold.
     double stop_rad = std::numeric_limits<double>::infinity();
+    // What ties what it holds to something else.
+    std::array<ToolJoint, kMaxToolJoints> joints{};
+    int joint_count = 0;
 
     [[nodiscard]] double closes_to_rad() const noexcept {
         return std::min(stop_rad, jaws.closed_rad);

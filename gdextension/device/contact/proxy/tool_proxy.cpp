@@ -136,8 +136,18 @@ ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, 
 bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                              double margin_m, double dt_s, ProxyMemory &memory) noexcept {
     const double most_m = kPartOfMargin * margin_m;
-    const Move target = scaled(between(pose_, device));
+    Move target = scaled(between(pose_, device));
     std::array<double, kMaxRows> least{};
+    Move back{}; // to where locked joints belong
+    if (tie_.is_tied()) {
+        tie_.look(pose_, root_, cycle_s_);
+        back = tie_.correction();
+        target = tie_.left(target);
+        bent_ = tie_.bend(target);
+        for (std::size_t lane = 0; lane < target.size(); ++lane) {
+            target[lane] += bent_[lane];
+        }
+    }
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const ProxyContact &contact = contacts_[k];
@@ -145,13 +155,21 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         const double comes_m =
             dt_s * glm::dot(contact.normal, surface_velocity(other, contact.point_m));
         rows_[k] = ConstraintRow();
-        rows_[k].row =
+        const Move row =
             unit_move(tool.parts[contact.tool_part], tool.jaws, contact.point_m, contact.normal);
-        least[k] = comes_m - contact.gap_m;
+        rows_[k].row = tie_.is_tied() ? tie_.left(row) : row;
+        least[k] = comes_m - contact.gap_m - dot(row, back);
         rows_[k].depth = least[k] - dot(rows_[k].row, target);
     }
     const auto stop = static_cast<std::size_t>(count_);
     row_count_ = count_ + 1;
+    for (int i = 0; tie_.is_tied() && i < tie_.limit_count(); ++i) {
+        const auto k = static_cast<std::size_t>(row_count_++);
+        rows_[k] = ConstraintRow();
+        rows_[k].row = tie_.limit_row(i);
+        least[k] = tie_.limit_least(i);
+        rows_[k].depth = least[k] - dot(rows_[k].row, target);
+    }
     rows_[stop] = ConstraintRow();
     rows_[stop].row[kGraspLane] = -1.0 / root_[kGraspLane];
     least[stop] = pose_.grasp_rad - tool.closes_to_rad();
@@ -173,6 +191,9 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
                            glm::dot(last->normal, contact.normal) < kTurned);
         }
         contact.gap_m = dot(rows_[k].row, step) - least[k];
+    }
+    for (std::size_t lane = 0; lane < step.size(); ++lane) {
+        step[lane] += back[lane];
     }
     pose_ = moved(pose_, unscaled(step));
     return cut || anticipated;
@@ -228,6 +249,17 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
             std::max(0.0, rows[stop].depth + settings_.damping_s * velocity.grasp_rate_rad_s);
         note_own(stop);
     }
+    for (std::size_t k = stop + 1; k < static_cast<std::size_t>(row_count_); ++k) {
+        // A joint's limit is damped like a contact.
+        double speed = 0.0;
+        for (std::size_t dof = 0; dof < kDofCount; ++dof) {
+            speed += rows[k].row[dof] * root_[dof] * lanes(velocity)[dof];
+        }
+        if (rows[k].depth > 0.0) {
+            rows[k].depth = std::max(0.0, rows[k].depth - settings_.damping_s * speed);
+            note_own(k);
+        }
+    }
     const RowPushes<kMaxRows> solved =
         solve_rows<kMaxRows>(rows, row_count_, pushing_mask_, kRowSoftness);
     pushing_mask_ = solved.active_mask;
@@ -250,6 +282,9 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
         contacts_[k].push_n = alone_too(k);
     }
     wrench_ = of_lanes<Wrench>(sum);
+    if (tie_.is_tied()) {
+        add_joints(pull, velocity);
+    }
 }
 
 void ToolProxy::follow(const ToolPose &device) noexcept {
@@ -275,7 +310,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     const bool known =
         all_finite(device.position_m, device.rotation, device.grasp_rad, velocity, dt_s);
     const bool open = device.grasp_rad <= tool.closes_to_rad();
-    const bool alone = (scene.count == 0 || tool.count == 0) && open;
+    const bool alone = (scene.count == 0 || tool.count == 0) && open && !tie_.is_tied();
     if (known && (!placed_ || alone)) {
         follow(device);
     }
@@ -295,6 +330,8 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     has_traits_ = std::any_of(scene.parts.begin(), scene.parts.begin() + scene.count,
                               [](const ScenePart &part) { return acts(part.traits); });
     const double margin_m = margin_for(scene, dt_s);
+    cycle_s_ = dt_s;
+    tie_.advance(dt_s);
     double left_s = dt_s; // of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
@@ -312,6 +349,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
         act_by_traits(tool, scene);
     }
     device_ = device;
+    tie_.settle(pose_);
 }
 
 bool ToolProxy::is_sound() const noexcept {
@@ -325,7 +363,8 @@ bool ToolProxy::is_sound() const noexcept {
         return sound;
     };
     return are_flags(placed_, idle_, has_traits_) && points_to_parts(contacts_, count_) &&
-           points_to_parts(before_, before_count_) && row_count_ >= 0 && row_count_ <= kMaxRows;
+           points_to_parts(before_, before_count_) && tie_.is_sound() && row_count_ >= 0 &&
+           row_count_ <= kMaxRows;
 }
 
 } // namespace spidar

@@ -14,6 +14,7 @@
 
 #include "device/contact/god_object.h"
 #include "device/contact/proxy/contact_scene.h"
+#include "device/contact/proxy/joint_tie.h"
 #include "device/contact/proxy/proxy_memory.h"
 #include "device/contact/proxy/tool.h"
 #include "device/contract/haptic_command.h"
@@ -69,6 +70,10 @@ public:
     // The proxy is here: where the tool appears, in no surface.
     void put(const ToolPose &pose) noexcept;
 
+    // The joints of a new scene, as they will be in later_s.
+    void tie(const Tool &tool, double later_s) noexcept { tie_.accept(tool, later_s, pose_); }
+    [[nodiscard]] const JointTie &joints() const noexcept { return tie_; }
+
     // One cycle of dt_s. device: filtered and predicted; velocity: of it. The scene as it was at the end of the last cycle;
     // during this one its parts move on by their velocities, and `scene` is moved on with them.
     void update(const Tool &tool, ContactScene &scene, const ToolPose &device,
@@ -95,8 +100,7 @@ public:
 private:
     using Contacts = std::array<ProxyContact, kMaxPoints>;
     using Rows = std::array<ConstraintRow, kMaxRows>;
-    // Seven DOF and a lane of zero, in units of sqrt(energy): the moves of god_object.h.
-    using Move = std::array<double, 8>;
+    using Move = JointTie::Move;
     // Of the margin, what the tool may move before the closest points are looked for again.
     static constexpr double kPartOfMargin = 0.75;
     // Normals further apart than this are of different surfaces (3e-3 rad).
@@ -107,6 +111,11 @@ private:
 
     // Nothing is in reach: the proxy is where the device is.
     void follow(const ToolPose &device) noexcept;
+    // Adds what a force on a point of the tool does to the hand, as far as the joints leave it.
+    void add_force(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m, const Vec3 &force_n,
+                   std::array<double, kDofCount> &sum) const noexcept;
+    // Adds what joints do beside their limits.
+    void add_joints(const Move &pull, const Twist &velocity) noexcept;
     [[nodiscard]] double part_at_levers(const Tool &tool, const ContactScene &scene,
                                         double all_n) const noexcept;
     // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.
@@ -173,6 +182,8 @@ private:
 
     ProxySettings settings_;
     Move root_{}; // of the stiffnesses
+    JointTie tie_;
+    Move bent_{}; // by the joints' springs and motors, in the last pass
     ToolPose pose_;
     ToolPose device_; // of the last cycle
     bool placed_ = false;
@@ -188,6 +199,7 @@ private:
     Wrench wrench_{};
     std::array<PartForce, kMaxSceneParts> given_{};
     double stop_push_nm_ = 0.0;
+    double cycle_s_ = 0.0;
     bool idle_ = true;        // the last cycle left no contact and no force behind
     bool has_traits_ = false; // some part in this cycle
     int queries_ = 0;

@@ -149,11 +149,7 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
                     rub_n *= limit_n / size_n;
                 }
                 contact.friction_n = rub_n;
-                const DofLanes acts =
-                    lanes(moves_along(part, tool.jaws, pose_, contact.point_m, rub_n));
-                for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-                    sum[dof] += acts[dof];
-                }
+                add_force(part, tool.jaws, contact.point_m, rub_n, sum);
             }
         }
         if (!(contact.push_n > 0.0)) {

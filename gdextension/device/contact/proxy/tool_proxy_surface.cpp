@@ -143,11 +143,7 @@ void ToolProxy::act_by_traits(const Tool &tool, const ContactScene &scene) noexc
         if (contact.drawn_n == Vec3(0.0)) {
             continue;
         }
-        const DofLanes acts = lanes(moves_along(tool.parts[contact.tool_part], tool.jaws, pose_,
-                                                contact.point_m, contact.drawn_n));
-        for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-            sum[dof] += acts[dof];
-        }
+        add_force(tool.parts[contact.tool_part], tool.jaws, contact.point_m, contact.drawn_n, sum);
         PartForce &gets = given_[contact.scene_part];
         gets.force_n -= contact.drawn_n;
         gets.moment_nm -= glm::cross(contact.point_m - scene.parts[contact.scene_part].at.origin_m,

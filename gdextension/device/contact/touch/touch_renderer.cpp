@@ -122,6 +122,7 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     }
     loaded_ = !same(load_, Wrench()) || !same(load_from_, Wrench());
     const bool stamped = touch.state_time_s >= 0.0 && state_time_s_ >= 0.0;
+    proxy_.tie(tool_, clock_.carried_s() + lead_s_ - cycle_s_);
     renew(touch, stamped ? std::max(0.0, touch.state_time_s - state_time_s_) : 0.0, clamp);
     state_time_s_ = touch.state_time_s;
     if (empty()) {
@@ -139,6 +140,8 @@ void TouchRenderer::accept_nothing(std::uint64_t sequence) noexcept {
 
 void TouchRenderer::drop() noexcept {
     tool_.count = 0;
+    tool_.joint_count = 0;
+    proxy_.tie(tool_, 0.0);
     tool_.stop_rad = Tool().stop_rad;
     scene_.count = 0;
     load_ = Wrench();
@@ -148,7 +151,8 @@ void TouchRenderer::drop() noexcept {
 }
 
 bool TouchRenderer::empty() const noexcept {
-    return scene_.count == 0 && !loaded_ && !(tool_.stop_rad < tool_.jaws.closed_rad);
+    return scene_.count == 0 && !loaded_ && tool_.joint_count == 0 &&
+           !(tool_.stop_rad < tool_.jaws.closed_rad);
 }
 
 void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &clamp) noexcept {
@@ -260,8 +264,9 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         device = moved(device, of_lanes<Displacement>(gives));
     }
     const double strength = strength_.value();
-    const bool waits = !carry(dt_s) && same(device, device_) && same(motion.velocity, velocity_) &&
-                       strength == rendered_strength_;
+    // Joints have springs, motors and slack that go on by themselves.
+    const bool waits = !carry(dt_s) && tool_.joint_count == 0 && same(device, device_) &&
+                       same(motion.velocity, velocity_) && strength == rendered_strength_;
     if (settled_ && waits) {
         skipped_ += scene_.count > 0 ? 1 : 0;
         return wrench_;
@@ -330,8 +335,10 @@ void TouchRenderer::report(TouchReport &report) const noexcept {
 
 bool TouchRenderer::is_sound() const noexcept {
     bool sound = scene_.count >= 0 && scene_.count <= kMaxSceneParts && tool_.count >= 0 &&
-                 tool_.count <= kMaxToolParts && are_flags(caps_.from_latency, loaded_, settled_) &&
-                 clock_.is_sound() && proxy_.is_sound();
+                 tool_.count <= kMaxToolParts && tool_.joint_count >= 0 &&
+                 tool_.joint_count <= kMaxToolJoints &&
+                 are_flags(caps_.from_latency, loaded_, settled_) && clock_.is_sound() &&
+                 proxy_.is_sound();
     for (const ToolPart &part : tool_.parts) {
         sound = sound && is_one_of(part.mount, ToolMount::jaw_plus);
     }

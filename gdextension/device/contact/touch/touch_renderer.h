@@ -47,7 +47,8 @@ public:
 
     void report(TouchReport &report) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept {
-        return scene_.count == 0 && !loaded_ && !(proxy_.stop_push_nm() > 0.0);
+        return scene_.count == 0 && !loaded_ && tool_.joint_count == 0 &&
+               !(proxy_.stop_push_nm() > 0.0);
     }
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept;

@@ -35,6 +35,23 @@ Status validate_part(const ScenePart &part) noexcept {
     return good ? validate_traits(part.traits) : Status::invalid_request;
 }
 
+Status validate_joint(const ToolJoint &joint) noexcept {
+    if (!all_finite(joint.base) || !all_finite(joint.in_grip) ||
+        !all_finite(joint.velocity_m_s, joint.angular_rad_s)) {
+        return Status::not_finite;
+    }
+    for (const JointAxis &axis : joint.axes) {
+        if (!all_finite(axis.lower, axis.upper, axis.stiffness, axis.rest, axis.damping,
+                        axis.motor_speed, axis.motor_most)) {
+            return Status::not_finite;
+        }
+        if (axis.stiffness < 0.0 || axis.damping < 0.0 || axis.motor_most < 0.0) {
+            return Status::invalid_request;
+        }
+    }
+    return Status::ok;
+}
+
 Status validate_part(const ToolPart &part) noexcept {
     if (!all_finite(part.at)) {
         return Status::not_finite;
@@ -49,7 +66,8 @@ Status validate(const TouchScene &touch) noexcept {
     const Tool &tool = touch.tool;
     const ContactScene &scene = touch.scene;
     const bool counted = tool.count >= 0 && tool.count <= kMaxToolParts && scene.count >= 0 &&
-                         scene.count <= kMaxSceneParts && touch.felt <= kAllDof;
+                         scene.count <= kMaxSceneParts && tool.joint_count >= 0 &&
+                         tool.joint_count <= kMaxToolJoints && touch.felt <= kAllDof;
     if (!counted) {
         return Status::invalid_request;
     }
@@ -66,6 +84,12 @@ Status validate(const TouchScene &touch) noexcept {
     }
     for (int t = 0; t < tool.count; ++t) {
         const Status status = validate_part(tool.parts[static_cast<std::size_t>(t)]);
+        if (!usable(status)) {
+            return status;
+        }
+    }
+    for (int j = 0; j < tool.joint_count; ++j) {
+        const Status status = validate_joint(tool.joints[static_cast<std::size_t>(j)]);
         if (!usable(status)) {
             return status;
         }

@@ -8,7 +8,9 @@ namespace spidar {
 
 // A field added to one of these structs: add it to the lists below, then correct the number.
 static_assert(count_members<TouchScene>() == 9, "TouchScene changed: list its fields here");
-static_assert(count_members<Tool>() == 4, "Tool changed: list its fields here");
+static_assert(count_members<ToolJoint>() == 6, "ToolJoint changed: list its fields here");
+static_assert(count_members<JointAxis>() == 7, "JointAxis changed: list its fields here");
+static_assert(count_members<Tool>() == 6, "Tool changed: list its fields here");
 static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
 static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
 static_assert(count_members<ScenePart>() == 12, "ScenePart changed: list its fields here");
@@ -31,6 +33,7 @@ void visit_head(Touch &touch, Visit &&visit) {
     visit("jaws.closed_rad", 0, touch.tool.jaws.closed_rad);
     visit("stop_rad", 0, touch.tool.stop_rad);
     visit("scene.count", 0, touch.scene.count);
+    visit("joint_count", 0, touch.tool.joint_count);
     visit_array("stiffness", touch.stiffness, visit);
     visit("damping_n_s_m", 0, touch.damping_n_s_m);
     visit_vector("load.force_n", 0, touch.load.force_n, visit);
@@ -74,6 +77,25 @@ void visit_part(Part &part,
     visit("groups", 0, part.groups);
 }
 
+template <typename Part, typename Visit>
+void visit_part(Part &part,
+                Visit &&visit) requires std::is_same_v<std::remove_const_t<Part>, ToolJoint> {
+    visit("id", 0, part.id);
+    visit_placement(part.base, visit);
+    visit_vector("velocity_m_s", 0, part.velocity_m_s, visit);
+    visit_vector("angular_rad_s", 0, part.angular_rad_s, visit);
+    visit_placement(part.in_grip, visit);
+    for (auto &axis : part.axes) {
+        visit("lower", 0, axis.lower);
+        visit("upper", 0, axis.upper);
+        visit("stiffness", 0, axis.stiffness);
+        visit("rest", 0, axis.rest);
+        visit("damping", 0, axis.damping);
+        visit("motor_speed", 0, axis.motor_speed);
+        visit("motor_most", 0, axis.motor_most);
+    }
+}
+
 template <typename VisitAll>
 std::size_t count_visits(VisitAll &&visit_all) noexcept {
     std::size_t count = 0;
@@ -86,15 +108,25 @@ struct Layout {
     std::size_t head = 0;
     std::size_t tool_part = 0;
     std::size_t scene_part = 0;
+    std::size_t joint = 0;
+
+    [[nodiscard]] std::size_t first_scene_part() const noexcept {
+        return head + kMaxToolParts * tool_part;
+    }
+    [[nodiscard]] std::size_t first_joint() const noexcept {
+        return first_scene_part() + kMaxSceneParts * scene_part;
+    }
 };
 const Layout &layout() noexcept {
     static const Layout sizes = [] {
         const TouchScene touch;
         const ToolPart tool;
         const ScenePart part;
+        const ToolJoint joint;
         return Layout{1 + count_visits([&](auto &&visit) { visit_head(touch, visit); }),
                       count_visits([&](auto &&visit) { visit_part(tool, visit); }),
-                      count_visits([&](auto &&visit) { visit_part(part, visit); })};
+                      count_visits([&](auto &&visit) { visit_part(part, visit); }),
+                      count_visits([&](auto &&visit) { visit_part(joint, visit); })};
     }();
     return sizes;
 }
@@ -126,15 +158,17 @@ void visit_parts(Touch &touch, Visit &&visit) noexcept {
         visit_part(part, [&](std::string_view, int, auto &field) { visit(place++, field); });
     };
     for_parts(touch.tool.parts, touch.tool.count, sizes.head, sizes.tool_part, visit_from);
-    for_parts(touch.scene.parts, touch.scene.count, sizes.head + kMaxToolParts * sizes.tool_part,
-              sizes.scene_part, visit_from);
+    for_parts(touch.scene.parts, touch.scene.count, sizes.first_scene_part(), sizes.scene_part,
+              visit_from);
+    for_parts(touch.tool.joints, touch.tool.joint_count, sizes.first_joint(), sizes.joint,
+              visit_from);
 }
 
 } // namespace
 
 std::size_t count_touch_words() noexcept {
     const Layout &sizes = layout();
-    return sizes.head + kMaxToolParts * sizes.tool_part + kMaxSceneParts * sizes.scene_part;
+    return sizes.first_joint() + kMaxToolJoints * sizes.joint;
 }
 
 void store_touch(const TouchScene *touch, std::span<std::uint64_t> words) noexcept {

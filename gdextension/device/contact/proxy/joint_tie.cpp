@@ -1,0 +1,290 @@
+#include "device/contact/proxy/joint_tie.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/base/sound_state.h"
+#include "core/geometry/rotation_log.h"
+#include "device/contract/dof_lanes.h"
+
+namespace spidar {
+
+namespace {
+
+using Move = JointTie::Move;
+
+// What a joint was off when it was caught is given back in this time: the physics engine holds joints to a fraction of a
+// millimetre, and so much at once would be a blow.
+constexpr double kGivesBack_s = 0.1;
+// Of a row of unit stiffness, what is left of it beside the others when it says nothing new: two hinges of one door.
+constexpr double kDependent = 1e-6;
+constexpr double kPi = 3.14159265358979323846;
+
+double dot(const Move &a, const Move &b) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+void add(Move &to, double factor, const Move &what) noexcept {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i] += factor * what[i];
+    }
+}
+
+// How the tool moves along it, in units of sqrt(energy).
+Move row_of(const Vec3 &linear, const Vec3 &angular, const Move &root) noexcept {
+    const DofLanes along = lanes(linear, angular, 0.0);
+    Move row{};
+    for (std::size_t dof = 0; dof < along.size(); ++dof) {
+        row[dof] = along[dof] / root[dof];
+    }
+    return row;
+}
+
+// The only axis about which it turns; -1: about none or several.
+int hinge_axis(const ToolJoint &joint) noexcept {
+    int found = -1;
+    int count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!joint.axes[static_cast<std::size_t>(3 + axis)].is_locked()) {
+            found = axis;
+            ++count;
+        }
+    }
+    return count == 1 ? found : -1;
+}
+
+// d(rotation vector) / d(turn), the turn along the base's axes: row i of it.
+Vec3 log_row(const Vec3 &log, int i) noexcept {
+    Vec3 unit(0.0);
+    unit[i] = 1.0;
+    const double angle = glm::length(log);
+    constexpr double kSmall = 1e-4;
+    const double factor =
+        angle < kSmall
+            ? 1.0 / 12.0
+            : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+    // The transpose of I - [log] / 2 + factor [log]^2.
+    return unit + 0.5 * glm::cross(log, unit) + factor * glm::cross(log, glm::cross(log, unit));
+}
+
+void move_on(ToolJoint &joint, double dt_s) noexcept {
+    joint.base.origin_m += dt_s * joint.velocity_m_s;
+    if (joint.angular_rad_s != Vec3(0.0)) {
+        joint.base.rotation = rotation_exp(dt_s * joint.angular_rad_s) * joint.base.rotation;
+    }
+}
+
+} // namespace
+
+JointTie::Coordinates JointTie::coordinates_of(const ToolJoint &joint, const ToolPose &pose,
+                                               const Coordinates &near) noexcept {
+    const Placement tool = Placement{pose.position_m, pose.rotation} * joint.in_grip;
+    const Mat3 to_base = glm::transpose(joint.base.rotation);
+    const Vec3 apart_m = to_base * (tool.origin_m - joint.base.origin_m);
+    const Mat3 turn = to_base * tool.rotation;
+    const int hinge = hinge_axis(joint);
+    Vec3 turns(0.0);
+    if (hinge >= 0) {
+        const int next = (hinge + 1) % 3;
+        const int last = (hinge + 2) % 3;
+        // How far its axis leans.
+        Vec3 unit(0.0);
+        unit[hinge] = 1.0;
+        turns = rotation_between(unit, turn[hinge]);
+        const double angle = std::atan2(turn[next][last], turn[next][next]);
+        const double whole = 2.0 * kPi;
+        turns[hinge] =
+            angle + whole * std::round((near[static_cast<std::size_t>(3 + hinge)] - angle) / whole);
+    } else {
+        turns = rotation_log(turn);
+    }
+    return {apart_m.x, apart_m.y, apart_m.z, turns.x, turns.y, turns.z};
+}
+
+void JointTie::accept(const Tool &tool, double later_s, const ToolPose &pose) noexcept {
+    const std::array<State, kMaxToolJoints> old = states_;
+    const int old_count = count_;
+    count_ = tool.joint_count;
+    for (int j = 0; j < count_; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        State &state = states_[k];
+        state = State();
+        state.joint = tool.joints[k];
+        move_on(state.joint, later_s);
+        const auto *const end = old.data() + old_count;
+        const auto *const before = std::find_if(old.data(), end, [&state](const State &one) {
+            return one.joint.id == state.joint.id && one.begun;
+        });
+        if (before == end) {
+            continue;
+        }
+        const Coordinates was = coordinates_of(before->joint, pose, before->at);
+        const Coordinates now = coordinates_of(state.joint, pose, before->at);
+        state.begun = true;
+        for (std::size_t axis = 0; axis < now.size(); ++axis) {
+            const bool locked = state.joint.axes[axis].is_locked();
+            state.slack[axis] = locked ? before->slack[axis] + now[axis] - was[axis] : 0.0;
+            state.at[axis] = before->at[axis] + now[axis] - was[axis];
+        }
+    }
+}
+
+void JointTie::advance(double dt_s) noexcept {
+    const double kept = std::exp(-dt_s / kGivesBack_s);
+    for (int j = 0; j < count_; ++j) {
+        State &state = states_[static_cast<std::size_t>(j)];
+        move_on(state.joint, dt_s);
+        for (double &slack : state.slack) {
+            slack *= kept;
+        }
+    }
+}
+
+// Beside the rows that are locked already.
+void JointTie::lock(Move row, double least, double carried) noexcept {
+    const double whole = dot(row, row);
+    for (int i = 0; i < locked_count_; ++i) {
+        const Move &other = locked_[static_cast<std::size_t>(i)];
+        const double share = dot(row, other);
+        add(row, -share, other);
+        least -= share * dot(correction_, other);
+        carried -= share * dot(carried_, other);
+    }
+    const double own = dot(row, row);
+    if (!(own > kDependent * whole) || locked_count_ == kMaxTieRows) {
+        return;
+    }
+    const double length = std::sqrt(own);
+    for (double &lane : row) {
+        lane /= length;
+    }
+    add(correction_, least / length, row);
+    add(carried_, carried / length, row);
+    locked_[static_cast<std::size_t>(locked_count_++)] = row;
+}
+
+void JointTie::look_at(State &state, const ToolPose &pose, const Move &root) noexcept {
+    const ToolJoint &joint = state.joint;
+    const Coordinates now = coordinates_of(joint, pose, state.at);
+    if (!state.begun) {
+        state.begun = true;
+        state.at = now;
+        for (std::size_t axis = 0; axis < now.size(); ++axis) {
+            const JointAxis &rule = joint.axes[axis];
+            state.slack[axis] = rule.is_locked() ? now[axis] - rule.lower : 0.0;
+        }
+    }
+    const Placement tool = Placement{pose.position_m, pose.rotation} * joint.in_grip;
+    const Vec3 lever_m = tool.origin_m - pose.position_m;
+    const bool turns_freely = hinge_axis(joint) < 0;
+    const Vec3 log(now[3], now[4], now[5]);
+    for (std::size_t axis = 0; axis < now.size(); ++axis) {
+        const bool is_turn = axis >= 3;
+        const int k = static_cast<int>(axis % 3);
+        const Vec3 direction = is_turn && turns_freely ? joint.base.rotation * log_row(log, k)
+                                                       : joint.base.rotation[k];
+        const Vec3 linear = is_turn ? Vec3(0.0) : direction;
+        const Vec3 angular = is_turn ? direction : glm::cross(lever_m, direction);
+        const Move row = row_of(linear, angular, root);
+        const JointAxis &rule = joint.axes[axis];
+        if (rule.is_locked()) {
+            const Vec3 there_m_s =
+                joint.velocity_m_s +
+                glm::cross(joint.angular_rad_s, tool.origin_m - joint.base.origin_m);
+            const double carried = glm::dot(direction, is_turn ? joint.angular_rad_s : there_m_s);
+            lock(row, rule.lower + state.slack[axis] - now[axis], carried);
+            continue;
+        }
+        forces_[static_cast<std::size_t>(force_count_++)] = {rule, row, now[axis], state.at[axis]};
+    }
+}
+
+void JointTie::look(const ToolPose &pose, const Move &root, double dt_s) noexcept {
+    dt_s_ = dt_s;
+    locked_count_ = 0;
+    correction_ = {};
+    carried_ = {};
+    limit_count_ = 0;
+    force_count_ = 0;
+    for (int j = 0; j < count_; ++j) {
+        look_at(states_[static_cast<std::size_t>(j)], pose, root);
+    }
+    // What is locked is known now: the others act in what is left.
+    for (int i = 0; i < force_count_; ++i) {
+        Force &force = forces_[static_cast<std::size_t>(i)];
+        force.now += dot(force.row, correction_);
+        force.row = left(force.row);
+        const JointAxis &rule = force.axis;
+        if (rule.is_limited() && limit_count_ < kMaxLimits) {
+            // The end that is nearer.
+            const bool low = force.now - rule.lower < rule.upper - force.now;
+            Limit &limit = limits_[static_cast<std::size_t>(limit_count_++)];
+            limit = {};
+            add(limit.row, low ? 1.0 : -1.0, force.row);
+            limit.least = low ? rule.lower - force.now : force.now - rule.upper;
+        }
+    }
+}
+
+void JointTie::settle(const ToolPose &pose) noexcept {
+    for (int j = 0; j < count_; ++j) {
+        State &state = states_[static_cast<std::size_t>(j)];
+        state.at = coordinates_of(state.joint, pose, state.at);
+    }
+}
+
+Move JointTie::locked(const Move &move) const noexcept {
+    Move part{};
+    for (int i = 0; i < locked_count_; ++i) {
+        const Move &row = locked_[static_cast<std::size_t>(i)];
+        add(part, dot(row, move), row);
+    }
+    return part;
+}
+
+Move JointTie::left(const Move &move) const noexcept {
+    Move part = move;
+    add(part, -1.0, locked(move));
+    return part;
+}
+
+Move JointTie::bend(const Move &target) const noexcept {
+    Move by{};
+    for (int i = 0; i < force_count_; ++i) {
+        const Force &force = forces_[static_cast<std::size_t>(i)];
+        const JointAxis &rule = force.axis;
+        const double softness = dot(force.row, force.row);
+        const double damping = rule.damping / dt_s_;
+        const double stiffness = rule.stiffness + damping;
+        const double part = 1.0 / (1.0 + stiffness * softness);
+        if (stiffness > 0.0) {
+            const double wanted = (rule.stiffness * rule.rest + damping * force.before) / stiffness;
+            const double there = force.now + dot(force.row, target) + dot(force.row, by);
+            add(by, part * stiffness * (wanted - there), force.row);
+        }
+        if (rule.motor_most > 0.0 && softness > 0.0) {
+            const double there = force.now + dot(force.row, target) + dot(force.row, by);
+            const double ahead = force.before + rule.motor_speed * dt_s_ - there;
+            const double push =
+                std::clamp(ahead / (part * softness), -rule.motor_most, rule.motor_most);
+            add(by, part * push, force.row);
+        }
+    }
+    return by;
+}
+
+bool JointTie::is_sound() const noexcept {
+    const auto within = [](int count, int most) { return count >= 0 && count <= most; };
+    return within(count_, kMaxToolJoints) && within(locked_count_, kMaxTieRows) &&
+           within(limit_count_, kMaxLimits) && within(force_count_, kMaxTieRows) &&
+           std::ranges::all_of(states_, [](const State &state) { return are_flags(state.begun); });
+}
+
+} // namespace spidar

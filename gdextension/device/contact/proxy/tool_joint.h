@@ -1,0 +1,41 @@
+// What ties the tool, by what it holds, to something else in the scene: a door's hinge, a drawer's slide, a ball in its
+// socket. Device frame, SI.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "device/contact/shapes/placement.h"
+
+namespace spidar {
+
+// One of the six coordinates of a joint: where its frame on what is held lies in its frame on the other body, along and
+// about the axes of the latter. m, N/m, N s/m, m/s, N; or rad, N m/rad, N m s/rad, rad/s, N m.
+struct JointAxis {
+    // Equal: locked there. Lower above upper: no limit.
+    double lower = 0.0;
+    double upper = 0.0;
+    double stiffness = 0.0; // towards rest
+    double rest = 0.0;
+    double damping = 0.0;
+    // A motor that moves it at this speed, as far as this force or moment does.
+    double motor_speed = 0.0;
+    double motor_most = 0.0;
+
+    [[nodiscard]] bool is_locked() const noexcept { return lower == upper; }
+    [[nodiscard]] bool is_limited() const noexcept { return lower < upper; }
+};
+
+struct ToolJoint {
+    std::int32_t id = 0;    // persistent
+    Placement base;         // the joint's frame on the other body
+    Vec3 velocity_m_s{0.0}; // of base.origin_m
+    Vec3 angular_rad_s{0.0};
+    Placement in_grip; // its frame on what is held, in the grip's
+    // Along x, y and z, then about them. About more than one axis: the parts of the rotation vector.
+    std::array<JointAxis, 6> axes{};
+};
+
+inline constexpr int kMaxToolJoints = 2; // a door has two hinges
+
+} // namespace spidar
