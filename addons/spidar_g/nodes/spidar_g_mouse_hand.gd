@@ -17,7 +17,8 @@ extends Node
 ## What the mouse and the keys do, where the project does not bind the actions to other keys:
 ## [br]- The cursor moves the grip in the view plane, at its present depth.
 ## [br]- The wheel moves it in depth, along the ground; where the camera looks straight down, along the view.
-## [br]- The left button closes the fingers while it is held. They stop where something pushes them back.
+## [br]- The left button closes the fingers while it is held. They stop where something pushes them back by
+## [member squeeze_nm], or at the end of their way.
 ## [br]- Dragging with the right button turns the grip.
 ## [br]- Shift is the clutch: while it is held, the cursor moves and the grip stays. Afterwards the grip keeps its distance
 ## to the cursor.
@@ -36,13 +37,15 @@ const Values := preload("mouse_hand/values.gd")
 
 ## How far the open fingers are closed, rad.
 const OPEN_ANGLE_RAD: float = deg_to_rad(4.0)
-## The fingers close this much farther than the jaws do, rad: so they press what is thin.
+## Empty fingers close this much farther than the jaws do, rad.
 const OVERCLOSE_RAD: float = deg_to_rad(2.0)
+## Fingers that are pushed back by more than closed pads push each other, N m, close on to this angle, rad: so that a thin
+## body can be pressed as hard as a wide one.
+const PUSHED_NM: float = 0.008
+const PRESSING_RAD: float = deg_to_rad(80.0)
 const WITHOUT_DEVICE: String = (
 	"SpidarGMouseHand moves nothing: make it a child of a SpidarG node, or set its property spidar to one."
 )
-## Below this cosine between the view and the ground, the wheel moves along the view instead of the ground.
-const LEVEL_VIEW: float = 0.2
 
 ## Whether mouse and keys move the hand. When it is switched on again, the hand goes on from where the grip is.
 @export var enabled: bool = true:
@@ -333,13 +336,13 @@ func _move_by_keys(delta: float) -> void:
 
 
 func _move_fingers(delta: float) -> void:
+	var pushed_nm: float = -_device.get_achieved_wrench()[6]
+	var end_rad: float = _device.get_effective_config().jaw_closed_angle + OVERCLOSE_RAD
 	if not _closing:
-		grasp_angle_rad = maxf(grasp_angle_rad - close_speed_rad_s * delta, OPEN_ANGLE_RAD)
-		return
-	var pushed_back: bool = -_device.get_achieved_wrench()[6] >= squeeze_nm
-	if not pushed_back:
-		var closed_rad: float = _device.get_effective_config().jaw_closed_angle + OVERCLOSE_RAD
-		grasp_angle_rad = minf(grasp_angle_rad + close_speed_rad_s * delta, closed_rad)
+		grasp_angle_rad = maxf(minf(grasp_angle_rad, end_rad) - close_speed_rad_s * delta, OPEN_ANGLE_RAD)
+	elif pushed_nm < squeeze_nm:
+		end_rad = PRESSING_RAD if pushed_nm > PUSHED_NM else end_rad
+		grasp_angle_rad = minf(grasp_angle_rad + close_speed_rad_s * delta, end_rad)
 
 
 func _unhandled_input(event: InputEvent) -> void:
@@ -372,13 +375,8 @@ func _on_motion(motion: InputEventMouseMotion) -> void:
 
 func _move_in_depth(distance_m: float) -> void:
 	var camera: Camera3D = get_viewport().get_camera_3d()
-	if camera == null:
-		return
-	var forward: Vector3 = -camera.global_basis.orthonormalized().z
-	# Along the ground, so that depth does not change the height over a table.
-	if Vector2(forward.x, forward.z).length() > LEVEL_VIEW:
-		forward.y = 0.0
-	position_m += _frame().basis.inverse() * forward.normalized() * distance_m
+	if camera != null:
+		position_m += _frame().basis.inverse() * Pointer.way_in_depth(camera) * distance_m
 
 
 func _update_cue() -> void:

@@ -96,6 +96,34 @@ func test_closing_stops_when_the_fingers_are_pushed_back() -> void:
 	check(hand.get_held_body() == null, "let go")
 
 
+func test_a_narrow_body_is_pressed_hard_too() -> void:
+	for width: float in [0.01, 0.02, 0.06]:
+		await set_up_mouse()
+		var body: RigidBody3D = add_free_box(Vector3(width, 0.05, 0.03), 0.1)
+		await physics_frames(10)
+		point_at(body.global_position)
+		await settle()
+		button(MOUSE_BUTTON_LEFT, true)
+		await physics_frames(120)
+		var squeeze: float = -device.get_achieved_wrench()[6]
+		print("INFO %.0f mm wide: squeezed with %.3f N m" % [1e3 * width, squeeze])
+		check_equal(hand.get_held_body(), body, "%.0f mm wide: held" % (1e3 * width))
+		check(squeeze > 0.045 and squeeze < mouse.squeeze_nm + 0.01, "%.0f mm: %.3f N m" % [1e3 * width, squeeze])
+		button(MOUSE_BUTTON_LEFT, false)
+		device.free()
+		body.free()
+		await frames(2)
+
+
+func test_empty_fingers_close_to_the_end_of_the_jaws_and_no_farther() -> void:
+	await set_up_mouse()
+	button(MOUSE_BUTTON_LEFT, true)
+	await physics_frames(150)
+	check(device.get_grasp_phase() == SpidarG.GRASP_GRASPED, "closed, not closed too far")
+	check_near(grip_closed(), device.get_effective_config().jaw_closed_angle, deg_to_rad(2.0), "at the end of the jaws' way")
+	button(MOUSE_BUTTON_LEFT, false)
+
+
 func test_keys_move_and_turn_at_their_speeds() -> void:
 	await set_up_mouse()
 	var ways: Dictionary[Key, Vector3] = {

@@ -28,6 +28,7 @@ func _ready() -> void:
 	add_child(device)
 	device.add_child(SpidarGView.new())
 	device.add_child(SpidarGMonitors.new())
+	device.add_child(SpidarGMouseHand.new())
 	var panel: SpidarGPanel = (load(PANEL_SCENE) as PackedScene).instantiate()
 	panel.device = device
 	add_child(panel)

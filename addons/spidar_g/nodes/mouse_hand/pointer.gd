@@ -1,6 +1,9 @@
 extends RefCounted
 ## The cursor of SpidarGMouseHand: where it points, what the clutch leaves, and how it is hidden while it turns the grip.
 
+## Below this cosine between the view and the ground, the wheel moves along the view instead of the ground.
+const LEVEL_VIEW: float = 0.2
+
 ## Whether the mouse turns the grip instead of moving it.
 var turning: bool = false
 
@@ -25,6 +28,15 @@ func point(motion: InputEventMouseMotion, camera: Camera3D, at: Vector3, clutche
 	var depth: float = -camera.to_local(at).z
 	var under: Vector3 = camera.project_position(motion.position + _offset_px, depth)
 	return under if depth > camera.near and under.is_finite() else at
+
+
+## The direction (world) in which the wheel moves the grip away from the viewer.
+static func way_in_depth(camera: Camera3D) -> Vector3:
+	var forward: Vector3 = -camera.global_basis.orthonormalized().z
+	# Along the ground, so that depth does not change the height over a table.
+	if Vector2(forward.x, forward.z).length() > LEVEL_VIEW:
+		forward.y = 0.0
+	return forward.normalized()
 
 
 ## The grip is under the cursor again.
