@@ -39,7 +39,7 @@ enum Smoothing {
 	NEWEST,
 }
 
-const Finder := preload("spidar_finder.gd")
+const Finder := preload("follow/spidar_finder.gd")
 ## Frames count as faster than ticks until none was drawn between two ticks for so many ticks.
 const TICKS_TO_FORGET: int = 30
 

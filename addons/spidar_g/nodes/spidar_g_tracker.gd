@@ -53,10 +53,10 @@ enum TriggerSource {
 	GRASP,
 }
 
-const Finder := preload("spidar_finder.gd")
-const FrameMotion := preload("frame_motion.gd")
-const PlaySpace := preload("play_space.gd")
-const Inputs := preload("tracker_inputs.gd")
+const Finder := preload("follow/spidar_finder.gd")
+const FrameMotion := preload("follow/frame_motion.gd")
+const PlaySpace := preload("follow/play_space.gd")
+const Inputs := preload("follow/tracker_inputs.gd")
 ## All trackers in the tree are in this group.
 const GROUP: StringName = &"spidar_g_trackers"
 ## The interaction profile that a tracker has unless [member profile] is set.

@@ -49,8 +49,8 @@ enum Kind {
 	DETENTS,
 }
 
-const Depth := preload("zone_depth.gd")
-const Devices := preload("devices_in_tree.gd")
+const Depth := preload("zone/zone_depth.gd")
+const Devices := preload("zone/devices_in_tree.gd")
 const Touch := preload("zone_touch.gd")
 ## Zones number their effects from here on; the game's own effects should have smaller ids.
 const FIRST_ID: int = 1000000
