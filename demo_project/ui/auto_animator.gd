@@ -38,7 +38,7 @@ func _unhandled_input(event: InputEvent) -> void:
 	if not enabled or busy or button == null or not button.is_action_pressed(&"demo_grasp"):
 		return
 	if _held != null and _player.tool_hand.get_held_body() == _held:
-		if _on_screen(_player.target_of(_held, button.position, _mouse.camera)).distance_to(button.position) < NEAR_PX:
+		if _on_screen(_player.target_of(_held, button.position, get_viewport().get_camera_3d())).distance_to(button.position) < NEAR_PX:
 			_animate(_held)
 		return
 	var body := _nearest(button.position)
@@ -56,7 +56,7 @@ func _nearest(at: Vector2) -> TaskBody:
 
 
 func _on_screen(point: Vector3) -> Vector2:
-	return _mouse.camera.unproject_position(point)
+	return get_viewport().get_camera_3d().unproject_position(point)
 
 
 func _animate(body: TaskBody) -> void:

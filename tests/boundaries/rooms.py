@@ -15,6 +15,7 @@ ROOTS = {  # where the sources lie -> what their rooms' names begin with
 }
 SUFFIXES = (".cpp", ".h", ".gd", ".tscn")
 SCENES_ALONE = ("objects", "parts", "shapes")  # folders of scenes: they belong to the room above
+ONE_ROOM = ("addons/spidar_g/examples",)  # with all folders below: one example a folder, none uses another
 MOST_FILES = 18  # in one room, a source and its header counted as one: more are not found by eye
 
 INCLUDE = re.compile(r'\s*#\s*include\s+"((?:core|device|godot)/[^"]+)"')
@@ -78,7 +79,8 @@ def room_of(path):
             folder = os.path.dirname(path)
             if path.endswith(".tscn") and os.path.basename(folder) in SCENES_ALONE:
                 folder = os.path.dirname(folder)
-            return os.path.join(name, folder[len(root) + 1:]).rstrip("/")
+            room = os.path.join(name, folder[len(root) + 1:]).rstrip("/")
+            return next((whole for whole in ONE_ROOM if (room + "/").startswith(whole + "/")), room)
     return None
 
 

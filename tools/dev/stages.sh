@@ -76,6 +76,7 @@ stage_binding_tests() {
 
 stage_godot_tests() {
     counted python3 tests/godot/run_godot_tests.py "$GODOT"
+    counted python3 tests/godot/run_example_tests.py "$GODOT"
     counted python3 tests/godot/check_class_reference.py "$GODOT"
 }
 

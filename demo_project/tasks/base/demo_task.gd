@@ -128,7 +128,7 @@ func _restart() -> void:
 	_clear_away()
 	_reset_trial()
 	_hud.show_result("")
-	_mouse_hand.recentre(_home_in_device())
+	_mouse_hand.recenter(_home_in_device())
 	_animator.stop()
 	_start_layout()
 
@@ -140,7 +140,7 @@ func _start_person() -> void:
 	if forces_at_start:
 		spidar.arm()
 	_scripted_hand.process_mode = Node.PROCESS_MODE_DISABLED
-	_mouse_hand.start(spidar, $CameraRig/Camera, _home_in_device())
+	_mouse_hand.recenter(_home_in_device())
 	if settings.source == DemoSettings.REPLAY and may_replay:
 		_start_replay()
 	_animator.setup(_mouse_hand, _scripted_hand, player, settings.auto_animation)

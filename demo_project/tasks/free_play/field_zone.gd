@@ -1,6 +1,7 @@
 @tool
 extends Node3D
-## A block of air in which the device gives one kind of force by itself, renewed while the grip's middle is inside.
+## A block of air in which the device gives one kind of force by itself while the grip's middle is inside. All kinds but the
+## raw wrench are those of its SpidarGZone.
 
 const DemoPalette := preload("res://scene/demo_palette.gd")
 
@@ -8,8 +9,10 @@ const DemoPalette := preload("res://scene/demo_palette.gd")
 enum Kind { VIBRATION, SPRING, VISCOUS, DETENTS, FORCE, WRENCH }
 
 const SIZE_M := Vector3(0.044, 0.050, 0.040)
-## Effects last so long beyond the frame that asked for them.
-const RENEWED_FOR_S := 0.1
+## The blocks are small: their forces begin close below the surface. That of the wind, which is there in a still hand too, needs
+## a wider edge to leave a hand at the surface in peace.
+const EDGE_M := 0.004
+const WIND_EDGE_M := 0.012
 const VISCOUS_N_S_M := 2.0
 const VISCOUS_NM_S_RAD := 0.01
 const VIBRATION_N := 0.8
@@ -19,8 +22,6 @@ const DETENT_N := 1.2
 const SPRING_N_M := 120.0
 const FORCE_N := Vector3(1.0, 0.0, 0.0)
 const WRENCH_N := Vector3(0.0, 1.5, 0.0)
-const TRANSLATION_DOF := 0b111
-const X_DOF := 0b001
 const ALPHA := 0.16
 const ALPHA_INSIDE := 0.40
 
@@ -38,35 +39,44 @@ var _material: StandardMaterial3D
 
 func _ready() -> void:
 	_show()
+	_set_up_zone(get_node(^"Zone") as SpidarGZone)
 
 
 func holds(point: Vector3) -> bool:
 	return AABB(-0.5 * SIZE_M, SIZE_M).has_point(to_local(point))
 
 
-## Once a physics frame: asks for the force while the grip is inside. A wrench is the tool's own way to give weight, so it is
-## left out while something is held.
+## Once a physics frame: shows whether the grip is inside, and asks for the wrench, which is no effect. A wrench is the tool's own
+## way to give weight, so it is left out while something is held.
 func act(spidar: SpidarG, holding: bool) -> void:
 	var inside := holds(spidar.get_grip_transform().origin)
 	_material.albedo_color.a = ALPHA_INSIDE if inside else ALPHA
-	if not inside:
-		return
-	var centre := Transform3D(Basis.IDENTITY, global_position)
+	if inside and kind == Kind.WRENCH and not holding:
+		spidar.request_wrench(WRENCH_N, Vector3.ZERO, 0.0)
+
+
+func _set_up_zone(zone: SpidarGZone) -> void:
+	zone.enabled = kind != Kind.WRENCH
+	zone.edge_width = WIND_EDGE_M if kind == Kind.FORCE else EDGE_M
 	match kind:
 		Kind.VISCOUS:
-			spidar.set_viscous_effect(kind, VISCOUS_N_S_M, VISCOUS_NM_S_RAD, 0.0, 0x3f, RENEWED_FOR_S)
+			zone.kind = SpidarGZone.Kind.VISCOSITY
+			zone.viscosity = VISCOUS_N_S_M
+			zone.viscosity_angular = VISCOUS_NM_S_RAD
 		Kind.VIBRATION:
-			spidar.set_vibration_effect(
-				kind, Vector3.UP * VIBRATION_N, Vector3.ZERO, 0.0, VIBRATION_HZ, RENEWED_FOR_S
-			)
+			zone.kind = SpidarGZone.Kind.VIBRATION
+			zone.vibration_force = Vector3.UP * VIBRATION_N
+			zone.vibration_frequency = VIBRATION_HZ
 		Kind.DETENTS:
-			spidar.set_detent_effect(kind, centre, 0.0, DETENT_SPACING_M, DETENT_N, X_DOF, RENEWED_FOR_S)
+			zone.kind = SpidarGZone.Kind.DETENTS
+			zone.detent_spacing = DETENT_SPACING_M
+			zone.detent_force = DETENT_N
 		Kind.SPRING:
-			spidar.set_spring_effect(kind, centre, 0.0, SPRING_N_M, 0.0, 0.0, TRANSLATION_DOF, RENEWED_FOR_S)
+			zone.kind = SpidarGZone.Kind.MAGNET_POINT
+			zone.stiffness = SPRING_N_M
 		Kind.FORCE:
-			spidar.set_force_effect(kind, FORCE_N, Vector3.ZERO, 0.0, RENEWED_FOR_S)
-		Kind.WRENCH when not holding:
-			spidar.request_wrench(WRENCH_N, Vector3.ZERO, 0.0)
+			zone.kind = SpidarGZone.Kind.WIND
+			zone.wind_force = FORCE_N
 
 
 ## Does nothing while the scene is still being put together.

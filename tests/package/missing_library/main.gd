@@ -28,6 +28,10 @@ func _ready() -> void:
 	add_child(device)
 	device.add_child(SpidarGView.new())
 	device.add_child(SpidarGMonitors.new())
+	device.add_child(SpidarGMouseHand.new())
+	device.add_child(SpidarGGrip.new())
+	device.add_child(SpidarGTracker.new())
+	device.add_child(SpidarGZone.new())
 	var panel: SpidarGPanel = (load(PANEL_SCENE) as PackedScene).instantiate()
 	panel.device = device
 	add_child(panel)

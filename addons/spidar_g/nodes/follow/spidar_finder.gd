@@ -1,0 +1,44 @@
+extends RefCounted
+## What the nodes that follow a [SpidarG] share: which device they mean, and that they run after it.
+
+
+## Returns the [SpidarG] at `path` seen from `node`, or the nearest ancestor of `node` that is one where `path` is empty.
+## Returns null where there is none, and for the stand-in of a missing library.
+static func find(node: Node, path: NodePath) -> SpidarG:
+	if not ClassDB.class_exists(&"SpidarG"):
+		return null
+	if not path.is_empty():
+		return node.get_node_or_null(path) as SpidarG
+	var above: Node = node.get_parent()
+	while above != null and not above is SpidarG:
+		above = above.get_parent()
+	return above as SpidarG
+
+
+## Returns the [SpidarGHand] of `spidar`, its first child of that kind, or null.
+static func find_hand(spidar: SpidarG) -> SpidarGHand:
+	if spidar == null:
+		return null
+	for child: Node in spidar.get_children():
+		if child is SpidarGHand:
+			return child as SpidarGHand
+	return null
+
+
+## Returns why find() found nothing, for a warning; empty where it finds a device.
+static func problem(node: Node, path: NodePath, name: String) -> String:
+	if find(node, path) != null or not ClassDB.class_exists(&"SpidarG"):
+		return ""
+	if not path.is_empty():
+		return "%s rests: spidar_path \"%s\" leads to no SpidarG. Choose a SpidarG node, or clear the path to use an ancestor." % [name, path]
+	return "%s rests: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
+
+
+## Raises the process priorities of `node` by as little as it takes for `node` to run after `leader` in each frame and tick.
+## Nodes of one priority run in the order of the scene tree.
+static func run_after(node: Node, leader: Node) -> void:
+	if leader == null:
+		return
+	var least: int = 0 if node.is_greater_than(leader) else 1
+	node.process_physics_priority = maxi(node.process_physics_priority, leader.process_physics_priority + least)
+	node.process_priority = maxi(node.process_priority, leader.process_priority + least)

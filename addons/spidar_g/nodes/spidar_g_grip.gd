@@ -1,0 +1,212 @@
+@tool
+@icon("../icons/spidar_g_grip.svg")
+class_name SpidarGGrip
+extends Node3D
+## Follows the grip of a [SpidarG], so that the children of this node follow the hand.
+##
+## Make it a descendant of a [SpidarG], or set [member spidar_path], and put meshes, lights, sounds or areas below it.
+## [codeblock]
+## SpidarG
+## ├─ SpidarGHand
+## └─ SpidarGGrip
+##    └─ MeshInstance3D    (a tool in the hand)
+## [/codeblock]
+## In each physics tick the node takes the pose that the device has in that tick, also where the [SpidarG] moves through
+## the scene. Its [method Node._physics_process] runs after that of the [SpidarG]: the priorities of this node are raised
+## where the order of the tree does not ensure that. A script below this node in the tree, or of a higher priority,
+## reads the pose of the same tick.
+## [br][br]
+## Between ticks the node is drawn between the last two poses, if frames are drawn faster than the physics ticks: see
+## [member smoothing]. Where the engine's own physics interpolation is on for this node, the engine does that alone.
+## [br][br]
+## The children keep their size: [member SpidarG.workspace_scale] and the scale of the parents do not change it.
+
+## What to follow.
+enum Follow {
+	## The grip of the device: [method SpidarG.get_grip_transform].
+	GRIP,
+	## The tool as it is shown, which surfaces stop: [method SpidarGHand.get_proxy_transform] of the [SpidarGHand] that is a
+	## child of the [SpidarG].
+	PROXY,
+}
+## How to move between physics ticks.
+enum Smoothing {
+	## From the pose of the last tick but one to that of the last, at most one tick late, if frames are drawn faster than
+	## the physics ticks. Smooth with every drive mode of the device.
+	INTERPOLATE,
+	## To the newest pose that the device has, as [SpidarGView] draws it. Nothing is late, and a device with
+	## [constant SpidarG.DRIVE_STEPPED] moves in the steps of the physics ticks.
+	NEWEST,
+}
+
+const Finder := preload("follow/spidar_finder.gd")
+## Frames count as faster than ticks until none was drawn between two ticks for so many ticks.
+const TICKS_TO_FORGET: int = 30
+
+## Whether to follow the grip or the proxy. Without a [SpidarGHand] there is no proxy: the node then follows the grip, and
+## a configuration warning says so.
+@export var follow := Follow.GRIP:
+	set(value):
+		follow = value
+		_choose()
+## The [SpidarG] to follow. Empty: the nearest ancestor that is one.
+@export_node_path("SpidarG") var spidar_path: NodePath:
+	set(value):
+		spidar_path = value
+		_choose()
+## Place of this node in the frame of the grip: its origin is the middle of the grip, its x axis the jaws' (m, not scaled
+## by [member SpidarG.workspace_scale]). A scale in it scales the children. A transform that is flat or not finite is
+## refused with an error, and the old one stays.
+@export var offset := Transform3D.IDENTITY:
+	set(value):
+		if not value.is_finite() or is_zero_approx(value.basis.determinant()):
+			push_error("SpidarGGrip.offset = %s: give a finite transform (m) with no scale of zero; the old one stays." % value)
+			return
+		offset = value
+## How to move in frames that are drawn between physics ticks. Has no effect while the engine's physics interpolation is
+## on for this node.
+@export var smoothing := Smoothing.INTERPOLATE
+
+## The device that is followed, or null: then the node stays where it is, and a configuration warning says why.
+var spidar: SpidarG = null
+
+var _hand: SpidarGHand = null
+## The poses of the last tick and of the one before, and where the device stood then.
+var _pose := Transform3D.IDENTITY
+var _frame := Transform3D.IDENTITY
+var _pose_before := Transform3D.IDENTITY
+var _frame_before := Transform3D.IDENTITY
+var _is_placed: bool = false
+var _frames_since_tick: int = 0
+var _ticks_to_smooth: int = 0
+
+
+## Returns the place of this node at the last physics tick, in the world. Between ticks [member Node3D.global_transform]
+## is what is drawn. Returns the current place while no device is followed.
+func get_tick_transform() -> Transform3D:
+	return _carried(_pose, _frame) * offset if _is_placed and spidar != null else global_transform
+
+
+func _enter_tree() -> void:
+	_is_placed = false
+	if is_node_ready():
+		_choose()
+
+
+func _ready() -> void:
+	_choose()
+	if spidar == null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG"):
+		push_warning(Finder.problem(self, spidar_path, "SpidarGGrip"))
+
+
+func _exit_tree() -> void:
+	spidar = null
+	_hand = null
+
+
+func _get_configuration_warnings() -> PackedStringArray:
+	var warnings: PackedStringArray = []
+	var problem: String = Finder.problem(self, spidar_path, "SpidarGGrip")
+	if not problem.is_empty():
+		warnings.append(problem)
+	elif follow == Follow.PROXY and Finder.find_hand(Finder.find(self, spidar_path)) == null:
+		warnings.append("SpidarGGrip follows the grip: its SpidarG has no SpidarGHand, which makes the proxy. "
+			+ "Add a SpidarGHand as a child of the SpidarG, or set follow to Grip.")
+	return warnings
+
+
+func _physics_process(_delta: float) -> void:
+	if not is_instance_valid(spidar) or not spidar.is_inside_tree():
+		_choose()
+		return
+	_ticks_to_smooth = TICKS_TO_FORGET if _frames_since_tick > 1 else maxi(0, _ticks_to_smooth - 1)
+	_frames_since_tick = 0
+	_pose_before = _pose
+	_frame_before = _frame
+	_read()
+	if not _is_placed:
+		_is_placed = true
+		_pose_before = _pose
+		_frame_before = _frame
+	_place(_pose)
+	# Once more when all nodes have moved: the device may ride on one that moves after this node.
+	_read_again.call_deferred()
+
+
+func _process(_delta: float) -> void:
+	_frames_since_tick += 1
+	if not _is_placed or not is_instance_valid(spidar) or not spidar.is_inside_tree():
+		return
+	if is_physics_interpolated_and_enabled():
+		return
+	if smoothing == Smoothing.NEWEST:
+		_place(_read_pose())
+		return
+	var now: Transform3D = _carried(_pose, _frame)
+	if _ticks_to_smooth > 0 or _frames_since_tick > 1:
+		now = _carried(_pose_before, _frame_before).interpolate_with(now, Engine.get_physics_interpolation_fraction())
+	_place(now)
+
+
+## Finds device and hand, and runs after both. The engine turns processing on just before _ready().
+func _choose() -> void:
+	if not is_inside_tree():
+		return
+	update_configuration_warnings()
+	if Engine.is_editor_hint():
+		set_process(false)
+		set_physics_process(false)
+		return
+	spidar = Finder.find(self, spidar_path)
+	_hand = Finder.find_hand(spidar) if follow == Follow.PROXY else null
+	_is_placed = false
+	set_process(spidar != null)
+	set_physics_process(spidar != null)
+	if spidar == null:
+		return
+	Finder.run_after(self, spidar)
+	Finder.run_after(self, _hand)
+	# A child of the device comes along at once when the device is moved; elsewhere a parent must not move it.
+	top_level = get_parent() != spidar
+
+
+func _read() -> void:
+	_pose = _read_pose()
+	_frame = _device_frame()
+
+
+func _read_again() -> void:
+	if not _is_placed or not is_instance_valid(spidar) or not spidar.is_inside_tree():
+		return
+	_read()
+	_place(_pose)
+
+
+func _read_pose() -> Transform3D:
+	if follow == Follow.PROXY:
+		if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
+			_hand = Finder.find_hand(spidar)
+			Finder.run_after(self, _hand)
+		if _hand != null:
+			return _hand.get_proxy_transform()
+	return spidar.get_grip_transform()
+
+
+## Where the device stands, without scale. A flat device stays where it was, as the SpidarG itself does.
+func _device_frame() -> Transform3D:
+	var place: Transform3D = spidar.global_transform
+	if not place.is_finite() or is_zero_approx(place.basis.determinant()):
+		return _frame
+	return place.orthonormalized()
+
+
+## A pose that was read while the device stood at `frame`, where the device has taken it since.
+func _carried(pose: Transform3D, frame: Transform3D) -> Transform3D:
+	var now: Transform3D = _device_frame()
+	return pose if now == frame else now * frame.inverse() * pose
+
+
+func _place(pose: Transform3D) -> void:
+	var place: Transform3D = pose * offset
+	if place != global_transform:
+		global_transform = place
