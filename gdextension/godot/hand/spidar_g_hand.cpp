@@ -48,6 +48,8 @@ void SpidarGHand::_enter_tree() {
     place_.entered(*this);
     if (!godot::Engine::get_singleton()->is_editor_hint()) {
         surroundings_.open();
+        scene_joints_.read(*get_tree()->get_root());
+        get_tree()->connect("node_added", callable_mp(this, &SpidarGHand::note_node));
     }
 }
 
@@ -61,6 +63,8 @@ void SpidarGHand::_exit_tree() {
         release();
         withdraw();
         surroundings_.clear();
+        get_tree()->disconnect("node_added", callable_mp(this, &SpidarGHand::note_node));
+        scene_joints_.clear();
     }
     spidar_ = nullptr;
     stepped_.reset();
@@ -155,6 +159,7 @@ void SpidarGHand::release() {
     }
     hold_.detach(spidar_ != nullptr ? spidar_->get_workspace_scale() : 1.0);
     held_shapes_.drop();
+    held_joints_.drop();
     judge_.reset();
     pinch_ = {};
     emit_signal("body_released", body);

@@ -18,11 +18,13 @@
 #include "godot/hand/body_pushes.h"
 #include "godot/hand/device_clock.h"
 #include "godot/hand/grasp/grasp_judge.h"
+#include "godot/hand/grasp/held_joints.h"
 #include "godot/hand/grasp/held_load.h"
 #include "godot/hand/grasp/held_shapes.h"
 #include "godot/hand/grasp/hold_joint.h"
 #include "godot/hand/grasp/hold_watch.h"
 #include "godot/hand/grasp/pinch.h"
+#include "godot/hand/grasp/scene_joints.h"
 #include "godot/hand/grasp/touched_bodies.h"
 #include "godot/hand/hand_drawing.h"
 #include "godot/hand/hand_place.h"
@@ -133,6 +135,7 @@ private:
     void carry(double delta_s);
     void push_bodies(double since_s);
     void remember_place();
+    void note_node(godot::Node *node);
 
     // What is published (spidar_g_hand_scene.cpp).
     void gather();
@@ -178,6 +181,8 @@ private:
     spidar::HoldJoint hold_;
     spidar::HoldWatch watch_;
     spidar::HeldShapes held_shapes_;
+    spidar::SceneJoints scene_joints_;
+    spidar::HeldJoints held_joints_;
     spidar::HeldLoad load_;
     spidar::HeldLoad::Body held_;
     double held_stop_rad_ = 0.0;

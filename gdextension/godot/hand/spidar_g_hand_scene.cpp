@@ -196,8 +196,15 @@ void SpidarGHand::publish() {
         }
         pull_ = load_of_held();
     }
-    spidar_->publish_touch(spidar::make_touch_scene(pads_, jaw, surroundings_.shapes(), &held,
-                                                    feel(), spidar_->servo_settings(), pull_.all));
+    auto touch = spidar::make_touch_scene(pads_, jaw, surroundings_.shapes(), &held, feel(),
+                                          spidar_->servo_settings(), pull_.all);
+    if (!hold_.is_detained()) {
+        for (const spidar::ToolJoint &joint :
+             held_joints_.now(*hold_.body(), hold_.in_grip(), now_, spidar::physics_tick_s())) {
+            touch->tool.joints[static_cast<std::size_t>(touch->tool.joint_count++)] = joint;
+        }
+    }
+    spidar_->publish_touch(std::move(touch));
 }
 
 // Takes everything back from the device.

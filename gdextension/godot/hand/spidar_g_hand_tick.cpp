@@ -9,6 +9,8 @@
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 
+#include <godot_cpp/variant/utility_functions.hpp>
+
 #include "godot/base/physics_tick.h"
 #include "godot/base/type_conversions.h"
 
@@ -32,7 +34,12 @@ constexpr double kSqueezeTime_s = 0.024;
 
 } // namespace
 
+void SpidarGHand::note_node(godot::Node *node) {
+    scene_joints_.note(*node);
+}
+
 void SpidarGHand::_physics_process(double delta) {
+    scene_joints_.update();
     acts_ = place_.may_act(*this) && is_open();
     if (!acts_) {
         release();
@@ -159,6 +166,12 @@ void SpidarGHand::attach(RigidBody3D &body) {
         stepped().pose_to_world(proxy.position_m - off_m * proxy.rotation[0], proxy.rotation);
     hold_.attach(*this, body, grip, off_m * spidar_->get_workspace_scale());
     held_shapes_.take(body, spidar_->get_workspace_scale());
+    if (const int more = held_joints_.take(scene_joints_, body); more > 0) {
+        godot::UtilityFunctions::push_warning(
+            "SpidarGHand: ", body.get_name(), " is tied by ", spidar::kMaxToolJoints + more,
+            " joints, of which ", spidar::kMaxToolJoints,
+            " are felt: tie it by fewer, for instance by one Generic6DOFJoint3D.");
+    }
     held_stop_rad_ = proxy.grasp_rad;
     held_squeeze_nm_rad_ = pinch_.facts.squeeze_nm_rad;
     watch_.reset();

@@ -76,7 +76,7 @@ TEST_CASE("joints: a door turns about its hinge and nothing else, wherever the h
     Door door;
     door.swing(0.0, 1.2, 600);
     CHECK(door.angle() == doctest::Approx(1.2).epsilon(1e-6));
-    CHECK(glm::length(door.proxy.wrench().force_n) < 1e-6);
+    CHECK(glm::length(door.proxy.wrench().force_n) < 1e-3);
     check_on_its_hinge(door);
     // Pulled out of its hinge by 3 mm and up by 2 mm, it stays, and pulls back.
     const ToolPose there = door.device;

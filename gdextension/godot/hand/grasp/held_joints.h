@@ -1,0 +1,33 @@
+// The joints that tie a held body, as the servo loop takes them: its hinges, slides and sockets, their limits, springs,
+// dampers and motors. Which way the engine counts is told in docs/haptic_rendering.md, "Held things on joints". Main thread only.
+#pragma once
+
+#include <vector>
+
+#include "device/contact/proxy/tool_joint.h"
+#include "godot/base/world_frame.h"
+#include "godot/hand/grasp/scene_joints.h"
+
+namespace godot {
+class RigidBody3D;
+}
+
+namespace spidar {
+
+class HeldJoints {
+public:
+    // A body has just been caught. Returns how many of its joints are more than the servo loop takes.
+    int take(SceneJoints &joints, const godot::RigidBody3D &body);
+    void drop() { held_.clear(); }
+    [[nodiscard]] bool are_there() const noexcept { return !held_.empty(); }
+
+    // As they are now. in_grip: of the held body, scene metres; frame: of the device's node; tick_s: of a physics tick.
+    [[nodiscard]] std::vector<ToolJoint> now(const godot::RigidBody3D &body,
+                                             const godot::Transform3D &in_grip,
+                                             const WorldFrame &frame, double tick_s);
+
+private:
+    std::vector<SceneJoints::Found> held_;
+};
+
+} // namespace spidar
