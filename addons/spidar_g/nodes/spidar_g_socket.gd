@@ -45,6 +45,7 @@ const SocketGraph := preload("socket/socket_graph.gd")
 const SocketHand := preload("socket/socket_hand.gd")
 const SocketHands := preload("socket/socket_hands.gd")
 const SocketLink := preload("socket/socket_link.gd")
+const SocketPull := preload("socket/socket_pull.gd")
 
 # Arms of the cross that marks the socket in the editor, scene meters.
 const MARK_M: float = 0.01
@@ -198,7 +199,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 			"latch_distance = %s m is larger than capture_distance = %s m, from where it acts: make it smaller."
 			% [latch_distance, capture_distance]
 		)
-	var reached_n: float = SocketHand.FULL_FROM * capture_distance * SocketHand.ATTRACTION_STIFFNESS_N_M
+	var reached_n: float = SocketPull.FULL_FROM * capture_distance * SocketPull.LOAD_STIFFNESS_N_M
 	if attraction_force > reached_n + 1e-6:
 		warnings.append(
 			"attraction_force = %s N is not reached: within capture_distance = %s m it grows to %.2f N. "

@@ -46,6 +46,8 @@ func hover(height: float) -> void:
 
 func hover_over(mate: SpidarGSocket, height: float) -> void:
 	for _i: int in 3:
+		if not is_instance_valid(plug) or not is_instance_valid(mate):
+			return
 		var off: Vector3 = mate.global_position + Vector3(0.0, height, 0.0) - hand.get_wanted_pose() * plug.position
 		await move_to(at + off, SQUEEZE_ANGLE, 30)
 		await physics_frames(20)

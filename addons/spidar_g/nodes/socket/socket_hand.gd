@@ -8,14 +8,8 @@ const SocketHand := preload("socket_hand.gd")
 const SocketHands := preload("socket_hands.gd")
 const SocketLink := preload("socket_link.gd")
 const SocketPull := preload("socket_pull.gd")
+const SocketSpring := preload("socket_spring.gd")
 
-## The stable limit of a load that is renewed at game rate: attraction rises no steeper. In its seat the body hangs on a
-## spring of the device's own loop, which does not lag.
-const ATTRACTION_STIFFNESS_N_M: float = 150.0
-## Attraction begins at the capture distance and is full at this share of it.
-const FULL_FROM: float = 0.75
-## The spring is renewed each frame; a game that hangs lets go.
-const SPRING_S: float = 0.1
 ## From where it was caught into the seat.
 const SEATING_S: float = 0.08
 
@@ -71,10 +65,18 @@ func note_parted(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_parted[socket.get_instance_id()] = mate.get_instance_id()
 
 
-## A force on the held body from the sockets of another hand: N at a place in the world, and N m.
+## The attraction of another hand's body: a force on the held one (N, at a place in the world) and a moment (N m).
 func react(force_n: Vector3, at: Vector3, moment_nm: Vector3) -> void:
 	_reaction_n += force_n
 	_reaction_nm += (at - _grip).cross(force_n) / _scale + moment_nm
+
+
+## The seats of another hand's body on the held one, whose spring has this id.
+func react_seats(seats: Array[SocketPull], id: int) -> void:
+	var spring: SocketSpring = SocketSpring.about(_grip, _scale, seats, true)
+	if not spring.act(_spidar, id):
+		_reaction_n += spring.late_share() * spring.force_n
+		_reaction_nm += spring.late_share() * spring.moment_nm
 
 
 func _on_grasped(body: RigidBody3D) -> void:
@@ -181,7 +183,7 @@ func _mine(link: SocketLink) -> SpidarGSocket:
 	return link.one if link.one.get_body() == held else link.other
 
 
-## A socket in its seat, which the grip would have at `at`: torn off, or turned and, with the others, held by the spring.
+## Tears off a socket in its seat, which the grip would have at `at`, if the pull is strong enough.
 func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 	var mate: SpidarGSocket = link.mate_of(socket)
 	var way: Vector3 = (mate.global_position - at.origin) / _scale
@@ -191,14 +193,6 @@ func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 		note_parted(socket, mate)
 		link.cut()
 		_news.append(_tell_unlinked.bind(socket.get_instance_id(), mate.get_instance_id(), pull_n))
-		return
-	var share: float = 1.0 / _seats.size()
-	var pull: SocketPull = SocketPull.make(socket, at, mate)
-	pull.force_n = share * socket.stiffness * way
-	pull.share = share
-	# The spring itself has no arm: only its moment is added.
-	_hand.add_load(Vector3.ZERO, _moment(pull))
-	_push_back(pull)
 
 
 ## Finds a mate for a free socket, which the grip would have at `at`, and links it or lets it be drawn.
@@ -213,8 +207,8 @@ func _approach(socket: SpidarGSocket, at: Transform3D, pulls: Array[SocketPull])
 		_latch(socket, mate)
 		return
 	var pull: SocketPull = SocketPull.make(socket, at, mate)
-	pull.share = smoothstep(socket.capture_distance, FULL_FROM * socket.capture_distance, far_m)
-	var force_n: float = pull.share * minf(socket.attraction_force, ATTRACTION_STIFFNESS_N_M * far_m)
+	pull.share = smoothstep(socket.capture_distance, SocketPull.FULL_FROM * socket.capture_distance, far_m)
+	var force_n: float = pull.share * minf(socket.attraction_force, SocketPull.LOAD_STIFFNESS_N_M * far_m)
 	pull.force_n = force_n * at.origin.direction_to(mate.global_position)
 	pulls.append(pull)
 
@@ -314,21 +308,23 @@ func _sit(wanted: Transform3D, delta: float) -> void:
 	_hand.detain(_caught.interpolate_with(_seat(wanted), smoothstep(0.0, SEATING_S, _seated_s)))
 
 
-## The spring to where the grip would be with the sockets in their seats, in the servo loop: renewed at game rate it came
-## two frames late, 0.1 N too weak on the way out and too strong on the way back.
+## The spring of the seats, on this grip and on that of the hand that carries them.
 func _hang_on_seats(wanted: Transform3D) -> void:
-	var stiffness_n_m: float = 0.0
-	var pull_n: Vector3 = Vector3.ZERO
+	var pulls: Array[SocketPull] = []
 	for link: SocketLink in _seats:
 		var socket: SpidarGSocket = _mine(link)
-		stiffness_n_m += socket.stiffness / _seats.size()
-		pull_n += socket.stiffness / _seats.size() * (_mate(link).global_position - wanted * socket.position) / _scale
-	var center: Transform3D = _spidar.get_grip_transform()
-	center.origin += pull_n / stiffness_n_m * _scale
-	_spring_acts = true
-	if not _spidar.set_spring_effect(_spring_id(), center, 0.0, stiffness_n_m, 0.0, 0.0, SpidarG.DOF_LINEAR, SPRING_S):
-		# All six effects of the device are in use: felt all the same, late.
-		_hand.add_load(pull_n * minf(1.0, ATTRACTION_STIFFNESS_N_M / stiffness_n_m))
+		var pull: SocketPull = SocketPull.make(socket, wanted * socket.transform, _mate(link))
+		pull.share = 1.0 / _seats.size()
+		pull.stiffness_n_m = pull.share * socket.stiffness
+		pull.force_n = pull.stiffness_n_m * (pull.mate.global_position - pull.at.origin) / _scale
+		pulls.append(pull)
+	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, false)
+	_spring_acts = spring.act(_spidar, _spring_id())
+	if not _spring_acts:
+		_hand.add_load(spring.late_share() * spring.force_n, spring.late_share() * spring.moment_nm)
+	var carrier: Node = SocketGraph.carrier_of(pulls[0].mate.get_body(), held, since_us)
+	if carrier is SocketHand:
+		(carrier as SocketHand).react_seats(pulls, _spring_id())
 
 
 func _end_spring() -> void:

@@ -79,7 +79,8 @@ func _has_exception() -> bool:
 
 ## The linked bodies do not push each other. Again after a joint: with it goes the engine's own exception.
 func _except() -> void:
-	one.get_body().add_collision_exception_with(other.get_body())
+	if not _has_exception():
+		one.get_body().add_collision_exception_with(other.get_body())
 
 
 func _end_exception() -> void:
@@ -90,6 +91,7 @@ func _end_exception() -> void:
 	var heir: SocketLink = _link_between(body, mate)
 	if heir != null:
 		heir._keeps_apart = true
+		heir._except()
 		return
 	body.remove_collision_exception_with(mate)
 

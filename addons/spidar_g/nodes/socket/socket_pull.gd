@@ -4,6 +4,10 @@ extends RefCounted
 
 const SocketPull := preload("socket_pull.gd")
 
+## The stable limit of a load that is renewed at game rate: attraction rises no steeper.
+const LOAD_STIFFNESS_N_M: float = 150.0
+## Attraction begins at the capture distance and is full at this share of it.
+const FULL_FROM: float = 0.75
 ## Of the turn into the seat, for sockets that do not turn freely.
 const TURN_STIFFNESS_NM_RAD: float = 0.10
 const TURN_LIMIT_NM: float = 0.04
@@ -14,8 +18,10 @@ var at: Transform3D
 var mate: SpidarGSocket
 ## On the held body, world axes.
 var force_n: Vector3
-## How far the magnet acts, 0 to 1.
+## How far the magnet acts, or which part of the seats' spring this one is: 0 to 1.
 var share: float
+## Of the spring, if it is in its seat.
+var stiffness_n_m: float
 
 
 static func make(of: SpidarGSocket, where: Transform3D, to: SpidarGSocket) -> SocketPull:
@@ -37,6 +43,10 @@ func turn_nm() -> Vector3:
 		return Vector3.ZERO
 	var turn: Vector3 = shortest.get_axis() * shortest.get_angle()
 	return share * (TURN_STIFFNESS_NM_RAD * turn).limit_length(TURN_LIMIT_NM)
+
+
+func turn_stiffness_nm_rad() -> float:
+	return 0.0 if socket.turns_freely else share * TURN_STIFFNESS_NM_RAD
 
 
 ## Angle between the axes of a socket at `where` and its mate, rad; 0 for a socket that turns freely.
