@@ -41,11 +41,11 @@ signal linked(mate: SpidarGSocket)
 ## pulled it off; 0 after [method unlink], or when one of the sockets was disabled or left the scene tree.
 signal unlinked(mate: SpidarGSocket, pull_n: float)
 
-const SocketGraph := preload("socket/socket_graph.gd")
-const SocketHand := preload("socket/socket_hand.gd")
-const SocketHands := preload("socket/socket_hands.gd")
-const SocketLink := preload("socket/socket_link.gd")
-const SocketPull := preload("socket/socket_pull.gd")
+const SocketGraph := preload("socket_graph.gd")
+const SocketHand := preload("socket_hand.gd")
+const SocketHands := preload("socket_hands.gd")
+const SocketLink := preload("socket_link.gd")
+const SocketPull := preload("socket_pull.gd")
 
 # Arms of the cross that marks the socket in the editor, scene meters.
 const MARK_M: float = 0.01
@@ -110,7 +110,7 @@ const MARK_M: float = 0.01
 	set(value):
 		release_force = _checked(&"release_force", value, release_force, 0.1, 50.0, "N")
 
-# For the scripts in socket/.
+# For the other scripts of sockets.
 var _links: Array[SocketLink] = []
 
 
