@@ -30,12 +30,15 @@ var _seated_s: float = 0.0
 var _parted: Dictionary[int, int] = {}
 ## What linked and came off in this tick, told when all is done: a listener may free what it likes.
 var _news: Array[Callable] = []
-## What other hands' sockets pull at this one's body with, about the grip, until it is next carried.
-var _reaction_n: Vector3 = Vector3.ZERO
-var _reaction_nm: Vector3 = Vector3.ZERO
-var _spring_acts: bool = false
+## Loads on the held body about the grip, N and N m, until it is next carried: also those of other hands' sockets.
+var _load_n: Vector3 = Vector3.ZERO
+var _load_nm: Vector3 = Vector3.ZERO
+## The devices that this body's spring acts on, by instance: its own, and those of the hands that carry its mates.
+var _sprung: Array[int] = []
 var _scale: float = 1.0
 var _grip: Vector3 = Vector3.ZERO
+## What the device renders at most.
+var _stiffest_n_m: float = 0.0
 
 
 func _enter_tree() -> void:
@@ -65,18 +68,17 @@ func note_parted(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_parted[socket.get_instance_id()] = mate.get_instance_id()
 
 
-## The attraction of another hand's body: a force on the held one (N, at a place in the world) and a moment (N m).
-func react(force_n: Vector3, at: Vector3, moment_nm: Vector3) -> void:
-	_reaction_n += force_n
-	_reaction_nm += (at - _grip).cross(force_n) / _scale + moment_nm
-
-
-## The seats of another hand's body on the held one, whose spring has this id.
-func react_seats(seats: Array[SocketPull], id: int) -> void:
-	var spring: SocketSpring = SocketSpring.about(_grip, _scale, seats, true)
+## What these sockets do to this hand; `on_mates`: they are another hand's, and their mates are on this one's body.
+func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
+	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, on_mates)
+	_load_n += spring.load_n
 	if not spring.act(_spidar, id):
-		_reaction_n += spring.late_share() * spring.force_n
-		_reaction_nm += spring.late_share() * spring.moment_nm
+		_load_n += spring.late_force_n()
+		_load_nm += spring.late_moment_nm()
+
+
+func device() -> SpidarG:
+	return _spidar
 
 
 func _on_grasped(body: RigidBody3D) -> void:
@@ -85,7 +87,7 @@ func _on_grasped(body: RigidBody3D) -> void:
 	held = body
 	since_us = Time.get_ticks_usec()
 	_spidar = _hand.get_parent() as SpidarG
-	_scale = _spidar.workspace_scale
+	_look()
 	_parted.clear()
 	_sat_on.clear()
 	_sort_links()
@@ -104,9 +106,9 @@ func _let_go() -> void:
 	var body: RigidBody3D = held
 	held = null
 	_hand.carrying.disconnect(_on_carrying)
-	_end_spring()
-	_reaction_n = Vector3.ZERO
-	_reaction_nm = Vector3.ZERO
+	_end_springs([])
+	_load_n = Vector3.ZERO
+	_load_nm = Vector3.ZERO
 	var seats: Array[SocketLink] = _seats_of(body)
 	_seats.clear()
 	if seats.is_empty():
@@ -124,8 +126,7 @@ func _let_go() -> void:
 func _on_carrying(delta: float) -> void:
 	if held == null or held != _hand.get_held_body():
 		return
-	_scale = _spidar.workspace_scale
-	_grip = _spidar.get_grip_transform().origin
+	_look()
 	var wanted: Transform3D = _hand.get_wanted_pose()
 	_sort_links()
 	var pulls: Array[SocketPull] = []
@@ -135,13 +136,21 @@ func _on_carrying(delta: float) -> void:
 			_strain(link, socket, wanted * socket.transform)
 		elif socket._is_free():
 			_approach(socket, wanted * socket.transform, pulls)
-	_attract(pulls)
-	_feel_hanging()
-	_hand.add_load(_reaction_n, _reaction_nm)
-	_reaction_n = Vector3.ZERO
-	_reaction_nm = Vector3.ZERO
+	_share(pulls)
+	_add_seats(pulls, wanted)
+	_render(pulls)
+	_add_weights()
+	_hand.add_load(_load_n, _load_nm)
+	_load_n = Vector3.ZERO
+	_load_nm = Vector3.ZERO
 	_sit(wanted, delta)
 	_tell()
+
+
+func _look() -> void:
+	_scale = _spidar.workspace_scale
+	_grip = _spidar.get_grip_transform().origin
+	_stiffest_n_m = _spidar.get_stiffness_limits().x
 
 
 ## What sits on something that is carried can be pulled off: the spring holds it. Everything else hangs rigidly.
@@ -187,7 +196,7 @@ func _mine(link: SocketLink) -> SpidarGSocket:
 func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 	var mate: SpidarGSocket = link.mate_of(socket)
 	var way: Vector3 = (mate.global_position - at.origin) / _scale
-	var pull_n: float = socket.stiffness * way.length()
+	var pull_n: float = minf(socket.stiffness, _stiffest_n_m) * way.length()
 	if pull_n > socket.release_force:
 		_seats.erase(link)
 		note_parted(socket, mate)
@@ -210,6 +219,8 @@ func _approach(socket: SpidarGSocket, at: Transform3D, pulls: Array[SocketPull])
 	pull.share = smoothstep(socket.capture_distance, SocketPull.FULL_FROM * socket.capture_distance, far_m)
 	var force_n: float = pull.share * minf(socket.attraction_force, SocketPull.LOAD_STIFFNESS_N_M * far_m)
 	pull.force_n = force_n * at.origin.direction_to(mate.global_position)
+	# Across the way, a central force is as stiff as this.
+	pull.stiffness_n_m = force_n / maxf(far_m, 1e-6)
 	pulls.append(pull)
 
 
@@ -254,35 +265,49 @@ func _may_draw(socket: SpidarGSocket, mate: SpidarGSocket) -> bool:
 
 
 ## Several sockets of one body share: together they pull no harder and no steeper than one.
-func _attract(pulls: Array[SocketPull]) -> void:
+func _share(pulls: Array[SocketPull]) -> void:
 	var shares: float = 0.0
 	for pull: SocketPull in pulls:
 		shares += pull.share
 	for pull: SocketPull in pulls:
-		if shares > 1.0:
-			pull.force_n /= shares
-			pull.share /= shares
-		_hand.add_load(pull.force_n, _moment(pull))
-		_push_back(pull)
+		pull.weaken(maxf(shares, 1.0))
 
 
-## About the grip: the force's, and the turn into the seat.
-func _moment(pull: SocketPull) -> Vector3:
-	return (pull.at.origin - _grip).cross(pull.force_n) / _scale + pull.turn_nm()
+func _add_seats(pulls: Array[SocketPull], wanted: Transform3D) -> void:
+	for link: SocketLink in _seats:
+		var socket: SpidarGSocket = _mine(link)
+		var pull: SocketPull = SocketPull.make(socket, wanted * socket.transform, _mate(link))
+		pull.is_seat = true
+		pull.share = 1.0
+		pull.stiffness_n_m = minf(socket.stiffness, _stiffest_n_m)
+		pull.force_n = pull.stiffness_n_m * (pull.mate.global_position - pull.at.origin) / _scale
+		pull.weaken(_seats.size())
+		pulls.append(pull)
 
 
-## The same on the mate, where something can feel it: another hand, or a loose body.
-func _push_back(pull: SocketPull) -> void:
-	var body: PhysicsBody3D = pull.mate.get_body()
-	var place: Vector3 = pull.mate.global_position
-	var carrier: Node = SocketGraph.carrier_of(body, held, since_us)
-	if carrier is SocketHand:
-		(carrier as SocketHand).react(-pull.force_n, place, -pull.turn_nm())
-	elif carrier == null and not SocketGraph.joined_to(held, null).has(body):
-		(body as RigidBody3D).apply_force(-pull.force_n, place - body.global_position)
+## What the pulls do to this hand, and to what feels the same on the mates: other hands, and loose bodies.
+func _render(pulls: Array[SocketPull]) -> void:
+	var devices: Array[int] = []
+	if not pulls.is_empty():
+		feel(pulls, _spring_id(), false)
+		devices.append(_spidar.get_instance_id())
+	var on_hands: Dictionary[int, Array] = {}
+	for pull: SocketPull in pulls:
+		var body: PhysicsBody3D = pull.mate.get_body()
+		var carrier: Node = SocketGraph.carrier_of(body, held, since_us)
+		if carrier is SocketHand:
+			(on_hands.get_or_add(carrier.get_instance_id(), [] as Array[SocketPull]) as Array).append(pull)
+		elif carrier == null and not SocketGraph.joined_to(held, null).has(body):
+			(body as RigidBody3D).apply_force(-pull.force_n, pull.mate.global_position - body.global_position)
+	for id: int in on_hands:
+		var hand: SocketHand = instance_from_id(id) as SocketHand
+		hand.feel(on_hands[id], _spring_id(), true)
+		devices.append(hand.device().get_instance_id())
+	_end_springs(devices)
 
 
-func _feel_hanging() -> void:
+## The weight of what hangs on the held body.
+func _add_weights() -> void:
 	if not _hand.render_weight:
 		return
 	for body: RigidBody3D in SocketGraph.hanging_on(self):
@@ -291,7 +316,8 @@ func _feel_hanging() -> void:
 			continue
 		var weight_n: Vector3 = _hand.weight_scale * body.mass * state.total_gravity
 		var middle: Vector3 = body.global_transform * state.center_of_mass_local
-		_hand.add_load(weight_n, (middle - _grip).cross(weight_n) / _scale)
+		_load_n += weight_n
+		_load_nm += (middle - _grip).cross(weight_n) / _scale
 
 
 ## The held body stays in its seat, and the grip moves on alone.
@@ -301,36 +327,18 @@ func _sit(wanted: Transform3D, delta: float) -> void:
 		_caught = held.global_transform
 		_seated_s = 0.0
 	if _seats.is_empty():
-		_end_spring()
 		return
-	_hang_on_seats(wanted)
 	_seated_s += delta
 	_hand.detain(_caught.interpolate_with(_seat(wanted), smoothstep(0.0, SEATING_S, _seated_s)))
 
 
-## The spring of the seats, on this grip and on that of the hand that carries them.
-func _hang_on_seats(wanted: Transform3D) -> void:
-	var pulls: Array[SocketPull] = []
-	for link: SocketLink in _seats:
-		var socket: SpidarGSocket = _mine(link)
-		var pull: SocketPull = SocketPull.make(socket, wanted * socket.transform, _mate(link))
-		pull.share = 1.0 / _seats.size()
-		pull.stiffness_n_m = pull.share * socket.stiffness
-		pull.force_n = pull.stiffness_n_m * (pull.mate.global_position - pull.at.origin) / _scale
-		pulls.append(pull)
-	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, false)
-	_spring_acts = spring.act(_spidar, _spring_id())
-	if not _spring_acts:
-		_hand.add_load(spring.late_share() * spring.force_n, spring.late_share() * spring.moment_nm)
-	var carrier: Node = SocketGraph.carrier_of(pulls[0].mate.get_body(), held, since_us)
-	if carrier is SocketHand:
-		(carrier as SocketHand).react_seats(pulls, _spring_id())
-
-
-func _end_spring() -> void:
-	if _spring_acts and is_instance_valid(_spidar):
-		_spidar.clear_effect(_spring_id())
-	_spring_acts = false
+## Ends this body's spring on all devices but these.
+func _end_springs(but: Array[int]) -> void:
+	for id: int in _sprung:
+		var spidar: SpidarG = instance_from_id(id) as SpidarG
+		if spidar != null and not but.has(id):
+			spidar.clear_effect(_spring_id())
+	_sprung = but
 
 
 ## No game's id is likely to be negative, and no other hand's is the same.

@@ -20,8 +20,10 @@ var mate: SpidarGSocket
 var force_n: Vector3
 ## How far the magnet acts, or which part of the seats' spring this one is: 0 to 1.
 var share: float
-## Of the spring, if it is in its seat.
+## By how much the force changes when the grip moves across.
 var stiffness_n_m: float
+## Whether it is in its seat.
+var is_seat: bool = false
 
 
 static func make(of: SpidarGSocket, where: Transform3D, to: SpidarGSocket) -> SocketPull:
@@ -30,6 +32,12 @@ static func make(of: SpidarGSocket, where: Transform3D, to: SpidarGSocket) -> So
 	pull.at = where
 	pull.mate = to
 	return pull
+
+
+func weaken(by: float) -> void:
+	force_n /= by
+	share /= by
+	stiffness_n_m /= by
 
 
 ## What turns the held body into the seat (N m, world axes); none for a socket that turns freely.

@@ -33,21 +33,21 @@ extends Marker3D
 ## [member SpidarG.workspace_scale] times as large. Forces are not scaled.[br]
 ## [b]Limits.[/b] A held body in its seat uses one of the six effects of its [SpidarG], with a negative id. A socket that
 ## leaves the scene tree is unlinked. A socket that is added to a body while a hand holds it acts from the next grasp on.
-## Nothing is computed while no hand holds a body with sockets.
+## Nothing is computed while no hand holds a body with sockets, except that each node that enters the tree is looked at
+## once, to find the hands.
 
-## This socket was linked to [param mate]. Emitted by both sockets. The click in the hand, or [method link_to].
+## Emitted by both sockets when they are linked: when the held body clicks into its seat, and after [method link_to].
 signal linked(mate: SpidarGSocket)
-## The link to [param mate] has ended. Emitted by both sockets. [param pull_n] is the force, in newtons, at which the hand
-## pulled it off; 0 after [method unlink], or when one of the sockets was disabled or left the scene tree.
+## Emitted by both sockets when their link has ended. [param pull_n] is the force, in newtons, at which the hand pulled the body
+## off. It is 0 after [method unlink], and when one of the sockets was disabled or has left the scene tree.
 signal unlinked(mate: SpidarGSocket, pull_n: float)
 
-const SocketGraph := preload("socket_graph.gd")
 const SocketHand := preload("socket_hand.gd")
 const SocketHands := preload("socket_hands.gd")
 const SocketLink := preload("socket_link.gd")
 const SocketPull := preload("socket_pull.gd")
 
-# Arms of the cross that marks the socket in the editor, scene meters.
+## Length of the arms of the cross that marks a socket in the editor, in scene meters.
 const MARK_M: float = 0.01
 
 ## Sockets fit when their keys are equal and one is a plug and the other is not.
@@ -58,7 +58,8 @@ const MARK_M: float = 0.01
 		_join_groups()
 ## Whether this socket is a plug. A plug fits a socket that is none.
 @export var is_plug: bool = false
-## Whether any number of sockets may link here, and plugs fit plugs too. For ends that meet in one point.
+## Whether any number of sockets may link to this one: for ends that meet in one point. Two sockets that both meet many fit
+## whether or not they are plugs.
 @export var meets_many: bool = false
 ## Whether only the place counts and not the turn, as with a ball joint.
 @export var turns_freely: bool = false
@@ -69,9 +70,9 @@ const MARK_M: float = 0.01
 		if not enabled:
 			unlink()
 @export_group("Attraction")
-## Force that draws the held body's socket to its mate, in newtons, from 0 to 10. It acts in full from 3/4 of
-## [member capture_distance] inward, and fades out toward [member capture_distance]. Close to the mate it falls with 150 N/m, which is what the
-## device can render steadily at game rate. Any other value is refused.
+## Force that draws the held body's socket to its mate, in newtons, from 0 to 10. It acts in full within 3/4 of
+## [member capture_distance] and fades out toward [member capture_distance]. Near the mate it is at most 150 N/m times the
+## distance, so that the device stays steady. Any other value is refused.
 @export_range(0.0, 10.0, 0.05, "suffix:N") var attraction_force: float = 1.0:
 	set(value):
 		attraction_force = _checked(&"attraction_force", value, attraction_force, 0.0, 10.0, "N")
@@ -98,14 +99,14 @@ const MARK_M: float = 0.01
 	set(value):
 		latch_angle = _checked(&"latch_angle", value, latch_angle, 0.0, PI, "rad")
 @export_group("Hold")
-## Stiffness of the spring between the grip and the seat, in newtons per meter of device motion, from 10 to 1000. The device
-## lowers what is above its own limit, see [method SpidarG.get_stiffness_limits]. Any other value is refused.
+## Stiffness of the spring between the grip and the seat, in newtons per meter of device motion, from 10 to 1000. A value above
+## the limit of the device ([method SpidarG.get_stiffness_limits]) acts as that limit. Any other value is refused.
 @export_range(10.0, 1000.0, 1.0, "suffix:N/m") var stiffness: float = 150.0:
 	set(value):
 		stiffness = _checked(&"stiffness", value, stiffness, 10.0, 1000.0, "N/m")
-## Pull of the hand at which the body comes off its seat, in newtons, from 0.1 to 50. The grip is then
-## [member release_force] / [member stiffness] away from its seat, 15 mm with the defaults: also on a device that cannot give the
-## force. Any other value is refused.
+## Pull of the hand at which the body comes off its seat, in newtons, from 0.1 to 50. The grip has then moved away from the seat
+## by [member release_force] / [member stiffness], which is 15 mm with the defaults; a device that cannot give the force lets go
+## there too. Any other value is refused.
 @export_range(0.1, 50.0, 0.05, "suffix:N") var release_force: float = 2.25:
 	set(value):
 		release_force = _checked(&"release_force", value, release_force, 0.1, 50.0, "N")
@@ -141,10 +142,12 @@ func is_linked() -> bool:
 	return not _links.is_empty()
 
 
-## Returns whether this socket and [param mate] are made for each other: equal keys, and one of them a plug unless
-## [member meets_many] is set. It does not matter where they are and whether they are linked.
+## Returns whether this socket and [param mate] are made for each other: their keys are equal, and one of them is a plug or both
+## of them meet many. It does not matter where they are and whether they are linked.
 func fits(mate: SpidarGSocket) -> bool:
-	return mate != null and mate != self and key == mate.key and (meets_many or is_plug != mate.is_plug)
+	if mate == null or mate == self or key != mate.key:
+		return false
+	return is_plug != mate.is_plug or (meets_many and mate.meets_many)
 
 
 ## Links this socket to [param mate] where both bodies are now: place them first. Returns whether they are linked. If not, a
