@@ -3,8 +3,7 @@ extends "res://play/task_player.gd"
 ## and, where asked for, pulls it off once and puts it back.
 
 const FitLine := preload("res://play/fit_line.gd")
-const LinkSocket := preload("res://scene/link_socket.gd")
-const Linker := preload("res://scene/linker.gd")
+const SeatSense := preload("res://play/seat_sense.gd")
 
 ## In front of the seat, along the way in.
 const BEFORE_M := 0.030
@@ -22,18 +21,14 @@ const TUG_MOVES_M := 0.00005
 const TEAR_M := 0.022
 const TEAR_S := 0.9
 
-var linker: Linker
+var seats := SeatSense.new()
 var _torn_at_n := NAN
 var _felt_max_n := 0.0
 
 
-func _ready() -> void:
-	linker.unlinked.connect(
-		func(_socket: LinkSocket, _mate: LinkSocket, _pull: float) -> void: _torn_at_n = _felt_max_n
-	)
-
-
 func _deliver(body: TaskBody) -> void:
+	seats.spidar = spidar
+	seats.hand = tool_hand
 	if not await _push_in(body):
 		await _let_go(body)
 		return
@@ -60,15 +55,15 @@ func _push_in(body: TaskBody) -> bool:
 		_take_pictures("carry")
 	await hand.move_to(_grip_for(body, body.goal()), PUSH_IN_S)
 	var left_s := LATCH_PATIENCE_S
-	while linker.latched_count() < _needed(body) and left_s > 0.0 and not hand.stopped:
+	while seats.linked_count() < _needed(body) and left_s > 0.0 and not hand.stopped:
 		left_s -= 1.0 / Engine.physics_ticks_per_second
 		await hand.nudge_grasp(0.0)
-	return linker.latched_count() >= _needed(body)
+	return seats.linked_count() >= _needed(body)
 
 
 ## How many sockets have to snap in: as many as find a mate there.
 func _needed(body: TaskBody) -> int:
-	return linker.mates_at(body, body.goal())
+	return seats.mates_at(body, body.goal())
 
 
 ## Pose of the body before the last, straight part of its way.
@@ -95,14 +90,14 @@ func _feel_detent(body: TaskBody) -> void:
 	var seat := hand.wanted
 	var lines: Array[FitLine] = [FitLine.new(), FitLine.new()]
 	# The hand rises a little when the seat takes the weight: the way counts from where it begins.
-	var begins := out.dot(linker.stretch_m())
+	var begins := out.dot(seats.stretch_m())
 	for back in 2:
 		var last: Array[float] = [NAN]
 		var feel := func() -> void:
 			var truth := hand.truth()
 			var strings: PackedFloat64Array = truth["strings_wrench"]
 			var pull := -out.dot(Vector3(strings[0], strings[1], strings[2]))
-			var way := out.dot(linker.stretch_m()) - begins
+			var way := out.dot(seats.stretch_m()) - begins
 			# Where the strings' friction holds the grip, at the turn, the pull changes and the way does not.
 			var moves := absf(way - last[0]) > TUG_MOVES_M
 			last[0] = way
@@ -111,7 +106,7 @@ func _feel_detent(body: TaskBody) -> void:
 		hand.stepped.connect(feel)
 		await hand.move_to(seat.translated(out * TUG_M) if back == 0 else seat, TUG_S)
 		hand.stepped.disconnect(feel)
-	body.felt.detent_expected_n_m = Linker.STIFFNESS_N_M
+	body.felt.detent_expected_n_m = SeatSense.of(body)[0].stiffness
 	body.felt.detent_felt_n_m = 0.5 * (lines[0].slope() + lines[1].slope())
 
 
@@ -123,9 +118,14 @@ func _tear_off(body: TaskBody) -> void:
 	var feel := func() -> void:
 		var strings: PackedFloat64Array = hand.truth()["strings_wrench"]
 		_felt_max_n = maxf(_felt_max_n, Vector3(strings[0], strings[1], strings[2]).length())
+	var torn := func(_mate: SpidarGSocket, _pull_n: float) -> void: _torn_at_n = _felt_max_n
+	for socket in SeatSense.of(body):
+		socket.unlinked.connect(torn)
 	hand.stepped.connect(feel)
 	await hand.move_to(hand.wanted.translated(out * TEAR_M), TEAR_S)
 	hand.stepped.disconnect(feel)
+	for socket in SeatSense.of(body):
+		socket.unlinked.disconnect(torn)
 	await hand.settle(SETTLE_TOLERANCE_M, SETTLE_S)
-	body.felt.release_expected_n = minf(Linker.RELEASE_N, Linker.STIFFNESS_N_M * Linker.RELEASE_M)
+	body.felt.release_expected_n = SeatSense.of(body)[0].release_force
 	body.felt.release_felt_n = _torn_at_n

@@ -6,7 +6,6 @@ const DemoSettings := preload("res://ui/demo_settings.gd")
 const ExperimentPlan := preload("res://study/experiment_plan.gd")
 const ExperimentStore := preload("res://study/experiment_store.gd")
 const FitLine := preload("res://play/fit_line.gd")
-const LinkSocket := preload("res://scene/link_socket.gd")
 const MatchLayout := preload("res://tasks/match_linking/match_layout.gd")
 const MatchShape := preload("res://tasks/match_linking/match_shape.gd")
 const MatchStick := preload("res://tasks/match_linking/match_stick.gd")
@@ -192,15 +191,15 @@ func _check_robot() -> void:
 	var cups: Dictionary[StringName, Vector3] = {}
 	for bracket in stand.get_children():
 		for child in bracket.get_children():
-			if child is LinkSocket:
-				cups[(child as LinkSocket).key] = (bracket as Node3D).position + (child as LinkSocket).position
+			if child is SpidarGSocket:
+				cups[(child as SpidarGSocket).key] = (bracket as Node3D).position + (child as SpidarGSocket).position
 	for child in parts[0].get_children():
-		if child is LinkSocket and not (child as LinkSocket).is_plug:
-			cups[(child as LinkSocket).key] = parts[0].place() * (child as LinkSocket).position
+		if child is SpidarGSocket and not (child as SpidarGSocket).is_plug:
+			cups[(child as SpidarGSocket).key] = parts[0].place() * (child as SpidarGSocket).position
 	var plugs := 0
 	for part in parts:
 		for child in part.get_children():
-			var plug := child as LinkSocket
+			var plug := child as SpidarGSocket
 			if plug != null and plug.is_plug:
 				plugs += 1
 				var off := (part.place() * plug.position).distance_to(cups.get(plug.key, Vector3.INF))

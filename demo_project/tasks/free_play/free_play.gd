@@ -36,9 +36,7 @@ func _lay_out() -> void:
 	zones.assign(things.get_node(^"Zones").get_children())
 	_ball = things.get_node(^"BallOnSpring")
 	_ball_home = _ball.global_position
-	linker.clear()
-	linker.add_carrier(things.get_node(^"Peg") as CollisionObject3D)
-	linker.add_carrier(things.get_node(^"Cap") as CollisionObject3D)
+	_know_sockets([things.get_node(^"Peg"), things.get_node(^"Cap")])
 
 
 ## Held, the ball pulls back to where it was.

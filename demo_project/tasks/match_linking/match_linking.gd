@@ -12,7 +12,7 @@ var shape: MatchShape
 
 func _make_player() -> TaskPlayer:
 	var match_player := MatchPlayer.new()
-	match_player.linker = linker
+	match_player.seats.sockets = sockets
 	return match_player
 
 

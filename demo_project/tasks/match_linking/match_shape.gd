@@ -25,7 +25,7 @@ const IN_THE_AIR_M := 0.001
 		edges = value
 		_build_anew()
 
-## Their cups are for the linker.
+## Their cups are sockets.
 var pegs: Array[StaticBody3D] = []
 
 var _ghosts: Array[MeshInstance3D] = []

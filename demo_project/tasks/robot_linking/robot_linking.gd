@@ -12,11 +12,12 @@ const LATCH_RAD: PackedFloat64Array = [deg_to_rad(5.0), deg_to_rad(5.0), deg_to_
 
 func _make_player() -> TaskPlayer:
 	var robot_player := RobotPlayer.new()
-	robot_player.linker = linker
+	robot_player.seats.sockets = sockets
 	return robot_player
 
 
 func _lay_out() -> void:
-	linker.latch_m = LATCH_M[arguments.level - 1]
-	linker.latch_rad = LATCH_RAD[arguments.level - 1]
 	_use_layout(RobotLayout.new())
+	for socket in sockets:
+		socket.latch_distance = LATCH_M[arguments.level - 1]
+		socket.latch_angle = LATCH_RAD[arguments.level - 1]

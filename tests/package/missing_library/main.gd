@@ -32,6 +32,9 @@ func _ready() -> void:
 	device.add_child(SpidarGGrip.new())
 	device.add_child(SpidarGTracker.new())
 	device.add_child(SpidarGZone.new())
+	var body := StaticBody3D.new()
+	body.add_child(SpidarGSocket.new())
+	add_child(body)
 	var panel: SpidarGPanel = (load(PANEL_SCENE) as PackedScene).instantiate()
 	panel.device = device
 	add_child(panel)

@@ -1,0 +1,106 @@
+@tool
+extends RefCounted
+## Two linked sockets, and what holds them together: the spring of a hand, else a joint.
+
+const SocketHand := preload("socket_hand.gd")
+const SocketLink := preload("socket_link.gd")
+
+## The socket that came to the other one.
+var one: SpidarGSocket
+var other: SpidarGSocket
+## The hand whose held body sits on its mate by this link; null: the joint holds.
+var holder: SocketHand
+
+var _joint: Generic6DOFJoint3D
+## Whether the exception between the two bodies is this link's own, and not the game's.
+var _keeps_apart: bool = false
+
+
+## Links both. Nothing holds them until lock() or a hand does.
+static func make(from: SpidarGSocket, to: SpidarGSocket) -> SocketLink:
+	var link: SocketLink = SocketLink.new()
+	link.one = from
+	link.other = to
+	from._links.append(link)
+	to._links.append(link)
+	link._keeps_apart = not link._has_exception()
+	link._except()
+	return link
+
+
+func mate_of(socket: SpidarGSocket) -> SpidarGSocket:
+	return other if socket == one else one
+
+
+## A joint holds the two bodies as they are.
+func lock() -> void:
+	holder = null
+	if _joint != null or one.get_body() == null or other.get_body() == null:
+		return
+	_joint = Generic6DOFJoint3D.new()  # Its limits are all locked at zero as made.
+	# Internal: a copy of the body makes no joint of its own.
+	one.add_child(_joint, false, Node.INTERNAL_MODE_BACK)
+	_joint.global_transform = one.global_transform.orthonormalized()
+	_joint.node_a = _joint.get_path_to(other.get_body())
+	_joint.node_b = _joint.get_path_to(one.get_body())
+
+
+## The spring of a hand holds instead of the joint.
+func seat(in_hand: SocketHand) -> void:
+	holder = in_hand
+	_free_joint()
+	_except()
+
+
+## Ends the link.
+func cut() -> void:
+	holder = null
+	one._links.erase(self)
+	other._links.erase(self)
+	_free_joint()
+	_end_exception()
+	for body: RigidBody3D in [one.get_body() as RigidBody3D, other.get_body() as RigidBody3D]:
+		if body != null:
+			body.sleeping = false
+
+
+func _free_joint() -> void:
+	if _joint == null:
+		return
+	_joint.node_a = NodePath()
+	_joint.node_b = NodePath()
+	_joint.queue_free()
+	_joint = null
+
+
+func _has_exception() -> bool:
+	return one.get_body().get_collision_exceptions().has(other.get_body())
+
+
+## The linked bodies do not push each other. Again after a joint: with it goes the engine's own exception.
+func _except() -> void:
+	if not _has_exception():
+		one.get_body().add_collision_exception_with(other.get_body())
+
+
+func _end_exception() -> void:
+	var body: PhysicsBody3D = one.get_body()
+	var mate: PhysicsBody3D = other.get_body()
+	if not _keeps_apart or body == null or mate == null:
+		return
+	var heir: SocketLink = _link_between(body, mate)
+	if heir != null:
+		heir._keeps_apart = true
+		heir._except()
+		return
+	body.remove_collision_exception_with(mate)
+
+
+## Another link of the same two bodies, or null.
+static func _link_between(body: PhysicsBody3D, mate: PhysicsBody3D) -> SocketLink:
+	for child: Node in body.get_children():
+		if child is SpidarGSocket:
+			for link: SocketLink in (child as SpidarGSocket)._links:
+				if link.mate_of(child as SpidarGSocket).get_body() == mate:
+					return link
+	return null
