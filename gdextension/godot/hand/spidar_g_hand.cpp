@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
@@ -48,7 +49,7 @@ void SpidarGHand::_enter_tree() {
     place_.entered(*this);
     if (!godot::Engine::get_singleton()->is_editor_hint()) {
         surroundings_.open();
-        scene_joints_.read(*get_tree()->get_root());
+        scene_joints_.read(*get_node_or_null(godot::NodePath("/root")));
         get_tree()->connect("node_added", callable_mp(this, &SpidarGHand::note_node));
     }
 }
