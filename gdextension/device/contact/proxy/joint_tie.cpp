@@ -21,6 +21,8 @@ using Move = JointTie::Move;
 constexpr double kGivesBack_s = 0.1;
 // Of a row of unit stiffness, what is left of it beside the others when it says nothing new: two hinges of one door.
 constexpr double kDependent = 1e-6;
+// With 1, a knob that is turned at random for ten minutes at 1 ms and 1 kHz gives 0.04 J, without any 0.29 J.
+constexpr double kSpringDamping = 1.5;
 constexpr double kPi = 3.14159265358979323846;
 
 double dot(const Move &a, const Move &b) noexcept {
@@ -206,7 +208,9 @@ void JointTie::look_at(State &state, const ToolPose &pose, const Move &root) noe
     }
 }
 
-void JointTie::look(const ToolPose &pose, const Move &root, double dt_s) noexcept {
+void JointTie::look(const ToolPose &pose, const Move &root, double damping_s,
+                    double dt_s) noexcept {
+    least_damping_s_ = kSpringDamping * damping_s;
     dt_s_ = dt_s;
     locked_count_ = 0;
     correction_ = {};
@@ -261,7 +265,7 @@ Move JointTie::bend(const Move &target) const noexcept {
         const Force &force = forces_[static_cast<std::size_t>(i)];
         const JointAxis &rule = force.axis;
         const double softness = dot(force.row, force.row);
-        const double damping = rule.damping / dt_s_;
+        const double damping = std::max(rule.damping, least_damping_s_ * rule.stiffness) / dt_s_;
         const double stiffness = rule.stiffness + damping;
         const double part = 1.0 / (1.0 + stiffness * softness);
         if (stiffness > 0.0) {

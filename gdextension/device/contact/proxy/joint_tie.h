@@ -25,8 +25,9 @@ public:
     [[nodiscard]] bool is_tied() const noexcept { return count_ > 0; }
     // Once a cycle: where the joints' other bodies are at its end.
     void advance(double dt_s) noexcept;
-    // What the joints leave at this pose. root: of the stiffnesses.
-    void look(const ToolPose &pose, const Move &root, double dt_s) noexcept;
+    // What the joints leave at this pose. root: of the stiffnesses. damping_s: of contacts. A spring is damped by at
+    // least kSpringDamping of that, in parts of its stiffness: without any, the link's latency would let it give energy.
+    void look(const ToolPose &pose, const Move &root, double damping_s, double dt_s) noexcept;
     // The coordinates at the end of the cycle.
     void settle(const ToolPose &pose) noexcept;
 
@@ -91,6 +92,7 @@ private:
     int limit_count_ = 0;
     std::array<Force, kMaxTieRows> forces_{};
     int force_count_ = 0;
+    double least_damping_s_ = 0.0;
     double dt_s_ = 0.0;
 };
 

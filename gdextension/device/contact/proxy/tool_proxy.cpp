@@ -140,7 +140,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     std::array<double, kMaxRows> least{};
     Move back{}; // to where locked joints belong
     if (tie_.is_tied()) {
-        tie_.look(pose_, root_, cycle_s_);
+        tie_.look(pose_, root_, settings_.damping_s, cycle_s_);
         back = tie_.correction();
         target = tie_.left(target);
         bent_ = tie_.bend(target);
