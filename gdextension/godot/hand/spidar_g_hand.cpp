@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/variant/callable_method_pointer.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
@@ -158,9 +158,11 @@ void SpidarGHand::release() {
     if (body != nullptr && body->is_connected("tree_exiting", let_go)) {
         body->disconnect("tree_exiting", let_go);
     }
+    spidar::forget_hold(hold_.body_id(), get_instance_id());
     hold_.detach(spidar_ != nullptr ? spidar_->get_workspace_scale() : 1.0);
     held_shapes_.drop();
     held_joints_.drop();
+    partners_.drop();
     judge_.reset();
     pinch_ = {};
     emit_signal("body_released", body);

@@ -23,6 +23,7 @@
 #include "godot/hand/grasp/held_shapes.h"
 #include "godot/hand/grasp/hold_joint.h"
 #include "godot/hand/grasp/hold_watch.h"
+#include "godot/hand/grasp/partner_ties.h"
 #include "godot/hand/grasp/pinch.h"
 #include "godot/hand/grasp/scene_joints.h"
 #include "godot/hand/grasp/touched_bodies.h"
@@ -134,6 +135,9 @@ private:
     void attach(godot::RigidBody3D &body);
     void carry(double delta_s);
     void push_bodies(double since_s);
+    // Where the held body goes, when the grip alone would have it at `mine`: other hands may hold it, too.
+    [[nodiscard]] godot::Transform3D agree_on(const godot::Transform3D &mine);
+    void add_joints(spidar::Tool &tool);
     void remember_place();
     void note_node(godot::Node *node);
 
@@ -183,6 +187,7 @@ private:
     spidar::HeldShapes held_shapes_;
     spidar::SceneJoints scene_joints_;
     spidar::HeldJoints held_joints_;
+    spidar::PartnerTies partners_;
     spidar::HeldLoad load_;
     spidar::HeldLoad::Body held_;
     double held_stop_rad_ = 0.0;

@@ -155,7 +155,9 @@ void SpidarGHand::look_at_held() {
 
 spidar::HeldLoad::Pull SpidarGHand::load_of_held() const {
     spidar::HeldLoad::Terms terms;
-    terms.gain = weight_scale_;
+    // Hands that hold it together share it.
+    const auto others = spidar::other_holds(hold_.body_id(), get_instance_id()).size();
+    terms.gain = weight_scale_ / (1.0 + static_cast<double>(others));
     terms.max_force_n = spidar_->get_effective_config()->get_max_force();
     terms.with_weight =
         render_weight_ && !hold_.is_detained(); // what has snapped in is carried by its socket
@@ -199,12 +201,23 @@ void SpidarGHand::publish() {
     auto touch = spidar::make_touch_scene(pads_, jaw, surroundings_.shapes(), &held, feel(),
                                           spidar_->servo_settings(), pull_.all);
     if (!hold_.is_detained()) {
-        for (const spidar::ToolJoint &joint :
-             held_joints_.now(*hold_.body(), hold_.in_grip(), now_, spidar::physics_tick_s())) {
-            touch->tool.joints[static_cast<std::size_t>(touch->tool.joint_count++)] = joint;
-        }
+        add_joints(touch->tool);
     }
     spidar_->publish_touch(std::move(touch));
+}
+
+// Of the scene's joints and of other hands that hold the body, as many as there is room for.
+void SpidarGHand::add_joints(spidar::Tool &tool) {
+    const godot::Transform3D in_grip = hold_.in_grip();
+    const double tick_s = spidar::physics_tick_s();
+    std::vector<spidar::ToolJoint> joints = held_joints_.now(*hold_.body(), in_grip, now_, tick_s);
+    for (const spidar::ToolJoint &partner :
+         partners_.now(spidar::other_holds(hold_.body_id(), get_instance_id()),
+                       spidar_->snapshot().touch.stiffness, in_grip, now_, tick_s)) {
+        joints.push_back(partner);
+    }
+    tool.joint_count = std::min(static_cast<int>(joints.size()), spidar::kMaxToolJoints);
+    std::copy_n(joints.begin(), tool.joint_count, tool.joints.begin());
 }
 
 // Takes everything back from the device.

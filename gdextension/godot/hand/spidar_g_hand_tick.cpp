@@ -220,5 +220,16 @@ void SpidarGHand::carry(double delta_s) {
     if (!hold_.is_detained() && moved_m > spidar::kFastestBody_m_s * delta_s) {
         hold_.jump(proxy);
     }
-    hold_.follow(proxy);
+    hold_.follow(agree_on(hold_.where(proxy)) * hold_.in_grip().affine_inverse());
+}
+
+Transform3D SpidarGHand::agree_on(const Transform3D &mine) {
+    const std::uint64_t body = hold_.body_id();
+    const spidar::Twist &twist = spidar_->snapshot().grip.twist;
+    const Vec3 turning = now_.turn_to_world(twist.angular_rad_s);
+    const Vec3 lever = spidar::to_core(mine.origin) - now_.point_to_world(device_pose().position_m);
+    const Vec3 velocity = now_.velocity_to_world(twist.linear_m_s) + glm::cross(turning, lever);
+    spidar::note_hold(
+        body, {get_instance_id(), mine, spidar::to_godot(velocity), spidar::to_godot(turning)});
+    return spidar::shared_place(mine, spidar::other_holds(body, get_instance_id()));
 }

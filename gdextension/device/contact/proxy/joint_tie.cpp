@@ -8,6 +8,7 @@
 
 #include "core/base/sound_state.h"
 #include "core/geometry/rotation_log.h"
+#include "device/contact/proxy/row_forces.h"
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
@@ -19,6 +20,8 @@ using Move = JointTie::Move;
 // What a joint was off when it was caught is given back in this time: the physics engine holds joints to a fraction of a
 // millimetre, and so much at once would be a blow.
 constexpr double kGivesBack_s = 0.1;
+// A spring comes, goes and changes in this time.
+constexpr double kSpringTime_s = 0.02;
 // Of a row of unit stiffness, what is left of it beside the others when it says nothing new: two hinges of one door.
 constexpr double kDependent = 1e-6;
 // With 1, a knob that is turned at random for ten minutes at 1 ms and 1 kHz gives 0.04 J, without any 0.29 J.
@@ -130,6 +133,7 @@ void JointTie::accept(const Tool &tool, double later_s, const ToolPose &pose) no
         const Coordinates was = coordinates_of(before->joint, pose, before->at);
         const Coordinates now = coordinates_of(state.joint, pose, before->at);
         state.begun = true;
+        state.stiffness = before->stiffness;
         for (std::size_t axis = 0; axis < now.size(); ++axis) {
             const bool locked = state.joint.axes[axis].is_locked();
             state.slack[axis] = locked ? before->slack[axis] + now[axis] - was[axis] : 0.0;
@@ -140,11 +144,14 @@ void JointTie::accept(const Tool &tool, double later_s, const ToolPose &pose) no
 
 void JointTie::advance(double dt_s) noexcept {
     const double kept = std::exp(-dt_s / kGivesBack_s);
+    const double stays = std::exp(-dt_s / kSpringTime_s);
     for (int j = 0; j < count_; ++j) {
         State &state = states_[static_cast<std::size_t>(j)];
         move_on(state.joint, dt_s);
-        for (double &slack : state.slack) {
-            slack *= kept;
+        for (std::size_t axis = 0; axis < state.slack.size(); ++axis) {
+            const double wanted = state.joint.axes[axis].stiffness;
+            state.slack[axis] *= kept;
+            state.stiffness[axis] = wanted + stays * (state.stiffness[axis] - wanted);
         }
     }
 }
@@ -204,7 +211,9 @@ void JointTie::look_at(State &state, const ToolPose &pose, const Move &root) noe
             lock(row, rule.lower + state.slack[axis] - now[axis], carried);
             continue;
         }
-        forces_[static_cast<std::size_t>(force_count_++)] = {rule, row, now[axis], state.at[axis]};
+        Force &force = forces_[static_cast<std::size_t>(force_count_++)];
+        force = {rule, row, now[axis], state.at[axis]};
+        force.axis.stiffness = state.stiffness[axis];
     }
 }
 
@@ -260,28 +269,23 @@ Move JointTie::left(const Move &move) const noexcept {
 }
 
 Move JointTie::bend(const Move &target) const noexcept {
-    Move by{};
+    RowForces forces;
     for (int i = 0; i < force_count_; ++i) {
         const Force &force = forces_[static_cast<std::size_t>(i)];
         const JointAxis &rule = force.axis;
-        const double softness = dot(force.row, force.row);
+        const double there = force.now + dot(force.row, target);
         const double damping = std::max(rule.damping, least_damping_s_ * rule.stiffness) / dt_s_;
         const double stiffness = rule.stiffness + damping;
-        const double part = 1.0 / (1.0 + stiffness * softness);
         if (stiffness > 0.0) {
             const double wanted = (rule.stiffness * rule.rest + damping * force.before) / stiffness;
-            const double there = force.now + dot(force.row, target) + dot(force.row, by);
-            add(by, part * stiffness * (wanted - there), force.row);
+            forces.add(force.row, wanted - there, 1.0 / stiffness);
         }
-        if (rule.motor_most > 0.0 && softness > 0.0) {
-            const double there = force.now + dot(force.row, target) + dot(force.row, by);
-            const double ahead = force.before + rule.motor_speed * dt_s_ - there;
-            const double push =
-                std::clamp(ahead / (part * softness), -rule.motor_most, rule.motor_most);
-            add(by, part * push, force.row);
+        if (rule.motor_most > 0.0) {
+            forces.add(force.row, force.before + rule.motor_speed * dt_s_ - there, 0.0,
+                       rule.motor_most);
         }
     }
-    return by;
+    return forces.solve();
 }
 
 bool JointTie::is_sound() const noexcept {

@@ -61,8 +61,9 @@ private:
     using Coordinates = std::array<double, 6>;
     struct State {
         ToolJoint joint;
-        Coordinates at{};    // at the end of the last cycle
-        Coordinates slack{}; // what is left of where it was off when it was caught or corrected
+        Coordinates at{};        // at the end of the last cycle
+        Coordinates slack{};     // what is left of where it was off when it was caught or corrected
+        Coordinates stiffness{}; // of the springs now: they come and change gradually
         bool begun = false;
     };
     struct Limit {

@@ -121,7 +121,7 @@ TEST_CASE("joints: the hinge's damping is felt as damping times speed") {
     hinge.damping = 0.3;
     Door door(hinge);
     door.swing(0.0, 1.0, 1000); // 1 rad/s
-    CHECK(door.moment_nm() == doctest::Approx(-0.3).epsilon(1e-3));
+    CHECK(std::abs(door.moment_nm() + 0.3) < 3e-4);
     door.swing(1.0, 1.0, 2000);
     CHECK(std::abs(door.moment_nm()) < 1e-3);
 }
@@ -156,7 +156,7 @@ TEST_CASE(
         check_on_its_hinge(door);
     }
     const double handle_z = door.proxy.pose().position_m.z;
-    CHECK(handle_z == doctest::Approx(-0.02 + 0.005).epsilon(1e-3));
+    CHECK(std::abs(handle_z - (-0.02 + 0.005)) < 1e-5);
     CHECK(door.moment_nm() < -0.2);
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("joints: a motor moves the door at its speed, as hard as it is, and no
         door.tick(); // the hand holds it
     }
     CHECK(door.moment_nm() == doctest::Approx(0.2).epsilon(1e-3));
-    CHECK(door.angle() == doctest::Approx(0.2 / kAboutHinge_nm_rad).epsilon(1e-3));
+    CHECK(std::abs(door.angle() - 0.2 / kAboutHinge_nm_rad) < 1e-4);
     // The hand goes along faster than the motor: it brakes.
     door.swing(0.0, 2.0, 1000);
     CHECK(door.moment_nm() == doctest::Approx(-0.2).epsilon(1e-2));
@@ -328,6 +328,45 @@ TEST_CASE("joints: a way round gives back what it took, and with a damper it onl
             CHECK(work_j < -0.01);
         }
     }
+}
+
+TEST_CASE(
+    "joints: two tools tied to each other by springs, a game's tick late, find the same place") {
+    std::array<Door, 2> hands;
+    for (Door &hand : hands) {
+        hand.joint = ToolJoint();
+        hand.joint.id = 9;
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            hand.joint.axes[axis] = free_axis();
+            hand.joint.axes[axis].stiffness = 2.0 * hand.settings.stiffness[axis];
+        }
+        hand.settings.damping_s = 0.0018;
+        hand.start_at(ToolPose());
+    }
+    // Each holds its end of a bar, 70 mm from where the two are tied.
+    hands[0].joint.in_grip.origin_m = Vec3(0.0, 0.0, 0.07);
+    hands[1].joint.in_grip.origin_m = Vec3(0.0, 0.0, -0.07);
+    // Each is drawn down by 1 N, as by half a weight, and apart.
+    for (int tick = 0; tick < 60; ++tick) {
+        const std::array<ToolPose, 2> poses{hands[0].proxy.pose(), hands[1].proxy.pose()};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double end_m = k == 0 ? -0.07 : 0.07; // of the other hand's
+            hands[k].joint.base = {poses[1 - k].position_m +
+                                       poses[1 - k].rotation * Vec3(0.0, 0.0, end_m),
+                                   poses[1 - k].rotation};
+            hands[k].proxy.tie(hands[k].tool, 0.0);
+            const double aside_m = k == 0 ? -0.075 : 0.075;
+            for (int cycle = 0; cycle < 16; ++cycle) {
+                hands[k].device.position_m = Vec3(0.0, -0.001, aside_m);
+                hands[k].tick();
+            }
+        }
+    }
+    CHECK(std::abs(hands[0].proxy.pose().position_m.y + 0.001) < 1e-5);
+    CHECK(std::abs(hands[0].proxy.wrench().force_n.y) < 0.01);
+    // Three springs in a row: 1000, 2000 and 1000 N/m over 10 mm.
+    CHECK(hands[0].proxy.wrench().force_n.z == doctest::Approx(4.0).epsilon(0.01));
+    CHECK(hands[1].proxy.wrench().force_n.z == doctest::Approx(-4.0).epsilon(0.01));
 }
 
 TEST_CASE("joints: a scene with senseless ones is refused") {

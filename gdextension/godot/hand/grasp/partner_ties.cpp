@@ -1,0 +1,68 @@
+#include "godot/hand/grasp/partner_ties.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <glm/matrix.hpp>
+
+#include "godot/base/type_conversions.h"
+
+namespace spidar {
+
+namespace {
+
+// Of the springs between a device and its proxy: stiff enough that what the hands do is felt, and soft enough that a reply a
+// game's tick late, which is multiplied by 2/3 on each of its two ways, dies out.
+constexpr double kPartOfOwn = 2.0;
+// A hand that lets go is taken out gradually: by then its spring is gone.
+constexpr double kLeaves_s = 0.2;
+
+JointAxis spring(double stiffness) {
+    JointAxis axis;
+    axis.lower = 1.0; // no limits
+    axis.upper = -1.0;
+    axis.stiffness = stiffness;
+    return axis;
+}
+
+} // namespace
+
+std::vector<ToolJoint> PartnerTies::now(const std::vector<SharedHold> &others,
+                                        const DofGains &stiffness,
+                                        const godot::Transform3D &in_grip, const WorldFrame &frame,
+                                        double tick_s) {
+    for (Tie &tie : ties_) {
+        tie.left_s -= tick_s;
+        tie.joint.axes.fill(spring(0.0));
+        tie.joint.velocity_m_s = Vec3(0.0);
+        tie.joint.angular_rad_s = Vec3(0.0);
+    }
+    for (const SharedHold &other : others) {
+        ToolJoint joint;
+        joint.id = static_cast<std::int32_t>(other.hand & 0x7fffffffU);
+        joint.base = {frame.point_to_device(to_core(other.body.origin)),
+                      glm::transpose(frame.rotation) * to_core(other.body.basis.orthonormalized())};
+        joint.velocity_m_s = frame.velocity_to_device(to_core(other.velocity));
+        joint.angular_rad_s = frame.turn_to_device(to_core(other.turning));
+        joint.in_grip = {to_core(in_grip.origin) / frame.scale,
+                         to_core(in_grip.basis.orthonormalized())};
+        for (std::size_t axis = 0; axis < joint.axes.size(); ++axis) {
+            joint.axes[axis] = spring(kPartOfOwn * stiffness[axis]);
+        }
+        const auto known =
+            std::ranges::find(ties_, joint.id, [](const Tie &tie) { return tie.joint.id; });
+        if (known != ties_.end()) {
+            *known = {joint, kLeaves_s};
+        } else {
+            ties_.push_back({joint, kLeaves_s});
+        }
+    }
+    std::erase_if(ties_, [](const Tie &tie) { return !(tie.left_s > 0.0); });
+    std::vector<ToolJoint> joints;
+    for (const Tie &tie : ties_) {
+        joints.push_back(tie.joint);
+    }
+    return joints;
+}
+
+} // namespace spidar
