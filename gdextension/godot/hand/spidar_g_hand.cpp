@@ -166,6 +166,7 @@ void SpidarGHand::release() {
     judge_.reset();
     pinch_ = {};
     emit_signal("body_released", body);
+    tell_held();
 }
 
 Transform3D SpidarGHand::shown_grip() const {

@@ -91,6 +91,7 @@ public:
     [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
     [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
     [[nodiscard]] double get_held_width_m() const;
+    [[nodiscard]] double get_held_weight() const { return told_.weight_n; }
     [[nodiscard]] godot::Transform3D get_wanted_pose() const;
     [[nodiscard]] double get_squeeze_torque_nm() const { return squeeze_nm_; }
     [[nodiscard]] double get_stop_angle() const;
@@ -139,6 +140,7 @@ private:
     [[nodiscard]] godot::Transform3D agree_on(const godot::Transform3D &mine);
     void add_joints(spidar::Tool &tool);
     void remember_place();
+    void tell_held();
     void note_node(godot::Node *node);
 
     // What is published (spidar_g_hand_scene.cpp).
@@ -197,6 +199,12 @@ private:
     Published published_ = Published::nothing;
     spidar::Jaws published_jaws_;
     spidar::HeldLoad::Pull pull_; // in the last scene
+    struct HeldFeel {
+        double weight_n = 0.0;
+        double width_m = 0.0;
+        double squeeze_nm = 0.0;
+    };
+    HeldFeel told_;
     std::uint64_t seen_sequence_ = 0;
     bool debug_draw_ = false;
     spidar::HandDrawing drawing_;

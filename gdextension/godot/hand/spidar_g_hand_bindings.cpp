@@ -51,6 +51,7 @@ void SpidarGHand::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_warnings"), &Self::get_warnings);
     ClassDB::bind_method(D_METHOD("get_held_body"), &Self::get_held_body);
     ClassDB::bind_method(D_METHOD("get_held_width_m"), &Self::get_held_width_m);
+    ClassDB::bind_method(D_METHOD("get_held_weight"), &Self::get_held_weight);
     ClassDB::bind_method(D_METHOD("get_wanted_pose"), &Self::get_wanted_pose);
     ClassDB::bind_method(D_METHOD("get_squeeze_torque_nm"), &Self::get_squeeze_torque_nm);
     ClassDB::bind_method(D_METHOD("get_stop_angle"), &Self::get_stop_angle);
@@ -71,5 +72,8 @@ void SpidarGHand::_bind_methods() {
     ADD_SIGNAL(MethodInfo("body_grasped", body));
     ADD_SIGNAL(MethodInfo("body_released", body));
     ADD_SIGNAL(MethodInfo("grasp_refused", body, PropertyInfo(Variant::STRING, "reason")));
+    ADD_SIGNAL(MethodInfo("hold_changed", PropertyInfo(Variant::FLOAT, "weight"),
+                          PropertyInfo(Variant::FLOAT, "width"),
+                          PropertyInfo(Variant::FLOAT, "squeeze")));
     ADD_SIGNAL(MethodInfo("carrying", PropertyInfo(Variant::FLOAT, "delta")));
 }

@@ -32,6 +32,11 @@ constexpr double kRestTime_s = 0.04;
 // Smooths the trembling of the fingers.
 constexpr double kSqueezeTime_s = 0.024;
 
+// Smaller changes of what is held are not told.
+constexpr double kToldWeight_n = 0.01;
+constexpr double kToldWidth_m = 1e-4;
+constexpr double kToldSqueeze_nm = 2e-3;
+
 } // namespace
 
 void SpidarGHand::note_node(godot::Node *node) {
@@ -67,7 +72,23 @@ void SpidarGHand::_physics_process(double delta) {
         push_bodies(clock_.elapsed_s());
     }
     draw();
+    tell_held();
     news_.tell(spidar_->snapshot().touch, touched_, now_, *this);
+}
+
+void SpidarGHand::tell_held() {
+    HeldFeel now;
+    if (hold_.holds()) {
+        now = {glm::length(pull_.weight_n), get_held_width_m(), squeeze_nm_};
+    }
+    const bool changed = std::abs(now.weight_n - told_.weight_n) > kToldWeight_n ||
+                         std::abs(now.width_m - told_.width_m) > kToldWidth_m ||
+                         std::abs(now.squeeze_nm - told_.squeeze_nm) > kToldSqueeze_nm ||
+                         (told_.width_m > 0.0) != (now.width_m > 0.0);
+    if (changed) {
+        told_ = now;
+        emit_signal("hold_changed", now.weight_n, now.width_m, now.squeeze_nm);
+    }
 }
 
 // At the end: a velocity that a push has just given, and that the physics step has not yet set against the floor and all else

@@ -68,10 +68,11 @@ void HeldLoad::follow(const Vec3 &center_m, double since_s) noexcept {
 }
 
 HeldLoad::Pull HeldLoad::pull(const Body &body, const Terms &terms) const noexcept {
-    Vec3 force_n(0.0);
+    Vec3 weight_n(0.0);
     if (terms.with_weight) {
-        force_n += terms.gain * body.mass_kg * body.gravity_m_s2;
+        weight_n = terms.gain * body.mass_kg * body.gravity_m_s2;
     }
+    Vec3 force_n = weight_n;
     if (terms.with_inertia) {
         // Of the hand's own motion, so that a large scale does not turn a small jerk into a large force.
         const double mass_kg = std::min(terms.gain * body.mass_kg, kMaxInertiaMass_kg);
@@ -80,7 +81,8 @@ HeldLoad::Pull HeldLoad::pull(const Body &body, const Terms &terms) const noexce
     force_n *= std::clamp(age_s_ / kOnsetTime_s, 0.0, 1.0);
     const Vec3 moment_nm = glm::cross(body.center_m, force_n);
     return {{limited(force_n, terms.max_force_n), moment_nm, 0.0},
-            {limited(force_n + added_n_, terms.max_force_n), moment_nm + added_nm_, 0.0}};
+            {limited(force_n + added_n_, terms.max_force_n), moment_nm + added_nm_, 0.0},
+            weight_n};
 }
 
 } // namespace spidar

@@ -35,6 +35,7 @@ public:
     struct Pull {
         Wrench own;
         Wrench all;
+        Vec3 weight_n{0.0}; // of own
     };
     [[nodiscard]] Pull pull(const Body &body, const Terms &terms) const noexcept;
 
