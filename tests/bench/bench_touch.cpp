@@ -77,8 +77,23 @@ void nothing_near(std::vector<BenchRow> &rows) {
     report("nothing near", "moving", times, kNoFigure, rows);
 }
 
-// Boxes, balls, cylinders and hulls round the tool, which wanders among them and is pressed into them.
-TouchScene among_eight(bool held, test::CaseRandom &random) {
+enum class Kind { pads, held, pads_and_materials, held_on_hinge };
+
+// A texture, static friction, adhesion and a magnet that is felt by what touches.
+SurfaceTraits all_traits() {
+    SurfaceTraits traits;
+    traits.static_friction = 0.6;
+    traits.adhesion_n = 0.5;
+    traits.magnet_n = 0.5;
+    traits.magnet_range_m = 0.003;
+    traits.texture = {0.003, 0.0002, Vec3(0.0)};
+    return traits;
+}
+
+// Boxes, balls, cylinders and hulls round the tool, which wanders among them and is pressed into them: eight, or ten
+// with materials and where they are compared with.
+TouchScene among_bodies(Kind kind, int bodies, test::CaseRandom &random) {
+    const bool held = kind == Kind::held || kind == Kind::held_on_hinge;
     TouchScene touch;
     if (held) {
         ShapeDescription hull;
@@ -91,7 +106,7 @@ TouchScene among_eight(bool held, test::CaseRandom &random) {
     } else {
         test::add_pads(touch);
     }
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < bodies; ++i) {
         ShapeDescription shape;
         shape.kind = static_cast<ShapeKind>(i % 5);
         shape.half_extents_m = Vec3(0.02);
@@ -102,19 +117,28 @@ TouchScene among_eight(bool held, test::CaseRandom &random) {
             shape.points_m.push_back(0.025 * way / glm::length(way));
         }
         // At the corners of a cube: each is near.
-        const Vec3 corner(i % 2 == 0 ? -1.0 : 1.0, i % 4 < 2 ? -1.0 : 1.0, i < 4 ? -1.0 : 1.0);
+        const Vec3 corner(i % 2 == 0 ? -1.0 : 1.0, i % 4 < 2 ? -1.0 : 1.0, i % 8 < 4 ? -1.0 : 1.0);
         ScenePart &part = test::add(touch, test::cooked(std::move(shape)),
-                                    {0.032 * corner, random.rotation(3.0)});
+                                    {(i < 8 ? 0.032 : 0.05) * corner, random.rotation(3.0)});
         part.friction = 0.4;
+        part.traits = kind == Kind::pads_and_materials ? all_traits() : SurfaceTraits();
+    }
+    if (kind == Kind::held_on_hinge) {
+        ToolJoint &joint = touch.tool.joints[0];
+        joint.id = 1;
+        joint.base.origin_m = Vec3(-0.08, 0.0, 0.0);
+        joint.in_grip.origin_m = Vec3(-0.08, 0.0, 0.0);
+        joint.axes[4] = {1.0, -1.0, 0.2};
+        touch.tool.joint_count = 1;
     }
     return touch;
 }
 
-void eight_bodies(bool held, std::vector<BenchRow> &rows) {
+void among(const char *set, Kind kind, int bodies, std::vector<BenchRow> &rows) {
     test::CaseRandom random(kSeed, 1);
     const std::size_t cycles = limited(kCycles);
     SampleTimes times(cycles);
-    Hand hand(among_eight(held, random));
+    Hand hand(among_bodies(kind, bodies, random));
     const std::size_t before = allocations().count;
     for (std::size_t i = 0; i < cycles; ++i) {
         const double t = kPeriod_s * static_cast<double>(i);
@@ -126,7 +150,7 @@ void eight_bodies(bool held, std::vector<BenchRow> &rows) {
         (void)hand.cycle(times);
     }
     const std::size_t allocated = allocations().count - before;
-    report(held ? "held hull, 8 bodies" : "two pads, 8 bodies", "moving", times, kNoFigure, rows);
+    report(set, "moving", times, kNoFigure, rows);
     std::printf("    allocations %zu\n", allocated);
 }
 
@@ -206,8 +230,11 @@ void pads_over_field(std::vector<BenchRow> &rows) {
 int bench_touch(std::vector<BenchRow> &rows) {
     print_header("a servo cycle's part of real shapes (errors as the mode says)");
     nothing_near(rows);
-    eight_bodies(false, rows);
-    eight_bodies(true, rows);
+    among("two pads, 8 bodies", Kind::pads, 8, rows);
+    among("held hull, 8 bodies", Kind::held, 8, rows);
+    among("two pads, 10 bodies", Kind::pads, 10, rows);
+    among("the same, with materials", Kind::pads_and_materials, 10, rows);
+    among("held hull on a hinge", Kind::held_on_hinge, 8, rows);
     const long snags = over_field(0.1, rows) + over_field(0.4, rows);
     pads_over_field(rows);
     return snags == 0 ? 0 : 1;

@@ -53,7 +53,7 @@ struct Gate {
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr std::size_t kGates = 31;
+constexpr std::size_t kGates = 37;
 using Gates = std::array<Gate, kGates>;
 
 Gates all_gates() {
@@ -98,6 +98,12 @@ Gates all_gates() {
             work("energy of a tap, peg", "tap_peg_mj"),
             still("dither, peg", "peg_mm"),
             Gate{"dither, peg, turns", "peg_deg", "deg", kStillPeg_rad, kDegrees},
+            work("energy of a tap and slide, material", "tap_material_mj"),
+            still("dither, material", "material_mm"),
+            turn("dither, material, turns", "material_deg"),
+            work("energy of a swing, door", "swing_door_mj"),
+            still("dither, door", "door_mm"),
+            turn("dither, door, turns", "door_deg"),
             Gate{"face or ball", "face_percent", "%", kSameFace, 100.0},
             feel("moving floor", "floor_percent")};
 }

@@ -112,7 +112,7 @@ void print_bounds(double latency_s) {
 constexpr double kCap = 1.0 / kAutomaticShare;
 constexpr double kSoftestPart = 0.5;
 constexpr double kStiffestPart = 8.0;
-constexpr const char *kWallNames[kTouchWalls] = {"face", "bar's end", "width", "peg"};
+constexpr const char *kWallNames[kStiffWalls] = {"face", "bar's end", "width", "peg"};
 
 bool holds_still(const Variant &variant, HandFirmness hand, double latency_s, TouchWall wall,
                  double part) {
@@ -156,7 +156,7 @@ int print_limits(const Variant &variant, double latency_s) {
                     static_cast<int>(worst), target.unit);
         std::fflush(stdout);
     }
-    for (int i = 0; i < kTouchWalls; ++i) {
+    for (int i = 0; i < kStiffWalls; ++i) {
         const double most = limit(variant, latency_s, static_cast<TouchWall>(i));
         missed += most >= kCap ? 0 : 1;
         std::printf("%-14s %12.3g %10.3g     times the automatic stiffness\n", kWallNames[i], most,
@@ -207,7 +207,7 @@ int main(int argc, char **argv) {
                             static_cast<int>(hand), still ? "still" : "NOT STILL");
             }
         }
-        for (int i = 0; i < kTouchWalls; ++i) {
+        for (int i = 0; i < kStiffWalls; ++i) {
             for (const HandFirmness hand : kHands) {
                 const bool still =
                     holds_still(shipped, hand, kLatency_s, static_cast<TouchWall>(i), kCap);

@@ -7,9 +7,11 @@
 namespace spidar::test {
 
 // What a hand presses, each with an automatic stiffness: a face of four corners on a floor, the end of a bar on a floor, a box
-// between the pads, a peg that fills a hole.
-enum class TouchWall { face, bar, width, peg };
-inline constexpr int kTouchWalls = 4;
+// between the pads, a peg that fills a hole; a face on a floor with all that a material can have, on which the hand also
+// slides, and a door on a hinge with a spring and a limit.
+enum class TouchWall { face, bar, width, peg, material, door };
+inline constexpr int kStiffWalls = 4; // those that have a limit of their stiffness
+inline constexpr int kTouchWalls = 6;
 
 inline constexpr double kFloor_m = -0.01; // below the grip's centre
 
@@ -59,6 +61,23 @@ inline TouchScene scene_of(TouchWall wall) {
         add(touch, cooked_half_space(), {Vec3(0.0, -0.03, 0.0), Mat3(1.0)});
         break;
     }
+    case TouchWall::material: {
+        add_tool(touch, box_tool({0.03, 0.01, 0.02}));
+        ScenePart &floor = add(touch, cooked_half_space(), {Vec3(0.0, kFloor_m, 0.0), Mat3(1.0)});
+        floor.friction = 0.3;
+        floor.traits = {0.8, true, 0.5, 0.5, 0.005, {0.003, 0.0002, Vec3(0.0)}};
+        break;
+    }
+    case TouchWall::door: {
+        add_tool(touch, box_tool({0.01, 0.02, 0.01}));
+        ToolJoint &joint = touch.tool.joints[0];
+        joint.id = 1;
+        joint.base.origin_m = Vec3(-0.08, 0.0, 0.0);
+        joint.in_grip.origin_m = Vec3(-0.08, 0.0, 0.0);
+        joint.axes[4] = {-0.1, 0.1, 0.5};
+        touch.tool.joint_count = 1;
+        break;
+    }
     }
     return touch;
 }
@@ -80,6 +99,14 @@ inline HandTarget touch_target(TouchWall wall, double part) {
     case TouchWall::peg:
         target.position_m = Vec3(0.004, -0.008, 0.003) * part;
         target.rotation = turned_about_z(0.1 * part);
+        break;
+    case TouchWall::material:
+        target.position_m = Vec3(0.01, -0.004, 0.006) * part;
+        break;
+    case TouchWall::door:
+        // Past its limit, and out of its hinge.
+        target.position_m = Vec3(0.003, 0.002, -0.014) * part;
+        target.rotation = glm::mat3_cast(glm::angleAxis(0.18 * part, Vec3(0.0, 1.0, 0.0)));
         break;
     }
     return target;

@@ -263,8 +263,10 @@ func _warnings(socket: SpidarGSocket) -> String:
 	return "\n".join(socket._get_configuration_warnings())
 
 
+## Of the sockets: each hand watches, too, for joints.
 func _watchers() -> int:
-	return tree.node_added.get_connections().size()
+	return tree.node_added.get_connections().filter(func(connection: Dictionary) -> bool:
+		return not (connection["callable"] as Callable).get_object() is SpidarGHand).size()
 
 
 func _helpers(of: SpidarGHand) -> int:

@@ -250,13 +250,13 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
         note_own(stop);
     }
     for (std::size_t k = stop + 1; k < static_cast<std::size_t>(row_count_); ++k) {
-        // A joint's limit is damped like a contact, but by no more than its own spring: one that is run into gives no blow.
+        // A joint's limit is damped like a contact.
         double speed = 0.0;
         for (std::size_t dof = 0; dof < kDofCount; ++dof) {
             speed += rows[k].row[dof] * root_[dof] * lanes(velocity)[dof];
         }
         if (rows[k].depth > 0.0) {
-            rows[k].depth -= std::clamp(settings_.damping_s * speed, -rows[k].depth, rows[k].depth);
+            rows[k].depth = std::max(0.0, rows[k].depth - settings_.damping_s * speed);
             note_own(k);
         }
     }

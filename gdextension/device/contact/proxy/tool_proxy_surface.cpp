@@ -19,7 +19,7 @@ namespace {
 constexpr double kFinestPassing = 0.125;
 // Of the stiffness between grip and proxy, what the slopes of a texture may add along the surface. A harder push would make a
 // valley so stiff that the link's latency lets the hand shake in it: there the texture is flattened.
-constexpr double kTextureShare = 0.5;
+constexpr double kTextureShare = 0.35;
 // Adhesion rises with the stiffness between grip and proxy, and then falls as steeply: it ends at twice the way to its top.
 constexpr double kAdhesionWays = 2.0;
 

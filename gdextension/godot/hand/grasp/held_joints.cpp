@@ -1,6 +1,7 @@
 #include "godot/hand/grasp/held_joints.h"
 
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -14,6 +15,7 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/slider_joint3d.hpp>
 
+#include "core/geometry/rotation_log.h"
 #include "godot/base/type_conversions.h"
 
 namespace spidar {
@@ -220,6 +222,12 @@ void add_damping(const godot::RigidBody3D &body, const Transform3D &frame, Axes 
     }
 }
 
+// A body that nothing keeps in place hangs on the held one: the physics engine takes it along.
+bool gives_way(const godot::PhysicsBody3D *body) {
+    const auto *const rigid = Object::cast_to<godot::RigidBody3D>(body);
+    return rigid != nullptr && !rigid->is_freeze_enabled();
+}
+
 } // namespace
 
 int HeldJoints::take(SceneJoints &joints, const godot::RigidBody3D &body) {
@@ -234,6 +242,7 @@ int HeldJoints::take(SceneJoints &joints, const godot::RigidBody3D &body) {
 std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Transform3D &in_grip,
                                        const WorldFrame &frame, double tick_s) {
     std::vector<ToolJoint> all;
+    std::unordered_map<std::uint64_t, Placement> bases;
     std::erase_if(held_, [](const SceneJoints::Found &one) {
         const auto *const node = Object::cast_to<godot::Joint3D>(ObjectDB::get_instance(one.joint));
         return node == nullptr || !node->is_inside_tree() ||
@@ -243,6 +252,9 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
         const auto *const node = Object::cast_to<godot::Joint3D>(ObjectDB::get_instance(one.joint));
         const auto *const other =
             Object::cast_to<godot::PhysicsBody3D>(ObjectDB::get_instance(one.other.body));
+        if (gives_way(other)) {
+            continue;
+        }
         const Transform3D base =
             other != nullptr ? other->get_global_transform().orthonormalized() * one.other.frame
                              : one.other.frame;
@@ -250,14 +262,14 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
         joint.id = static_cast<std::int32_t>(one.joint & 0x7fffffffU);
         joint.base = {frame.point_to_device(to_core(base.origin)),
                       glm::transpose(frame.rotation) * to_core(base.basis)};
-        if (const auto *rigid = Object::cast_to<godot::RigidBody3D>(other);
-            rigid != nullptr && !rigid->is_freeze_enabled()) {
-            const Vec3 turning = to_core(rigid->get_angular_velocity());
-            const Vec3 lever = to_core(base.origin - other->get_global_position());
-            joint.velocity_m_s = frame.velocity_to_device(to_core(rigid->get_linear_velocity()) +
-                                                          glm::cross(turning, lever));
-            joint.angular_rad_s = frame.turn_to_device(turning);
+        const auto before = bases_.find(one.joint);
+        if (before != bases_.end()) {
+            joint.velocity_m_s = (joint.base.origin_m - before->second.origin_m) / tick_s;
+            joint.angular_rad_s =
+                rotation_log(joint.base.rotation * glm::transpose(before->second.rotation)) /
+                tick_s;
         }
+        bases[one.joint] = joint.base;
         const Transform3D tool = in_grip * one.held.frame;
         joint.in_grip = {to_core(tool.origin) / frame.scale, to_core(tool.basis.orthonormalized())};
         Axes axes = axes_of(*node, tick_s);
@@ -271,6 +283,7 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
         }
         all.push_back(joint);
     }
+    bases_ = std::move(bases);
     return all;
 }
 

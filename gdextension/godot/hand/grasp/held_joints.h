@@ -2,6 +2,8 @@
 // dampers and motors. Which way the engine counts is told in docs/haptic_rendering.md, "Held things on joints". Main thread only.
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "device/contact/proxy/tool_joint.h"
@@ -18,16 +20,20 @@ class HeldJoints {
 public:
     // A body has just been caught. Returns how many of its joints are more than the servo loop takes.
     int take(SceneJoints &joints, const godot::RigidBody3D &body);
-    void drop() { held_.clear(); }
-    [[nodiscard]] bool are_there() const noexcept { return !held_.empty(); }
+    void drop() {
+        held_.clear();
+        bases_.clear();
+    }
 
-    // As they are now. in_grip: of the held body, scene metres; frame: of the device's node; tick_s: of a physics tick.
+    // Those to something that stands or is moved by itself, as they are now. in_grip: of the held body, scene metres; frame: of the device's node; tick_s: of a physics tick.
     [[nodiscard]] std::vector<ToolJoint> now(const godot::RigidBody3D &body,
                                              const godot::Transform3D &in_grip,
                                              const WorldFrame &frame, double tick_s);
 
 private:
     std::vector<SceneJoints::Found> held_;
+    // By the joint, of the last tick: how fast it moves.
+    std::unordered_map<std::uint64_t, Placement> bases_;
 };
 
 } // namespace spidar
