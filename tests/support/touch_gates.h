@@ -65,7 +65,8 @@ inline TouchScene scene_of(TouchWall wall) {
         add_tool(touch, box_tool({0.03, 0.01, 0.02}));
         ScenePart &floor = add(touch, cooked_half_space(), {Vec3(0.0, kFloor_m, 0.0), Mat3(1.0)});
         floor.friction = 0.3;
-        floor.traits = {0.8, true, 0.5, 0.5, 0.005, {0.003, 0.0002, Vec3(0.0)}};
+        // Without stick-slip, which creaks under a hand that pulls: by itself that is no dither.
+        floor.traits = {0.8, false, 0.5, 0.5, 0.005, {0.003, 0.0002, Vec3(0.0)}};
         break;
     }
     case TouchWall::door: {
@@ -101,12 +102,12 @@ inline HandTarget touch_target(TouchWall wall, double part) {
         target.rotation = turned_about_z(0.1 * part);
         break;
     case TouchWall::material:
-        target.position_m = Vec3(0.01, -0.004, 0.006) * part;
+        target.position_m = Vec3(0.006, -0.004, 0.004) * part;
         break;
     case TouchWall::door:
         // Past its limit, and out of its hinge.
-        target.position_m = Vec3(0.003, 0.002, -0.014) * part;
-        target.rotation = glm::mat3_cast(glm::angleAxis(0.18 * part, Vec3(0.0, 1.0, 0.0)));
+        target.position_m = Vec3(0.0015, 0.001, -0.011) * part;
+        target.rotation = glm::mat3_cast(glm::angleAxis(0.14 * part, Vec3(0.0, 1.0, 0.0)));
         break;
     }
     return target;

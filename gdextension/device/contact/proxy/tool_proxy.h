@@ -171,7 +171,7 @@ private:
     // Traits of the surfaces (tool_proxy_surface.cpp). How far off they are felt.
     [[nodiscard]] double magnet_range_m(const SurfaceTraits &traits) const noexcept;
     [[nodiscard]] double reach_m(const SurfaceTraits &traits) const noexcept;
-    // Sets the contact's slope; returns the height of the texture under it, at most 0. push_n: without the texture.
+    // Sets the contact's slope and damping along it; returns the height of the texture under it, at most 0. push_n: without the texture.
     double press_into(ProxyContact &contact, const ScenePart &other, double push_n,
                       const Vec3 &speed_m_s, double dt_s) const noexcept;
     [[nodiscard]] bool stuck_before(const ProxyContact &contact) const noexcept;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kFinestPassing = 0.125;
 // Of the stiffness between grip and proxy, what the slopes of a texture may add along the surface. A harder push would make a
 // valley so stiff that the link's latency lets the hand shake in it: there the texture is flattened.
-constexpr double kTextureShare = 0.35;
+constexpr double kTextureShare = 0.25;
 // Adhesion rises with the stiffness between grip and proxy, and then falls as steeply: it ends at twice the way to its top.
 constexpr double kAdhesionWays = 2.0;
 
@@ -75,6 +75,8 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
     const double most_n_m = kTextureShare * settings_.stiffness[0];
     const double kept = std::clamp(2.0 - passing / kFinestPassing, 0.0, 1.0) *
                         std::min(1.0, most_n_m / std::max(stiffens_n_m, most_n_m));
+    // What makes the surface stiffer along itself is damped as a contact is.
+    contact.drawn_n = -(settings_.damping_s * kept * stiffens_n_m) * slides_m_s;
     contact.slope = along_surface(kept * (turn * relief.slope), contact.normal);
     return kept * relief.height_m;
 }
