@@ -9,13 +9,18 @@ const BIAS_N: float = 0.06
 var device: SpidarG
 var player: SpidarGClipPlayer
 var tick_cycles: int = TICK_CYCLES
-## What the strings gave the hand, and what was asked for, in each cycle of the last run() (N, world).
+## Of the tension solver; less than 0: as the device comes.
+var change_weight: float = -1.0
+## What the strings gave the hand, what the tensions achieved, and what was asked for, in each cycle of the last run() (N, world).
 var felt: PackedVector3Array = []
+var achieved: PackedVector3Array = []
 var asked: PackedVector3Array = []
 
 
 func set_up(clip: SpidarGClip = null) -> void:
 	device = ideal_device()
+	if change_weight >= 0.0:
+		device.config.change_weight = change_weight
 	device.forces_enabled = true
 	add(device)
 	await physics_frames(1)
@@ -49,12 +54,14 @@ static func buzz(hz: float, strength_n: float, hold_s: float, attack_s: float = 
 ## Game ticks of `tick_cycles` servo cycles.
 func run(seconds: float) -> void:
 	felt.clear()
+	achieved.clear()
 	asked.clear()
 	for _tick: int in ceili(seconds * 1000.0 / tick_cycles):
 		await physics_frames(1)
 		for _cycle: int in tick_cycles:
 			device.advance_cycles(1)
 			felt.append(force_of(device.get_simulated_truth()["strings_wrench"]))
+			achieved.append(force_of(device.get_achieved_wrench()))
 			asked.append(force_of(device.get_requested_wrench()))
 
 

@@ -16,12 +16,27 @@ func test_frequency_and_peak_are_felt_as_the_clip_says() -> void:
 			print("INFO %.0f Hz, %.1f N: felt %.2f Hz, %.3f N, asked for %.3f N" % [hz, strength_n, felt_hz, felt_n, peak_n(asked)])
 			check_near(felt_hz, hz, 0.02 * hz, "%s Hz, %s N: frequency" % [hz, strength_n])
 			check_near(peak_n(asked), strength_n, 0.02 * strength_n, "%s Hz, %s N: peak that is asked for" % [hz, strength_n])
-			# The tension solver smooths what changes from cycle to cycle: a lag of 0.6 ms, which weakens fast vibrations.
+			# As if it lagged by 0.6 ms; the next test says where that comes from.
 			var due_n: float = strength_n / sqrt(1.0 + pow(TAU * hz * 0.0006, 2.0))
 			check_near(felt_n, due_n, 0.05 * strength_n, "%s Hz, %s N: peak behind the lag" % [hz, strength_n])
 			if hz <= 120.0:
 				check_near(felt_n, strength_n, 0.1 * strength_n, "%s Hz, %s N: peak" % [hz, strength_n])
 			await leave()
+
+
+## What is lost above 120 Hz is lost behind the request: a part in the tension solver, whose change_weight holds back what changes
+## from cycle to cycle, and a part between the tensions that are achieved and the hand of the simulated device.
+func test_fast_vibrations_are_weaker_and_change_weight_is_one_part_of_it() -> void:
+	for told: Array in [[-1.0, 150.0, 0.93, 0.87], [-1.0, 250.0, 0.87, 0.73], [0.005, 150.0, 1.0, 0.92], [0.005, 250.0, 1.0, 0.84]]:
+		change_weight = told[0]
+		await set_up(buzz(told[1], 1.0, 0.6))
+		player.play()
+		await run(0.7)
+		print("INFO change_weight %s, %s Hz, 1 N: achieved %.3f N, felt %.3f N" % [told[0], told[1], peak_n(achieved, 40, 580), peak_n(felt, 40, 580)])
+		check_near(peak_n(achieved, 40, 580), told[2], 0.03, "%s: achieved by the tensions" % [told])
+		check_near(peak_n(felt, 40, 580), told[3], 0.03, "%s: felt" % [told])
+		await leave()
+	change_weight = -1.0
 
 
 func test_the_envelope_lasts_as_long_as_the_clip_at_every_tick_rate() -> void:

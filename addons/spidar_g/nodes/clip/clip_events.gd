@@ -4,6 +4,8 @@ extends RefCounted
 ## direction: along which the hand met the body, unit length, or zero where nothing tells it. speed: at which it came (device
 ## m/s), for Event.IMPACT alone.
 signal occurred(hand: SpidarGHand, direction: Vector3, speed: float)
+## The hand is off the surface again, for the events of a touch.
+signal left(hand: SpidarGHand)
 ## The hand does not slip any more.
 signal slip_ended(hand: SpidarGHand)
 ## The children of the source are others: a surface may have come or gone.
@@ -41,6 +43,7 @@ func connect_to(event: Event, from: Source, hands: Array[SpidarGHand]) -> void:
 		Event.TOUCH, Event.IMPACT:
 			if source.surface != null:
 				_answer(source.surface.touched, _on_touched)
+				_answer(source.surface.touch_ended, left.emit)
 		Event.TOUCH_END:
 			if source.surface != null:
 				_answer(source.surface.touch_ended, _on_touch_ended)
@@ -49,12 +52,10 @@ func connect_to(event: Event, from: Source, hands: Array[SpidarGHand]) -> void:
 				_answer(source.surface.slip_started, _on_slip_started)
 				_answer(source.surface.slip_ended, _on_slip_ended)
 		Event.GRASP, Event.RELEASE:
-			var asked: Array[SpidarGHand] = hands if source.body != null else [] as Array[SpidarGHand]
-			if source.hand != null:
-				asked = [source.hand]
-			for hand: SpidarGHand in asked:
-				var told: Signal = hand.body_grasped if event == Event.GRASP else hand.body_released
-				_answer(told, _on_body.bind(hand.get_instance_id()))
+			for hand: SpidarGHand in hands:
+				if hand == source.hand or source.body != null:
+					var told: Signal = hand.body_grasped if event == Event.GRASP else hand.body_released
+					_answer(told, _on_body.bind(hand.get_instance_id()))
 
 
 func leave() -> void:

@@ -24,7 +24,8 @@ extends Resource
 ## set to 5 or 250 Hz. The sound itself is not heard: play it by an [AudioStreamPlayer].[br]
 ## [b]How exact:[/b] the servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
 ## Amplitudes between two ticks are interpolated, so a rise or fall takes at least 16 ms, and what is shorter than a tick is felt
-## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached.
+## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached. On the
+## simulated device up to 120 Hz is felt within 10 % of [member strength]; 150 Hz is 13 % and 250 Hz 27 % weaker.
 
 const WavFeel := preload("wav_feel.gd")
 

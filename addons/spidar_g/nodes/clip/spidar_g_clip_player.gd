@@ -20,7 +20,7 @@ extends Node
 ## source itself or a child of it. Grasps come from the hand, or from every hand that grasps the body.[br]
 ## [b]Who feels it.[/b] The device of the hand that the event is about. [method play] plays on the device above the player, or on
 ## every open device of the same world if there is none above it.[br]
-## [b]Once.[/b] A device plays a player's clip once at a time: a clip that is played again begins anew.[br]
+## [b]Once.[/b] A device plays a player's clip once at a time: [method play] begins it anew.[br]
 ## [b]Limits.[/b] A device renders 6 effects at once, those of zones, sockets and scripts included. If none is free, the clip is
 ## not played, and one warning says so. Players use the effect ids from [constant FIRST_ID] to 999999. The vibration ends within
 ## 0.1 s when the clip is over, when the player is paused or disabled or leaves the scene tree, and when the game hangs. A
@@ -59,6 +59,8 @@ const Source := preload("clip_source.gd")
 ## Effect ids of players begin here. Zones have those from 1000000 on, sockets negative ones; a game's own should be smaller.
 const FIRST_ID: int = 500000
 const ID_COUNT: int = 500000
+## A hand that comes back sooner bounces, s.
+const BOUNCE_S: float = 0.1
 
 static var _made: int = 0
 
@@ -87,9 +89,11 @@ static var _made: int = 0
 	set(value):
 		source_path = value
 		_look()
-## Least time between the beginnings of two clips that events start on one device, in seconds of the device, from 0 to 60. It
-## keeps a trembling hand from starting the clip again and again. It does not count for [method play] and for [constant SLIP].
-## Any other value is refused with an error, and the old one stays.
+## Time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from 0 to 60. Two
+## more rules keep a clip from starting itself again, because a strong one shakes a light finger off the surface and onto it: no
+## event starts a clip that is being played, and a hand must have been off the surface for 0.1 s before it touches anew. They
+## do not suffice for a very loose hand and a slow, strong clip (2 N at 15 Hz), which throws the hand off for longer: lengthen
+## the cooldown to 0.5 s there. None of them counts for [method play] and for [constant SLIP]. Any other value is refused with an error, and the old one stays.
 @export_range(0.0, 60.0, 0.01, "suffix:s") var cooldown: float = 0.1:
 	set(value):
 		cooldown = _checked("cooldown", value, cooldown, "s", 0.0, 60.0)
@@ -112,9 +116,11 @@ static var _made: int = 0
 var _id: int = FIRST_ID
 var _devices: Devices = null
 var _events := Events.new()
-## By the instance of the device, as below: when an event last started the clip there, s of the device.
+## By the instance of the device, as below: when the last clip ended there, and when the hand last did anything that an event
+## may come from, s of the device.
 var _runs: Dictionary[int, Run] = {}
-var _event_s: Dictionary[int, float] = {}
+var _ended_s: Dictionary[int, float] = {}
+var _heard_s: Dictionary[int, float] = {}
 ## Whether it was said that no effect is free, since a clip was last played.
 var _is_told: bool = false
 
@@ -123,6 +129,7 @@ func _init() -> void:
 	_id = FIRST_ID + _made % ID_COUNT
 	_made += 1
 	_events.occurred.connect(_on_occurred)
+	_events.left.connect(_on_left)
 	_events.slip_ended.connect(_on_slip_ended)
 	_events.source_changed.connect(_look)
 
@@ -186,7 +193,8 @@ func _ready() -> void:
 func _exit_tree() -> void:
 	stop()
 	_events.leave()
-	_event_s.clear()
+	_ended_s.clear()
+	_heard_s.clear()
 	if Engine.is_editor_hint():
 		get_parent().child_order_changed.disconnect(update_configuration_warnings)
 	if _devices != null:
@@ -259,19 +267,29 @@ func _warn() -> void:
 
 func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 	var spidar: SpidarG = hand.spidar
-	if spidar == null or not can_process() or clip == null or not clip.get_problem().is_empty():
+	if spidar == null or not can_process() or not _get_problem().is_empty():
 		return
-	var share: float = 1.0
-	if event == Event.IMPACT:
-		if speed < least_impact_speed:
-			return
-		share = minf(1.0, speed / full_impact_speed) if scale_by_impulse else 1.0
+	if event == Event.SLIP:
+		_start(spidar, along, 1.0, true)
+		return
+	if not _is_new(spidar) or (event == Event.IMPACT and speed < least_impact_speed):
+		return
+	var is_scaled: bool = event == Event.IMPACT and scale_by_impulse
+	_start(spidar, along, minf(1.0, speed / full_impact_speed) if is_scaled else 1.0, false)
+
+
+## Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
+func _is_new(spidar: SpidarG) -> bool:
+	var id: int = spidar.get_instance_id()
 	var now_s: float = spidar.get_device_time_s()
-	var since_s: float = now_s - _event_s.get(spidar.get_instance_id(), -INF)
-	if event != Event.SLIP and since_s < cooldown:
-		return
-	if _start(spidar, along, share, event == Event.SLIP):
-		_event_s[spidar.get_instance_id()] = now_s
+	var before_s: float = _heard_s.get(id, -INF)
+	_heard_s[id] = now_s
+	return not _runs.has(id) and now_s - before_s >= BOUNCE_S and now_s - _ended_s.get(id, -INF) >= cooldown
+
+
+func _on_left(hand: SpidarGHand) -> void:
+	if is_instance_valid(hand) and hand.spidar != null:
+		_heard_s[hand.spidar.get_instance_id()] = hand.spidar.get_device_time_s()
 
 
 func _on_slip_ended(hand: SpidarGHand) -> void:
@@ -322,7 +340,10 @@ func _drop(id: int) -> void:
 	_runs.erase(id)
 	run.stop()
 	_choose()
-	finished.emit(run.spidar if is_instance_valid(run.spidar) else null)
+	var is_there: bool = is_instance_valid(run.spidar)
+	if is_there:
+		_ended_s[id] = run.spidar.get_device_time_s()
+	finished.emit(run.spidar if is_there else null)
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
