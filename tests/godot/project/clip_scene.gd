@@ -9,6 +9,8 @@ const BIAS_N: float = 0.06
 var device: SpidarG
 var player: SpidarGClipPlayer
 var tick_cycles: int = TICK_CYCLES
+## Whether strings are elastic and have friction, as on a simulated device as it comes.
+var is_elastic: bool = false
 ## Of the tension solver; less than 0: as the device comes.
 var change_weight: float = -1.0
 ## What the strings gave the hand, what the tensions achieved, and what was asked for, in each cycle of the last run() (N, world).
@@ -19,6 +21,8 @@ var asked: PackedVector3Array = []
 
 func set_up(clip: SpidarGClip = null) -> void:
 	device = ideal_device()
+	if is_elastic:
+		device.config = SpidarGConfig.new()
 	if change_weight >= 0.0:
 		device.config.change_weight = change_weight
 	device.forces_enabled = true

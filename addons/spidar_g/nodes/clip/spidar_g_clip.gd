@@ -7,7 +7,7 @@ extends Resource
 ## A clip is either described by its numbers, or made from a sound.
 ## [codeblock]
 ## var knock := SpidarGClip.new()
-## knock.frequency = 90.0
+## knock.frequency = 50.0
 ## knock.strength = 1.5
 ## knock.hold = 0.02
 ## knock.release = 0.08
@@ -24,8 +24,11 @@ extends Resource
 ## set to 5 or 250 Hz. The sound itself is not heard: play it by an [AudioStreamPlayer].[br]
 ## [b]How exact:[/b] the servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
 ## Amplitudes between two ticks are interpolated, so a rise or fall takes at least 16 ms, and what is shorter than a tick is felt
-## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached. On the
-## simulated device up to 120 Hz is felt within 10 % of [member strength]; 150 Hz is 13 % and 250 Hz 27 % weaker.
+## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached.[br]
+## [b]How strong.[/b] [member strength] is what the servo loop asks for. The strings of the device change it. On the simulated
+## device as it comes, whose strings are elastic, 20 to 40 Hz is felt within 10 %, 60 Hz is 1.2 times, 80 Hz 1.8 times and 100 to
+## 120 Hz 2 to 3.6 times as strong, and 250 Hz is a tenth. With stiff strings ([member SpidarGConfig.simulated_elastic] off) up to
+## 120 Hz is felt within 10 %, 150 Hz is 13 % and 250 Hz 27 % weaker. It was not measured on a real device: begin with weak clips.
 
 const WavFeel := preload("wav_feel.gd")
 
@@ -45,7 +48,7 @@ const MOST_N: float = 2.0
 			push_error("%s is not played: %s" % [_label(), WavFeel.problem(stream)])
 		notify_property_list_changed()
 		emit_changed()
-## Amplitude of the force where the clip is strongest, in newtons, from 0 to 2. Any other value is refused with an error, and
+## Amplitude of the force that is asked for where the clip is strongest, in newtons, from 0 to 2. Any other value is refused with an error, and
 ## the old one stays.
 @export_range(0.0, 2.0, 0.05, "suffix:N") var strength: float = 1.0:
 	set(value):
@@ -60,7 +63,7 @@ const MOST_N: float = 2.0
 ## Frequency of the vibration, in hertz, from 5 to 250. The device gives at most a quarter of its servo rate. Of a clip with a
 ## [member stream] it counts only if no frequency is found in the sound. Any other value is refused with an error, and the old
 ## one stays.
-@export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 80.0:
+@export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 50.0:
 	set(value):
 		frequency = _checked("frequency", value, frequency, "Hz", WavFeel.LEAST_HZ, WavFeel.MOST_HZ)
 		_sound = null

@@ -9,7 +9,7 @@ extends Node
 ## RigidBody3D                  a cup
 ## ├─ CollisionShape3D
 ## ├─ SpidarGSurface            tells of touch and slip
-## └─ SpidarGClipPlayer         event: Impact, clip: a knock of 90 Hz
+## └─ SpidarGClipPlayer         event: Impact, clip: a knock of 50 Hz
 ## [/codeblock]
 ## [codeblock]
 ## func _on_button_pressed() -> void:
