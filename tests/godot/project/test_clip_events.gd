@@ -301,6 +301,20 @@ func test_a_surface_or_a_hand_that_comes_later_counts() -> void:
 	_leave()
 
 
+func test_a_body_that_leaves_and_comes_back_is_hit_again() -> void:
+	await _set_up_floor(SpidarGClipPlayer.Event.IMPACT, ClipScene.buzz(HZ, 1.0, 0.1))
+	floor_body.move_child(player, 0) # before its surface
+	for count: int in [1, 2]:
+		await press(0.2)
+		check_equal(told.count("started"), count, "hit %d" % count)
+		await glide(Vector3(0, ABOVE_Y, 0), 0.2)
+		tree.root.remove_child(floor_body)
+		await physics_frames(5)
+		tree.root.add_child(floor_body)
+		await physics_frames(5)
+	_leave()
+
+
 func test_each_event_without_a_source_has_a_warning_with_a_remedy() -> void:
 	var body := StaticBody3D.new()
 	var free := RigidBody3D.new()

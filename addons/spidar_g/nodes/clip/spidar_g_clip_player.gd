@@ -58,8 +58,9 @@ const Run := preload("clip_run.gd")
 const Source := preload("clip_source.gd")
 ## Effect ids of players begin here. Zones have those from 1000000 on, sockets negative ones; a game's own should be smaller.
 const FIRST_ID: int = 500000
+## How many effect ids players have; after the last one they begin again.
 const ID_COUNT: int = 500000
-## A hand that comes back sooner bounces, s.
+## A hand that was quiet for less than this bounces, s.
 const BOUNCE_S: float = 0.1
 
 static var _made: int = 0
@@ -81,19 +82,20 @@ static var _made: int = 0
 	set(value):
 		event = value
 		notify_property_list_changed()
-		_look()
+		_look_and_warn()
 ## The [SpidarG], [SpidarGHand], [SpidarGSurface] or physics body that the event comes from. If it is empty, the nearest
 ## ancestor that is one of them counts. It is looked for when the player enters the scene tree, when this is set, and when a
 ## device or a hand enters or leaves. A path that leads to something else gives a warning, and no event comes.
 @export_node_path("Node") var source_path: NodePath:
 	set(value):
 		source_path = value
-		_look()
-## Time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from 0 to 60. Two
-## more rules keep a clip from starting itself again, because a strong one shakes a light finger off the surface and onto it: no
-## event starts a clip that is being played, and a hand must have been off the surface for 0.1 s before it touches anew. They
-## do not suffice for a very loose hand and a slow, strong clip (2 N at 15 Hz), which throws the hand off for longer: lengthen
-## the cooldown to 0.5 s there. None of them counts for [method play] and for [constant SLIP]. Any other value is refused with an error, and the old one stays.
+		_look_and_warn()
+## Time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from 0 to 60. Any
+## other value is refused with an error, and the old one stays.[br]
+## A strong clip shakes a light finger off the surface and onto it again, which must not start the clip anew. So two more rules
+## hold: no event starts a clip that is being played, and an event counts only if the hand was quiet for the last 0.1 s, without
+## another such event and without leaving the surface. A slow and strong clip (2 N at 15 Hz) throws a very loose hand off for
+## longer: set the cooldown to 0.5 s there. Nothing of this counts for [method play] and for [constant SLIP].
 @export_range(0.0, 60.0, 0.01, "suffix:s") var cooldown: float = 0.1:
 	set(value):
 		cooldown = _checked("cooldown", value, cooldown, "s", 0.0, 60.0)
@@ -178,16 +180,11 @@ func _enter_tree() -> void:
 		return
 	_devices = Devices.of(get_tree())
 	_devices.changed.connect(_look)
-	if is_node_ready():
-		_look()
 
 
-## The engine turns processing on just before.
+## Each time that the player has entered the tree, and its neighbors too. The engine turns processing on just before.
 func _ready() -> void:
-	_look()
-	if _devices != null:
-		# What is added in the same frame counts.
-		_warn.call_deferred()
+	_look_and_warn()
 
 
 func _exit_tree() -> void:
@@ -195,6 +192,7 @@ func _exit_tree() -> void:
 	_events.leave()
 	_ended_s.clear()
 	_heard_s.clear()
+	request_ready()
 	if Engine.is_editor_hint():
 		get_parent().child_order_changed.disconnect(update_configuration_warnings)
 	if _devices != null:
@@ -252,6 +250,12 @@ func _look() -> void:
 		if run.loops and (event != Event.SLIP or _events.source.surface != old):
 			run.end()
 	_choose()
+
+
+func _look_and_warn() -> void:
+	_look()
+	if _devices != null and is_node_ready():
+		_warn.call_deferred() # what else is added or set in the same frame counts
 
 
 func _choose() -> void:
