@@ -34,11 +34,16 @@ func _ready() -> void:
 	device.add_child(SpidarGZone.new())
 	var body := StaticBody3D.new()
 	body.add_child(SpidarGSocket.new())
+	var player := SpidarGClipPlayer.new()
+	player.clip = SpidarGClip.new()
+	player.event = SpidarGClipPlayer.Event.TOUCH
+	body.add_child(player)
 	add_child(body)
 	var panel: SpidarGPanel = (load(PANEL_SCENE) as PackedScene).instantiate()
 	panel.device = device
 	add_child(panel)
 	hand.body_grasped.connect(_on_body_grasped)
+	player.play()
 	device.set_forces_enabled(true)
 
 

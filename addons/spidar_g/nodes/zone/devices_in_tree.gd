@@ -1,12 +1,13 @@
 extends RefCounted
-## All [SpidarG] nodes of a scene tree, kept by one watcher for all nodes that want to know them. It lives as long as one of
-## them holds it, so a tree without such nodes is not watched.
+## All [SpidarG] and [SpidarGHand] nodes of a scene tree, kept by one watcher for all nodes that want to know them. It lives as
+## long as one of them holds it, so a tree without such nodes is not watched.
 
 signal changed
 
 static var _shared: WeakRef = null
 
 var devices: Array[SpidarG] = []
+var hands: Array[SpidarGHand] = []
 
 var _tree: SceneTree = null
 
@@ -24,6 +25,8 @@ func _init(tree: SceneTree) -> void:
 	_tree = tree
 	for node: Node in tree.root.find_children("*", "SpidarG", true, false):
 		devices.append(node as SpidarG)
+	for node: Node in tree.root.find_children("*", "SpidarGHand", true, false):
+		hands.append(node as SpidarGHand)
 	tree.node_added.connect(_on_added)
 	tree.node_removed.connect(_on_removed)
 
@@ -32,9 +35,15 @@ func _on_added(node: Node) -> void:
 	if node is SpidarG and not devices.has(node):
 		devices.append(node as SpidarG)
 		changed.emit()
+	elif node is SpidarGHand and not hands.has(node):
+		hands.append(node as SpidarGHand)
+		changed.emit()
 
 
 func _on_removed(node: Node) -> void:
 	if node is SpidarG:
 		devices.erase(node)
+		changed.emit()
+	elif node is SpidarGHand:
+		hands.erase(node)
 		changed.emit()

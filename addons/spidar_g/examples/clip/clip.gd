@@ -1,0 +1,10 @@
+extends Node3D
+## Says which clip the hand feels.
+
+@onready var _told: Label3D = $Told
+
+
+func _ready() -> void:
+	for player: SpidarGClipPlayer in [$Drum/Knock, $Motor/Buzz, $Board/Creak]:
+		player.started.connect(func(_spidar: SpidarG) -> void: _told.text = "felt: %s" % player.name.to_lower())
+		player.finished.connect(func(_spidar: SpidarG) -> void: _told.text = "")

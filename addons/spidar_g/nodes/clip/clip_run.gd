@@ -1,0 +1,84 @@
+extends RefCounted
+## One clip as one device plays it: the vibration that the servo loop renders, renewed in each physics tick.
+
+## A game that hangs lets go: the effect acts in full for this long, then fades in 50 ms.
+const RENEWED_FOR_S: float = 0.05
+## A device whose game has long ticks is renewed for this many of them.
+const RENEWED_FOR_TICKS: float = 2.5
+## In which the servo loop moves to a new amplitude; it is asked for what is due then.
+const CROSS_FADE_S: float = 0.016
+
+var spidar: SpidarG
+## Begins anew at its end, until end().
+var loops: bool = false
+
+var _clip: SpidarGClip
+var _id: int
+## Unit length, world.
+var _direction: Vector3
+var _share: float
+var _began_s: float = 0.0
+var _ends: bool = false
+## Asked for in the last step, N.
+var _given_n: float = 0.0
+## When that was, s from the beginning.
+var _stepped_s: float = -1.0
+## Nothing more is asked for; what was given fades.
+var _fades: bool = false
+
+
+## share: of the clip's strength, 0 to 1. direction: world, not zero.
+func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: float, is_loop: bool) -> void:
+	spidar = of
+	loops = is_loop
+	_clip = clip
+	_id = id
+	_direction = direction.normalized()
+	_share = share
+	_began_s = of.get_device_time_s()
+
+
+## Renews the vibration. Returns false when the clip is over, and when the device does not take the effect.
+func step(tick_s: float) -> bool:
+	if not is_instance_valid(spidar) or spidar.get_state() == SpidarG.STATE_CLOSED:
+		return false
+	var now_s: float = spidar.get_device_time_s() - _began_s
+	if _fades:
+		return now_s - _stepped_s < CROSS_FADE_S
+	if now_s == _stepped_s: # nothing of what was asked for has been rendered yet
+		return true
+	_stepped_s = now_s
+	var lasts_s: float = _clip.get_duration()
+	var is_over: bool = _ends or lasts_s <= 0.0 or (now_s >= lasts_s and not loops)
+	var at_s: float = fmod(now_s, lasts_s) if lasts_s > 0.0 else 0.0
+	var ahead_s: float = maxf(tick_s, CROSS_FADE_S)
+	_given_n = 0.0 if is_over else _due(at_s, lasts_s, ahead_s)
+	# Asked for once: each renewal would begin the fade anew.
+	_fades = is_over or (not loops and now_s + ahead_s >= lasts_s and _given_n <= 0.0)
+	var holds_s: float = maxf(RENEWED_FOR_S, RENEWED_FOR_TICKS * tick_s)
+	return spidar.set_vibration_effect(
+		_id, _given_n * _direction, Vector3.ZERO, 0.0, _clip.get_frequency_at(at_s), holds_s
+	)
+
+
+## Lets the vibration end, over the next ticks.
+func end() -> void:
+	_ends = true
+
+
+## Ends the vibration now.
+func stop() -> void:
+	if is_instance_valid(spidar):
+		spidar.clear_effect(_id)
+
+
+## The amplitude at the end of the tick from `at_s` on; a peak that lies within the tick is given instead.
+func _due(at_s: float, lasts_s: float, tick_s: float) -> float:
+	var later_s: float = at_s + tick_s
+	var most_n: float = _clip.get_peak_strength(at_s, later_s)
+	var last_n: float = _clip.get_strength_at(later_s)
+	if loops and later_s >= lasts_s:
+		later_s = fmod(later_s, lasts_s)
+		last_n = _clip.get_strength_at(later_s)
+		most_n = maxf(most_n, _clip.get_peak_strength(0.0, later_s))
+	return _share * (most_n if most_n > maxf(_given_n / _share, last_n) else last_n)

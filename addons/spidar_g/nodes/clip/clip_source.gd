@@ -1,0 +1,73 @@
+extends RefCounted
+## Where a [SpidarGClipPlayer] stands: the node that its events come from, and what is missing there.
+
+const Event := SpidarGClipPlayer.Event
+
+## The device, hand, surface or body; null where there is none.
+var node: Node = null
+## That of a surface or body; else null.
+var body: PhysicsBody3D = null
+var surface: SpidarGSurface = null
+## The only hand that counts; null where all do.
+var hand: SpidarGHand = null
+var spidar: SpidarG = null
+
+
+## Looks from `player`: at the end of `path`, or at the nearest ancestor where `path` is empty.
+static func find(player: Node, path: NodePath) -> RefCounted:
+	var source: RefCounted = new()
+	source._take(player.get_node_or_null(path) if not path.is_empty() else _above(player))
+	return source
+
+
+## Returns why `event` does not come from here, with a remedy; empty if it does.
+func problem(event: Event, path: NodePath) -> String:
+	if not path.is_empty() and node == null:
+		return "source_path \"%s\" leads to no SpidarG, SpidarGHand, SpidarGSurface or physics body. Choose one, or clear the path." % path
+	var named: String = Event.find_key(event)
+	match event:
+		Event.NONE:
+			return ""
+		Event.GRASP, Event.RELEASE:
+			if body != null and not body is RigidBody3D:
+				return "%s does not come from \"%s\": only a RigidBody3D is grasped. Use TOUCH, or choose a RigidBody3D." % [named, body.name]
+			if node == null or (body == null and hand == null):
+				return "%s has no source here: make the player a child of a RigidBody3D or of a SpidarGHand, or set source_path." % named
+			return ""
+	if surface != null:
+		return ""
+	if body != null:
+		return "%s has no source here: give \"%s\" a SpidarGSurface as a child." % [named, body.name]
+	return "%s has no source here: it comes from a SpidarGSurface. Make the player a child of one or of its body, or set source_path." % named
+
+
+func _take(found: Node) -> void:
+	if not _is_source(found):
+		return
+	node = found
+	surface = found as SpidarGSurface
+	body = (surface.get_parent() if surface != null else found) as PhysicsBody3D
+	if surface == null and body != null:
+		surface = _child_of(body, func(child: Node) -> bool: return child is SpidarGSurface) as SpidarGSurface
+	hand = found as SpidarGHand
+	spidar = (found.get_parent() if hand != null else found) as SpidarG
+	if hand == null and spidar != null:
+		hand = _child_of(spidar, func(child: Node) -> bool: return child is SpidarGHand) as SpidarGHand
+
+
+static func _above(player: Node) -> Node:
+	var above: Node = player.get_parent()
+	while above != null and not _is_source(above):
+		above = above.get_parent()
+	return above
+
+
+static func _is_source(found: Node) -> bool:
+	return found is SpidarG or found is SpidarGHand or found is SpidarGSurface or found is PhysicsBody3D
+
+
+static func _child_of(parent: Node, fits: Callable) -> Node:
+	for child: Node in parent.get_children():
+		if fits.call(child):
+			return child
+	return null

@@ -1,0 +1,193 @@
+@tool
+@icon("../../icons/spidar_g_clip.svg")
+class_name SpidarGClip
+extends Resource
+## A vibration of limited length that a hand feels: a knock, a buzz, a creak. A [SpidarGClipPlayer] plays it.
+##
+## A clip is either described by its numbers, or made from a sound.
+## [codeblock]
+## var knock := SpidarGClip.new()
+## knock.frequency = 50.0
+## knock.strength = 1.5
+## knock.hold = 0.02
+## knock.release = 0.08
+##
+## var creak := SpidarGClip.new()
+## creak.stream = preload("res://creak.wav") # imported as PCM
+## creak.strength = 1.0
+## [/codeblock]
+## [b]By numbers:[/b] the amplitude rises from 0 to [member strength] in [member attack], stays for [member hold] and falls to 0
+## in [member release]. The frequency is [member frequency] all the time.[br]
+## [b]From a sound:[/b] the loudness of [member stream] becomes the amplitude, [member strength] where the sound is loudest. The
+## frequency follows the sound's own dominant frequency. A sound that lies outside of 5 to 250 Hz is moved by whole octaves
+## into that range: 440 Hz becomes 220 Hz. All of it is moved by the same number of octaves, and what is still outside is
+## set to 5 or 250 Hz. The sound itself is not heard: play it by an [AudioStreamPlayer].[br]
+## [b]How exact:[/b] the servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
+## Amplitudes between two ticks are interpolated, so a rise or fall takes at least 16 ms, and what is shorter than a tick is felt
+## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached.[br]
+## [b]How strong.[/b] [member strength] is what the servo loop asks for. The strings of the device change it. On the simulated
+## device as it comes, whose strings are elastic, 20 to 40 Hz is felt within 10 %, 60 Hz is 1.2 times, 80 Hz 1.8 times and 100 to
+## 120 Hz 2 to 3.6 times as strong, and 250 Hz is a tenth. With stiff strings ([member SpidarGConfig.simulated_elastic] off) up to
+## 120 Hz is felt within 10 %, 150 Hz is 13 % and 250 Hz 27 % weaker. It was not measured on a real device: begin with weak clips.
+
+const WavFeel := preload("wav_feel.gd")
+
+## Largest amplitude that the servo loop gives to a vibration, in newtons. [member strength] times [member gain] is limited to it.
+const MOST_N: float = 2.0
+
+## The sound that the clip is made from, of 8 or 16 bits, mono or stereo. If it is [code]null[/code], the clip is that of
+## [member frequency], [member attack], [member hold] and [member release].[br]
+## A compressed sound (QOA or IMA ADPCM) is refused with an error: the clip then has a [method get_problem] and is not played.
+## Import the file as PCM. A sound of more than 5 s is cut there with a warning. The sound is converted once, when the clip is
+## first used; set the property again after you have changed the samples of the same stream.
+@export var stream: AudioStreamWAV:
+	set(value):
+		stream = value
+		_sound = null
+		if stream != null and not WavFeel.problem(stream).is_empty():
+			push_error("%s is not played: %s" % [_label(), WavFeel.problem(stream)])
+		notify_property_list_changed()
+		emit_changed()
+## Amplitude of the force that is asked for where the clip is strongest, in newtons, from 0 to 2. Any other value is refused with an error, and
+## the old one stays.
+@export_range(0.0, 2.0, 0.05, "suffix:N") var strength: float = 1.0:
+	set(value):
+		strength = _checked("strength", value, strength, "N", 0.0, MOST_N)
+		emit_changed()
+## Multiplies [member strength], from 0 to 10: for a volume setting of the game. The amplitude is at most 2 N, whatever the gain
+## is. Any other value is refused with an error, and the old one stays.
+@export_range(0.0, 10.0, 0.05) var gain: float = 1.0:
+	set(value):
+		gain = _checked("gain", value, gain, "", 0.0, 10.0)
+		emit_changed()
+## Frequency of the vibration, in hertz, from 5 to 250. The device gives at most a quarter of its servo rate. Of a clip with a
+## [member stream] it counts only if no frequency is found in the sound. Any other value is refused with an error, and the old
+## one stays.
+@export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 50.0:
+	set(value):
+		frequency = _checked("frequency", value, frequency, "Hz", WavFeel.LEAST_HZ, WavFeel.MOST_HZ)
+		_sound = null
+		emit_changed()
+@export_group("Envelope")
+## Time in which the amplitude rises to [member strength], in seconds, from 0 to 5. Ignored if there is a [member stream]. Any
+## other value is refused with an error, and the old one stays.
+@export_range(0.0, 5.0, 0.001, "suffix:s") var attack: float = 0.0:
+	set(value):
+		attack = _checked("attack", value, attack, "s", 0.0, WavFeel.LONGEST_S)
+		emit_changed()
+## Time for which the amplitude stays at [member strength], in seconds, from 0 to 5. Ignored if there is a [member stream]. Any
+## other value is refused with an error, and the old one stays.
+@export_range(0.0, 5.0, 0.001, "suffix:s") var hold: float = 0.05:
+	set(value):
+		hold = _checked("hold", value, hold, "s", 0.0, WavFeel.LONGEST_S)
+		emit_changed()
+## Time in which the amplitude falls to 0, in seconds, from 0 to 5. Ignored if there is a [member stream]. Any other value is
+## refused with an error, and the old one stays.
+@export_range(0.0, 5.0, 0.001, "suffix:s") var release: float = 0.05:
+	set(value):
+		release = _checked("release", value, release, "s", 0.0, WavFeel.LONGEST_S)
+		emit_changed()
+@export_group("Direction")
+## Whether the hand is shaken along the normal of the surface that it touches. A hand that grasps or lets go is shaken along the
+## axis of its jaws. If nothing is touched, or if this is [code]false[/code], [member direction] counts.
+@export var along_normal: bool = true:
+	set(value):
+		along_normal = value
+		emit_changed()
+## Direction in which the hand is shaken, in the world. Its length does not matter. Zero, or a direction that is not finite, is
+## refused with an error, and the old one stays.
+@export var direction: Vector3 = Vector3.UP:
+	set(value):
+		if not value.is_finite() or value.is_zero_approx():
+			push_error("%s: direction = %s: give a finite direction that is not zero; the old one stays." % [_label(), value])
+			return
+		direction = value
+		emit_changed()
+
+var _sound: WavFeel = null
+
+
+## Returns how long the clip is, in seconds. Returns 0 if it has a [method get_problem].
+func get_duration() -> float:
+	if stream == null:
+		return attack + hold + release
+	return _hear().duration_s if get_problem().is_empty() else 0.0
+
+
+## Returns why the clip cannot be played, as a sentence with a remedy, or an empty text.
+func get_problem() -> String:
+	if stream == null:
+		return "" if attack + hold + release > 0.0 else "attack, hold and release are 0 s: make one of them longer."
+	# Asked in each tick: a stream that was converted is not looked at again.
+	var problem: String = WavFeel.problem(stream) if _sound == null else ""
+	if problem.is_empty() and _hear().loudness.is_empty():
+		problem = "its stream is silent: give a louder sound."
+	return problem
+
+
+## Returns the amplitude at [param time_s] seconds after the beginning, in newtons, with [member gain]. Returns 0 before the
+## beginning, at the end and after it, and if the clip has a [method get_problem].
+func get_strength_at(time_s: float) -> float:
+	if not (time_s >= 0.0 and time_s < get_duration()):
+		return 0.0
+	return _full_n() * (_level(time_s) if stream == null else _hear().loudness_at(time_s))
+
+
+## Returns the largest amplitude from [param from_s] to [param to_s] seconds after the beginning, in newtons, with [member gain].
+func get_peak_strength(from_s: float, to_s: float) -> float:
+	var first: float = maxf(from_s, 0.0)
+	var last: float = minf(to_s, get_duration())
+	if not first < last:
+		return get_strength_at(from_s)
+	if stream != null:
+		return _full_n() * _hear().loudest_between(first, last)
+	if first <= attack + hold and last >= attack:
+		return _full_n()
+	return _full_n() * maxf(_level(first), _level(last))
+
+
+## Returns the frequency at [param time_s] seconds after the beginning, in hertz, from 5 to 250.
+func get_frequency_at(time_s: float) -> float:
+	if stream == null or not get_problem().is_empty():
+		return frequency
+	return _hear().frequency_at(time_s)
+
+
+func _validate_property(property: Dictionary) -> void:
+	var of_numbers: bool = ["attack", "hold", "release"].has(property["name"])
+	if of_numbers and stream != null:
+		property["usage"] = PROPERTY_USAGE_NO_EDITOR
+
+
+func _full_n() -> float:
+	return minf(strength * gain, MOST_N)
+
+
+## Of the envelope by numbers, 0 to 1.
+func _level(time_s: float) -> float:
+	if time_s < attack:
+		return time_s / attack
+	var fallen: float = time_s - attack - hold
+	return clampf(1.0 - fallen / release, 0.0, 1.0) if fallen > 0.0 and release > 0.0 else 1.0
+
+
+## The stream's, converted when first asked for; the stream must be one that can be felt.
+func _hear() -> WavFeel:
+	if _sound == null:
+		_sound = WavFeel.make(stream, frequency)
+		if _sound.was_cut:
+			push_warning("%s is cut after %s s: its stream is longer. Give a shorter sound." % [_label(), WavFeel.LONGEST_S])
+	return _sound
+
+
+func _label() -> String:
+	var named: String = resource_name if not resource_name.is_empty() else resource_path.get_file()
+	return "SpidarGClip" if named.is_empty() else "SpidarGClip \"%s\"" % named
+
+
+func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
+	if value >= least and value <= most: # false for NAN
+		return value
+	var wrong: String = "%s: %s = %s %s: give %s to %s; the old value stays."
+	push_error(wrong % [_label(), field, value, unit, least, most])
+	return old
