@@ -31,11 +31,19 @@ public:
         if (frame % 40 >= 20) {
             add_tool(*touch, bar_, ToolMount::grip, {Vec3(0.0, -0.01, 0.0), Mat3(1.0)}).groups =
                 kHeldGroup;
+            ToolJoint &hinge = touch->tool.joints[0];
+            hinge.id = 7;
+            hinge.base.origin_m = Vec3(-0.1, 0.0, 0.0);
+            hinge.in_grip.origin_m = Vec3(-0.1, 0.0, 0.0);
+            hinge.velocity_m_s = Vec3(0.0, 0.01, 0.0);
+            hinge.axes[5] = {-0.4, 0.4, 0.3, 0.1, 0.01, 0.2, 0.05};
+            touch->tool.joint_count = 1;
         }
         ScenePart &floor = add(*touch, floor_, {Vec3(0.0, -0.02, 0.0), Mat3(1.0)});
         floor.friction = 0.5;
         floor.belt_m_s = Vec3(0.05, 0.0, -0.02);
         floor.belt_rad_s = Vec3(0.0, 0.3, 0.0);
+        floor.traits = {0.8, frame % 2 == 0, 0.4, 0.3, 0.01, {0.004, 0.0002, Vec3(1.0, 0.0, 0.0)}};
         for (int i = 0; i < still_; ++i) {
             add(*touch, box_,
                 {Vec3(0.02 * (i % 4) - 0.03, -0.02, 0.03 + 0.02 * (i / 4)), Mat3(1.0)})
@@ -335,8 +343,18 @@ TEST_CASE("recording: a scene comes back to the bit, NaN too, and shapes that no
             part.friction = random.nasty();
             part.belt_m_s = Vec3(random.nasty());
             part.belt_rad_s = Vec3(random.nasty());
+            part.traits.static_friction = random.nasty();
+            part.traits.adhesion_n = random.nasty();
+            part.traits.texture = {random.nasty(), random.nasty(), Vec3(random.nasty())};
             part.id = static_cast<std::int32_t>(random.bits());
         }
+        for (ToolJoint &joint : touch->tool.joints) {
+            joint.base.origin_m = Vec3(random.nasty());
+            joint.axes[2].lower = random.nasty();
+            joint.axes[5].motor_most = random.nasty();
+        }
+        touch->tool.joint_count =
+            i % 5 == 0 ? static_cast<int>(random.bits()) : i % (kMaxToolJoints + 1);
         touch->tool.stop_rad = random.nasty();
         touch->scene.count = i % 3 == 0 ? static_cast<int>(random.bits()) : i % kMaxSceneParts;
         store_touch(touch.get(), words);
