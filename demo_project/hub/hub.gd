@@ -45,7 +45,7 @@ func _physics_process(delta: float) -> void:
 		knob.show_touched(near)
 		if near and (nearest == null or knob.distance_to(grip) < nearest.distance_to(grip)):
 			nearest = knob
-	var squeezed := tool_hand.get_squeeze_torque_nm() > GRASP_NM
+	var squeezed := tool_hand.get_squeeze_torque() > GRASP_NM
 	var on_knob := nearest != null and nearest.distance_to(grip) < GRASP_M * spidar.workspace_scale
 	# One choice a squeeze: the fingers have to open before the next.
 	_squeezed_s = _squeezed_s + delta if squeezed and on_knob and not _was_squeezed else 0.0

@@ -32,7 +32,7 @@ func measure(hand: SpidarGHand, view: SpidarGView) -> void:
 	if is_instance_valid(_held):
 		moved = _held.global_transform * _held_at.affine_inverse()
 	for side in 2:
-		worst_m = maxf(worst_m, depth(space, moved * view.get_drawn_pad(side), hand.get_pad_radius_m()))
+		worst_m = maxf(worst_m, depth(space, moved * view.get_drawn_pad(side), hand.get_pad_radius()))
 
 
 ## How deep a pad stands in anything, scene metres. at: x outward from the middle of its inner face.

@@ -131,7 +131,7 @@ func _step(slow: bool) -> void:
 	_time_s += _tick_s()
 	var aim := Transform3D(wanted.basis, wanted.origin + _correction_m + _tremor())
 	if model == null:
-		spidar.simulated_hand_target(aim, grasp_angle_rad)
+		spidar.set_simulated_hand_target(aim, grasp_angle_rad)
 	else:
 		model.aim(spidar, aim, grasp_angle_rad)
 	await get_tree().physics_frame

@@ -128,7 +128,7 @@ func _process(delta: float) -> void:
 	_servo.text = "servo %.0f Hz" % float(statistics.get("servo_rate_hz", 0.0))
 	var held := _tool_hand.get_held_body()
 	_held.text = "empty" if held == null else (
-		"%d g,  %d mm" % [roundi(held.mass * 1000.0), roundi(_tool_hand.get_held_width_m() * 1000.0)]
+		"%d g,  %d mm" % [roundi(held.mass * 1000.0), roundi(_tool_hand.get_held_width() * 1000.0)]
 	)
 	_dial.show_grasp(
 		_spidar.get_grasp_angle(), _spidar.get_jaw_gap() * _spidar.workspace_scale,

@@ -22,7 +22,7 @@ func _run() -> void:
 	device.set(&"forces_enabled", true)
 	root.add_child(device)
 	await physics_frame
-	device.call(&"simulated_hand_target", Transform3D(Basis.IDENTITY, TARGET), 0.2)
+	device.call(&"set_simulated_hand_target", Transform3D(Basis.IDENTITY, TARGET), 0.2)
 	device.call(&"advance_cycles", CYCLES)
 	var grip: Transform3D = device.call(&"get_grip_transform")
 	var tensions: PackedFloat64Array = device.call(&"get_string_tensions")

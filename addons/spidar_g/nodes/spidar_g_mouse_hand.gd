@@ -229,7 +229,7 @@ func _has_hand() -> bool:
 
 ## Gives the hand its target once a physics tick: a pose in the world and a grasp angle in rad.
 func _aim(target: Transform3D, grasp_angle: float) -> void:
-	_device.simulated_hand_target(target, grasp_angle)
+	_device.set_simulated_hand_target(target, grasp_angle)
 
 
 func _enter_tree() -> void:

@@ -45,7 +45,7 @@ enum TriggerSource {
 	## [SpidarGHand], else [constant GRASP].
 	AUTOMATIC,
 	## How hard the fingers press what is between the pads, or the closed pads on each other:
-	## [method SpidarGHand.get_squeeze_torque_nm] as a part of [member full_squeeze_nm].
+	## [method SpidarGHand.get_squeeze_torque] as a part of [member full_squeeze_nm].
 	SQUEEZE,
 	## How far the input action [member SpidarGConfig.grasp_action] is pressed.
 	ACTION,

@@ -189,7 +189,7 @@ func _draw_pads() -> void:
 		var pad: Transform3D = _hand.get_pad_transform(side)
 		if pad != _drawn_pads[side] or _stale:
 			_drawn_pads[side] = pad
-			_parts.place_pad(side, pad, _hand.get_pad_radius_m())
+			_parts.place_pad(side, pad, _hand.get_pad_radius())
 
 
 func _draw_force(from: Vector3, forced: bool) -> void:

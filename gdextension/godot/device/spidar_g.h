@@ -56,7 +56,7 @@ public:
     enum EventLevel { EVENT_INFO, EVENT_WARNING, EVENT_FAULT };
     enum GraspPhase { GRASP_OPEN, GRASP_GRASPED, GRASP_OVER_CLOSED };
     enum ContactTarget {
-        CONTACT_CENTRE,
+        CONTACT_CENTER,
         CONTACT_POLE1_PLUS,
         CONTACT_POLE1_MINUS,
         CONTACT_POLE2_PLUS,
@@ -189,7 +189,7 @@ public:
     [[nodiscard]] State get_state() const;
     [[nodiscard]] godot::String get_state_text() const;
     [[nodiscard]] godot::String get_fault_text() const;
-    [[nodiscard]] double get_device_time_s() const;
+    [[nodiscard]] double get_device_time() const;
     [[nodiscard]] godot::Transform3D get_grip_transform() const;
     [[nodiscard]] godot::Transform3D get_pole_transform(int pole) const;
     [[nodiscard]] godot::Vector3 get_pole_end(ContactTarget target) const;
@@ -224,13 +224,13 @@ public:
     [[nodiscard]] godot::Dictionary get_replay_statistics() const;
 
     // Simulated device (spidar_g_simulated.cpp).
-    bool simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
+    bool set_simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
     bool inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                 double duration_s);
     void clear_simulated_faults();
-    bool simulated_buttons(int mask);
+    bool set_simulated_buttons(int mask);
 
     void _notification(int what);
     // The project's panic key.

@@ -89,7 +89,7 @@ void SpidarG::bind_state() {
     ClassDB::bind_method(D_METHOD("get_state"), &SpidarG::get_state);
     ClassDB::bind_method(D_METHOD("get_state_text"), &SpidarG::get_state_text);
     ClassDB::bind_method(D_METHOD("get_fault_text"), &SpidarG::get_fault_text);
-    ClassDB::bind_method(D_METHOD("get_device_time_s"), &SpidarG::get_device_time_s);
+    ClassDB::bind_method(D_METHOD("get_device_time"), &SpidarG::get_device_time);
     ClassDB::bind_method(D_METHOD("_note_place"), &SpidarG::note_place); // called deferred
     ClassDB::bind_method(D_METHOD("get_grip_transform"), &SpidarG::get_grip_transform);
     spidar::bind_checked<&SpidarG::get_pole_transform, "", "get_pole_transform", "pole">();
@@ -142,8 +142,8 @@ void SpidarG::bind_recording() {
 }
 
 void SpidarG::bind_simulated() {
-    spidar::bind_checked<&SpidarG::simulated_hand_target, "", "simulated_hand_target", "target",
-                         "grasp_angle">();
+    spidar::bind_checked<&SpidarG::set_simulated_hand_target, "", "set_simulated_hand_target",
+                         "target", "grasp_angle">();
     spidar::bind_checked<&SpidarG::set_simulated_hand_firmness, "", "set_simulated_hand_firmness",
                          "firmness">();
     ClassDB::bind_method(D_METHOD("get_simulated_truth"), &SpidarG::get_simulated_truth);
@@ -171,7 +171,7 @@ void SpidarG::bind_enums() {
     BIND_ENUM_CONSTANT(GRASP_OPEN);
     BIND_ENUM_CONSTANT(GRASP_GRASPED);
     BIND_ENUM_CONSTANT(GRASP_OVER_CLOSED);
-    BIND_ENUM_CONSTANT(CONTACT_CENTRE);
+    BIND_ENUM_CONSTANT(CONTACT_CENTER);
     BIND_ENUM_CONSTANT(CONTACT_POLE1_PLUS);
     BIND_ENUM_CONSTANT(CONTACT_POLE1_MINUS);
     BIND_ENUM_CONSTANT(CONTACT_POLE2_PLUS);
@@ -225,7 +225,7 @@ void SpidarG::bind_device() {
     ADD_SIGNAL(MethodInfo("device_chosen", PropertyInfo(Variant::BOOL, "simulated"),
                           PropertyInfo(Variant::STRING, "device"),
                           PropertyInfo(Variant::STRING, "reason")));
-    spidar::bind_checked<&SpidarG::simulated_buttons, "", "simulated_buttons", "mask">();
+    spidar::bind_checked<&SpidarG::set_simulated_buttons, "", "set_simulated_buttons", "mask">();
     ADD_SIGNAL(MethodInfo("button_changed", PropertyInfo(Variant::INT, "button"),
                           PropertyInfo(Variant::BOOL, "pressed")));
 }

@@ -262,12 +262,12 @@ void SpidarG::emit_buttons(std::uint8_t before) {
     }
 }
 
-bool SpidarG::simulated_buttons(int mask) {
+bool SpidarG::set_simulated_buttons(int mask) {
     if (simulated_ == nullptr) {
         return false;
     }
     if (mask < 0 || mask > 255) {
-        return reject("simulated_buttons: mask = " + std::to_string(mask) +
+        return reject("set_simulated_buttons: mask = " + std::to_string(mask) +
                       ": give 0 to 255, one bit a button.");
     }
     simulated_->set_buttons(static_cast<std::uint8_t>(mask));

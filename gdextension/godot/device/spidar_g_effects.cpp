@@ -162,7 +162,7 @@ bool SpidarG::take_effect(const char *method, Effect effect, int dof_mask) {
     std::string problem = effect_problem(effect, dof_mask);
     if (problem.empty() && !spidar::usable(spidar::validate_effect(effect))) {
         problem =
-            "centre or grasp_angle (m, rad): give finite numbers and a basis that is a rotation.";
+            "center or grasp_angle (m, rad): give finite numbers and a basis that is a rotation.";
     }
     auto &effects = command_.effects;
     auto count = static_cast<std::size_t>(command_.effect_count);
@@ -218,7 +218,7 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     return take_effect("set_force_effect", effect, DOF_ALL);
 }
 
-bool SpidarG::set_spring_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+bool SpidarG::set_spring_effect(int id, const godot::Transform3D &center, double grasp_angle,
                                 double linear, double angular, double grasp, int dof_mask,
                                 double duration_s) {
     const spidar::WorldFrame frame = world();
@@ -226,9 +226,9 @@ bool SpidarG::set_spring_effect(int id, const godot::Transform3D &centre, double
     effect.kind = EffectKind::spring;
     effect.id = id;
     effect.gain = same_gains(linear, angular, grasp);
-    effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
+    effect.centre_m = frame.point_to_device(spidar::to_core(center.origin));
     effect.centre_rotation =
-        glm::transpose(frame.rotation) * spidar::to_core(centre.basis.orthonormalized());
+        glm::transpose(frame.rotation) * spidar::to_core(center.basis.orthonormalized());
     effect.centre_grasp_rad = grasp_angle;
     effect.duration_s = duration_s;
     return take_effect("set_spring_effect", effect, dof_mask);
@@ -248,7 +248,7 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     return take_effect("set_vibration_effect", effect, DOF_ALL);
 }
 
-bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double grasp_angle,
+bool SpidarG::set_detent_effect(int id, const godot::Transform3D &center, double grasp_angle,
                                 double spacing, double strength, int dof_mask, double duration_s) {
     const spidar::WorldFrame frame = world();
     Effect effect;
@@ -256,9 +256,9 @@ bool SpidarG::set_detent_effect(int id, const godot::Transform3D &centre, double
     effect.id = id;
     effect.gain.values.fill(strength);
     effect.spacing = same_gains(spacing / frame.scale, spacing, spacing);
-    effect.centre_m = frame.point_to_device(spidar::to_core(centre.origin));
+    effect.centre_m = frame.point_to_device(spidar::to_core(center.origin));
     effect.centre_rotation =
-        glm::transpose(frame.rotation) * spidar::to_core(centre.basis.orthonormalized());
+        glm::transpose(frame.rotation) * spidar::to_core(center.basis.orthonormalized());
     effect.centre_grasp_rad = grasp_angle;
     effect.duration_s = duration_s;
     return take_effect("set_detent_effect", effect, dof_mask);
@@ -319,12 +319,12 @@ void SpidarG::bind_effects() {
                                                                        kEffectDuration_s);
     spidar::bind_checked<&SpidarG::set_force_effect, "", "set_force_effect", "id", "force",
                          "moment", "grasp_torque", "duration_s">(kEffectDuration_s);
-    spidar::bind_checked<&SpidarG::set_spring_effect, "", "set_spring_effect", "id", "centre",
+    spidar::bind_checked<&SpidarG::set_spring_effect, "", "set_spring_effect", "id", "center",
                          "grasp_angle", "linear", "angular", "grasp", "dof_mask", "duration_s">(
         static_cast<int>(DOF_ALL), kEffectDuration_s);
     spidar::bind_checked<&SpidarG::set_vibration_effect, "", "set_vibration_effect", "id", "force",
                          "moment", "grasp_torque", "frequency_hz", "duration_s">(kEffectDuration_s);
-    spidar::bind_checked<&SpidarG::set_detent_effect, "", "set_detent_effect", "id", "centre",
+    spidar::bind_checked<&SpidarG::set_detent_effect, "", "set_detent_effect", "id", "center",
                          "grasp_angle", "spacing", "strength", "dof_mask", "duration_s">(
         kEffectDuration_s);
     spidar::bind_checked<&SpidarG::clear_effect, "", "clear_effect", "id">();

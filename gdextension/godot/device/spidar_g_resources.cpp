@@ -138,7 +138,7 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
         warnings.push_back(spidar::to_godot(
             "SpidarGConfig.max_force = " + std::to_string(config_or_default().get_max_force()) +
             " N is brought down to " + std::to_string(options_.largest_force_n) +
-            " N by the project setting spidar_g/safety/largest_force_n: lower the one or raise the "
+            " N by the project setting spidar_g/safety/max_force: lower the one or raise the "
             "other."));
     }
     const std::string odd = transform_problem();

@@ -37,7 +37,7 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
     return transport;
 }
 
-bool SpidarG::simulated_hand_target(const godot::Transform3D &target, double grasp_angle) {
+bool SpidarG::set_simulated_hand_target(const godot::Transform3D &target, double grasp_angle) {
     if (simulated_ == nullptr) {
         return false; // other transports have a hand of their own
     }
@@ -46,14 +46,14 @@ bool SpidarG::simulated_hand_target(const godot::Transform3D &target, double gra
     const spidar::Mat3 turn = spidar::to_core(target.basis.orthonormalized());
     if (!spidar::all_finite(origin, turn, grasp_angle)) {
         return reject(
-            "simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
+            "set_simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
             " rad is not finite: give finite numbers; the hand stays where it was.");
     }
     const double away_m = glm::length(frame.point_to_device(origin));
     if (!(away_m <= kFarthestHand_m) || std::abs(grasp_angle) > kWidestGrasp_rad) {
         return reject(
-            "simulated_hand_target: the target is " + std::to_string(away_m) +
-            " device m from the frame's centre, grasp_angle = " + std::to_string(grasp_angle) +
+            "set_simulated_hand_target: the target is " + std::to_string(away_m) +
+            " device m from the frame's center, grasp_angle = " + std::to_string(grasp_angle) +
             " rad: give at most 10 m and -pi to pi; the hand stays where it was.");
     }
     simulated_->set_hand_target(

@@ -39,7 +39,7 @@ godot::String SpidarG::get_fault_text() const {
     return spidar::to_godot(fault_message());
 }
 
-double SpidarG::get_device_time_s() const {
+double SpidarG::get_device_time() const {
     return earlier_time_s_ + snapshot_.time_s;
 }
 
@@ -61,7 +61,7 @@ godot::Transform3D SpidarG::get_pole_transform(int pole) const {
 }
 
 godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
-    ERR_FAIL_COND_V_MSG(target < CONTACT_CENTRE || target > CONTACT_TURN_STOP, godot::Vector3(),
+    ERR_FAIL_COND_V_MSG(target < CONTACT_CENTER || target > CONTACT_TURN_STOP, godot::Vector3(),
                         "SpidarG.get_pole_end: target is one of SpidarG.ContactTarget.");
     const spidar::GripPose &pose = snapshot_.grip.pose;
     Vec3 point = pose.position_m;
@@ -78,7 +78,7 @@ godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
     case CONTACT_POLE2_MINUS:
         point -= pose.r2_m;
         break;
-    case CONTACT_CENTRE:
+    case CONTACT_CENTER:
     case CONTACT_GRASP_STOP:
     case CONTACT_TURN_STOP:
         break;

@@ -98,7 +98,7 @@ ToolPose SpidarGHand::proxy_pose() const {
     return {touch.position_m, touch.rotation, touch.grasp_rad};
 }
 
-double SpidarGHand::get_held_width_m() const {
+double SpidarGHand::get_held_width() const {
     if (!hold_.holds() || spidar_ == nullptr) {
         return 0.0;
     }
@@ -197,7 +197,7 @@ Vector3 SpidarGHand::get_pad_position(int side) const {
     return get_pad_transform(side).origin;
 }
 
-double SpidarGHand::get_pad_radius_m() const {
+double SpidarGHand::get_pad_radius() const {
     if (spidar_ == nullptr) {
         return spidar::pad_radius_m(spidar::Jaws());
     }

@@ -64,13 +64,13 @@ class SpidarGHand : public godot::Node3D {
     SPIDAR_G_CHECKED_CALLS
 
     // The inspector offers less; a script may go so far.
-    SPIDAR_G_HAND_NUMBER(contact_margin_m, 0.04, 0.001, 1.0, "m");
-    SPIDAR_G_HAND_NUMBER(contact_stiffness_n_m, 0.0, 0.0, 1.0e4, "N/m");
-    SPIDAR_G_HAND_NUMBER(contact_damping_n_s_m, 2.0, 0.0, 100.0, "N s/m");
+    SPIDAR_G_HAND_NUMBER(contact_margin, 0.04, 0.001, 1.0, "m");
+    SPIDAR_G_HAND_NUMBER(contact_stiffness, 0.0, 0.0, 1.0e4, "N/m");
+    SPIDAR_G_HAND_NUMBER(contact_damping, 2.0, 0.0, 100.0, "N s/m");
     SPIDAR_G_HAND_NUMBER(contact_friction, 0.4, 0.0, 10.0, "");
     SPIDAR_G_HAND_NUMBER(pad_friction, 1.0, 0.0, 10.0, "");
-    SPIDAR_G_HAND_NUMBER(hold_torque_nm, 0.005, 0.0, 10.0, "N m");
-    SPIDAR_G_HAND_NUMBER(break_force_n, 7.0, 0.0, 1000.0, "N");
+    SPIDAR_G_HAND_NUMBER(hold_torque, 0.005, 0.0, 10.0, "N m");
+    SPIDAR_G_HAND_NUMBER(break_force, 7.0, 0.0, 1000.0, "N");
     SPIDAR_G_HAND_NUMBER(weight_scale, 1.0, 0.0, 100.0, "");
     SPIDAR_G_HAND_FLAG(render_contacts, true);
     SPIDAR_G_HAND_FLAG(render_width, true);
@@ -90,10 +90,10 @@ public:
     // What is held.
     [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
     [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
-    [[nodiscard]] double get_held_width_m() const;
+    [[nodiscard]] double get_held_width() const;
     [[nodiscard]] double get_held_weight() const { return told_.weight_n; }
     [[nodiscard]] godot::Transform3D get_wanted_pose() const;
-    [[nodiscard]] double get_squeeze_torque_nm() const { return squeeze_nm_; }
+    [[nodiscard]] double get_squeeze_torque() const { return squeeze_nm_; }
     [[nodiscard]] double get_stop_angle() const;
     void add_load(const godot::Vector3 &force_n, const godot::Vector3 &moment_nm);
     void detain(const godot::Transform3D &seat);
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] godot::Transform3D get_proxy_transform() const;
     [[nodiscard]] godot::Transform3D get_pad_transform(int side) const;
     [[nodiscard]] godot::Vector3 get_pad_position(int side) const;
-    [[nodiscard]] double get_pad_radius_m() const;
+    [[nodiscard]] double get_pad_radius() const;
 
     // What it touches.
     [[nodiscard]] godot::Array get_shapes_in_reach() const;

@@ -24,14 +24,14 @@ void SpidarGHand::bind_properties() {
         PropertyInfo(Variant::INT, "collision_mask", godot::PROPERTY_HINT_LAYERS_3D_PHYSICS),
         "set_collision_mask", "get_collision_mask");
     ADD_GROUP("Contact", "contact_");
-    BIND_NUMBER(contact_margin_m, "0.01,0.1,0.001,suffix:m");
-    BIND_NUMBER(contact_stiffness_n_m, "0,2000,1,suffix:N/m");
-    BIND_NUMBER(contact_damping_n_s_m, "0,5,0.1,suffix:N s/m");
+    BIND_NUMBER(contact_margin, "0.01,0.1,0.001,suffix:m");
+    BIND_NUMBER(contact_stiffness, "0,2000,1,suffix:N/m");
+    BIND_NUMBER(contact_damping, "0,5,0.1,suffix:N s/m");
     BIND_NUMBER(contact_friction, "0,2,0.01");
     ADD_GROUP("Grasp", "");
     BIND_NUMBER(pad_friction, "0,2,0.01");
-    BIND_NUMBER(hold_torque_nm, "0,0.4,0.001,suffix:N m");
-    BIND_NUMBER(break_force_n, "0.5,50,0.1,suffix:N");
+    BIND_NUMBER(hold_torque, "0,0.4,0.001,suffix:N m");
+    BIND_NUMBER(break_force, "0.5,50,0.1,suffix:N");
     ADD_GROUP("Feel", "");
     BIND_FLAG(render_contacts);
     BIND_FLAG(render_width);
@@ -50,10 +50,10 @@ void SpidarGHand::_bind_methods() {
                  "", "get_spidar");
     ClassDB::bind_method(D_METHOD("get_warnings"), &Self::get_warnings);
     ClassDB::bind_method(D_METHOD("get_held_body"), &Self::get_held_body);
-    ClassDB::bind_method(D_METHOD("get_held_width_m"), &Self::get_held_width_m);
+    ClassDB::bind_method(D_METHOD("get_held_width"), &Self::get_held_width);
     ClassDB::bind_method(D_METHOD("get_held_weight"), &Self::get_held_weight);
     ClassDB::bind_method(D_METHOD("get_wanted_pose"), &Self::get_wanted_pose);
-    ClassDB::bind_method(D_METHOD("get_squeeze_torque_nm"), &Self::get_squeeze_torque_nm);
+    ClassDB::bind_method(D_METHOD("get_squeeze_torque"), &Self::get_squeeze_torque);
     ClassDB::bind_method(D_METHOD("get_stop_angle"), &Self::get_stop_angle);
     spidar::bind_checked<&Self::add_load, "", "add_load", "force_n", "moment_nm">(godot::Vector3());
     spidar::bind_checked<&Self::detain, "", "detain", "seat">();
@@ -61,7 +61,7 @@ void SpidarGHand::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_proxy_transform"), &Self::get_proxy_transform);
     spidar::bind_checked<&Self::get_pad_transform, "", "get_pad_transform", "side">();
     spidar::bind_checked<&Self::get_pad_position, "", "get_pad_position", "side">();
-    ClassDB::bind_method(D_METHOD("get_pad_radius_m"), &Self::get_pad_radius_m);
+    ClassDB::bind_method(D_METHOD("get_pad_radius"), &Self::get_pad_radius);
     ClassDB::bind_method(D_METHOD("get_shapes_in_reach"), &Self::get_shapes_in_reach);
     ClassDB::bind_method(D_METHOD("get_touch_points"), &Self::get_touch_points);
     ClassDB::bind_method(D_METHOD("get_touch_statistics"), &Self::get_touch_statistics);

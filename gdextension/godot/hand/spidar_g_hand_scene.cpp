@@ -71,7 +71,7 @@ spidar::SearchVolume SpidarGHand::pads_volume() const {
                       spidar::pad_radius_m(jaw));
     spidar::SearchVolume volume =
         spanned({proxy.position_m, proxy.rotation}, device.position_m, half_m);
-    volume.margin_m = contact_margin_m_;
+    volume.margin_m = contact_margin_;
     volume.mask = static_cast<std::uint32_t>(collision_mask_);
     if (hold_.holds()) {
         volume.excluded.push_back(hold_.body()->get_rid());
@@ -92,7 +92,7 @@ spidar::SearchVolume SpidarGHand::held_volume() const {
     const Placement middle = Placement{proxy.position_m, proxy.rotation} * in_grip * box.at;
     const Vec3 ahead = device_pose().position_m - proxy.position_m;
     spidar::SearchVolume volume = spanned(middle, middle.origin_m + ahead, box.half_extents_m);
-    volume.margin_m = contact_margin_m_;
+    volume.margin_m = contact_margin_;
     volume.mask = static_cast<std::uint32_t>(hold_.body()->get_collision_mask());
     volume.excluded.push_back(hold_.body()->get_rid());
     return volume;
@@ -124,8 +124,8 @@ spidar::HandFeel SpidarGHand::feel() const {
     spidar::HandFeel feel;
     feel.contacts = render_contacts_;
     feel.width = render_width_;
-    feel.stiffness_n_m = contact_stiffness_n_m_;
-    feel.damping_n_s_m = contact_damping_n_s_m_;
+    feel.stiffness_n_m = contact_stiffness_;
+    feel.damping_n_s_m = contact_damping_;
     feel.friction = contact_friction_;
     feel.centres_itself = !hold_.holds() && spidar_->get_state() != SpidarG::STATE_ACTIVE;
     feel.pinched = hold_.holds() ? 0 : pinch_.body;

@@ -53,7 +53,7 @@ void SpidarGHand::_physics_process(double delta) {
     }
     now_ = spidar_->world();
     call_deferred("_remember_place");
-    clock_.read(spidar_->get_device_time_s(), spidar::physics_tick_s());
+    clock_.read(spidar_->get_device_time(), spidar::physics_tick_s());
     if (clock_.elapsed_s() > 0.0) {
         read_device(clock_.elapsed_s());
     }
@@ -79,7 +79,7 @@ void SpidarGHand::_physics_process(double delta) {
 void SpidarGHand::tell_held() {
     HeldFeel now;
     if (hold_.holds()) {
-        now = {glm::length(pull_.weight_n), get_held_width_m(), squeeze_nm_};
+        now = {glm::length(pull_.weight_n), get_held_width(), squeeze_nm_};
     }
     const bool changed = std::abs(now.weight_n - told_.weight_n) > kToldWeight_n ||
                          std::abs(now.width_m - told_.width_m) > kToldWidth_m ||
@@ -166,7 +166,7 @@ void SpidarGHand::try_grasp() {
     const double lever_m = spidar_->get_effective_config()->get_pole_half_length();
     auto *const body = cast_to<RigidBody3D>(godot::ObjectDB::get_instance(pinch_.collider));
     const auto verdict =
-        judge_.judge(pinch_, body, {pad_friction_, hold_torque_nm_ / lever_m, weight_scale_},
+        judge_.judge(pinch_, body, {pad_friction_, hold_torque_ / lever_m, weight_scale_},
                      squeeze_nm_ / lever_m, spidar_->get_grasp_rate(), clock_.elapsed_s());
     if (verdict == spidar::GraspJudge::Verdict::hold) {
         if (resting_s_ >= kRestTime_s) {
@@ -219,7 +219,7 @@ void SpidarGHand::watch_hold() {
     }
     const bool opened = spidar_->get_grasp_angle() < held_stop_rad_ - kReleaseAngle_rad;
     const bool broken =
-        watch_.breaks(glm::length(press_n), break_force_n_, clock_.elapsed_s(),
+        watch_.breaks(glm::length(press_n), break_force_, clock_.elapsed_s(),
                       hold_.stretch_m() / spidar_->get_workspace_scale(), spidar::physics_tick_s());
     if (opened || broken || hold_.body()->is_freeze_enabled()) {
         release();

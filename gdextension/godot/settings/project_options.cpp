@@ -23,7 +23,7 @@ namespace {
 constexpr const char *kConfig = "spidar_g/device/default_config";
 constexpr const char *kHardware = "spidar_g/device/use_hardware";
 constexpr const char *kMaterial = "spidar_g/hand/default_material";
-constexpr const char *kForce = "spidar_g/safety/largest_force_n";
+constexpr const char *kForce = "spidar_g/safety/max_force";
 constexpr const char *kPanicKey = "spidar_g/safety/panic_key";
 
 void add_option(const char *name, const Variant &value, godot::PropertyHint hint,

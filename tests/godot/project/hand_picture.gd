@@ -153,7 +153,7 @@ func _move(to: Vector3, count: int, to_turn: Basis = Basis.IDENTITY, to_angle: f
 		at = from.lerp(to, part)
 		turn = from_turn.slerp(to_turn, part)
 		angle = lerpf(from_angle, to_angle, part)
-		device.simulated_hand_target(Transform3D(turn, device.workspace_scale * at), angle)
+		device.set_simulated_hand_target(Transform3D(turn, device.workspace_scale * at), angle)
 		await physics_frame
 
 

@@ -72,7 +72,7 @@ func move_to(to: Vector3, to_angle: float, frame_count: int) -> void:
 		var part: float = float(i + 1) / frame_count
 		at = from.lerp(to, part)
 		angle = lerpf(from_angle, to_angle, part)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
 		await physics_frames(1)
 
 

@@ -40,7 +40,7 @@ func go(to: Vector3, frame_count: int, to_turn: Basis = Basis.IDENTITY, to_angle
 		at = from.lerp(to, part)
 		turn = from_turn.slerp(to_turn, part)
 		angle = lerpf(from_angle, to_angle, part)
-		device.simulated_hand_target(Transform3D(turn, at), angle)
+		device.set_simulated_hand_target(Transform3D(turn, at), angle)
 		await physics_frames(1)
 		if i % 4 == 0:
 			note_depth()

@@ -88,12 +88,12 @@ func play(time_scale: float, label: String) -> void:
 func glide(to: Vector3, to_angle: float, time_s: float) -> void:
 	var from: Vector3 = at
 	var from_angle: float = angle
-	var began_s: float = device.get_device_time_s()
+	var began_s: float = device.get_device_time()
 	_move = func(now_s: float) -> void:
 		var part: float = minf((now_s - began_s) / time_s, 1.0)
 		at = from.lerp(to, part)
 		angle = lerpf(from_angle, to_angle, part)
-	while device.get_device_time_s() - began_s < time_s:
+	while device.get_device_time() - began_s < time_s:
 		await tick()
 	_move.call(began_s + time_s)
 	_move = Callable()  # It holds on to this test.
@@ -132,12 +132,12 @@ func _run_device(cycles: int) -> void:
 
 ## Mean of what is called once a tick, over seconds of the device: a tick counts for the time that it took.
 func mean_of(value: Callable, time_s: float) -> float:
-	var began_s: float = device.get_device_time_s()
+	var began_s: float = device.get_device_time()
 	var last_s: float = began_s
 	var sum: float = 0.0
 	while last_s - began_s < time_s:
 		await tick()
-		var now_s: float = device.get_device_time_s()
+		var now_s: float = device.get_device_time()
 		var now: float = value.call()
 		sum += now * (now_s - last_s)
 		last_s = now_s
@@ -150,8 +150,8 @@ func asked(component: int) -> float:
 
 func _move_hand() -> void:
 	if _move.is_valid():
-		_move.call(device.get_device_time_s())
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		_move.call(device.get_device_time())
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
 
 
 func _prepare() -> void:
@@ -179,7 +179,7 @@ func _prepare() -> void:
 
 func _squeeze(label: String) -> void:
 	var felt: float = await mean_of(func() -> float: return -asked(6), 0.3)
-	var measured: float = await mean_of(hand.get_squeeze_torque_nm, 0.3)
+	var measured: float = await mean_of(hand.get_squeeze_torque, 0.3)
 	check(felt > 0.05, "%s: the fingers squeeze: %f N m" % [label, felt])
 	check_near(measured / felt, 1.0, TOLERANCE, "%s: squeeze, of what is asked of the device" % label)
 
@@ -193,12 +193,12 @@ func _weight(label: String) -> void:
 
 func _inertia(label: String) -> void:
 	var middle: Vector3 = at
-	var swing := Swing.new(device.get_device_time_s())
+	var swing := Swing.new(device.get_device_time())
 	_move = func(now_s: float) -> void:
 		at = middle + Vector3(SWING_M * sin(swing.phase_at(now_s)), 0.0, 0.0)
 	# Each cycle counts: the middle of a long frame is as much of the swing as its end.
 	_look = func() -> void:
-		swing.look(device.get_device_time_s(), Vector2(device.get_grip_transform().origin.x - middle.x, asked(0)))
+		swing.look(device.get_device_time(), Vector2(device.get_grip_transform().origin.x - middle.x, asked(0)))
 	while swing.last_s - swing.began_s < (0.5 + SWINGS) / SWING_HZ:
 		await tick()
 	_look = Callable()
@@ -226,9 +226,9 @@ func _break(label: String) -> void:
 	check(press > 1.0, "%s: the body is pressed to the floor: %f N" % [label, press])
 	var released: Array[int] = [0]
 	hand.body_released.connect(func(_body: RigidBody3D) -> void: released[0] += 1)
-	hand.break_force_n = press * (1.0 + TOLERANCE)
+	hand.break_force = press * (1.0 + TOLERANCE)
 	await rest(0.3)
 	check_equal(released[0], 0, "%s: held at a little less than the force that breaks" % label)
-	hand.break_force_n = press * (1.0 - TOLERANCE)
+	hand.break_force = press * (1.0 - TOLERANCE)
 	await rest(0.2)
 	check(released[0] > 0, "%s: broken at a little more" % label)

@@ -34,7 +34,7 @@ func _run() -> void:
 	root.add_child(layer)
 	for frame: int in FRAMES:
 		var time_s: float = frame / 60.0
-		device.simulated_hand_target(
+		device.set_simulated_hand_target(
 			Transform3D(Basis(), Vector3(0.02 * sin(2.0 * time_s), -0.02 - 0.02 * sin(5.0 * time_s), 0.0)), 0.3)
 		if frame % 90 == 0:
 			device.request_wrench(Vector3.ZERO, Vector3(0.02, 0.0, 0.03), 0.02, 0.4)

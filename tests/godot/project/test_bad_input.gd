@@ -148,9 +148,9 @@ func test_unplugged_device_is_reported_lost() -> void:
 func test_hand_targets_that_are_not_finite_are_refused() -> void:
 	var device: SpidarG = await _armed_device()
 	_messages.clear()
-	check(not device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(NAN, 0, 0)), 0.0), "refused")
-	check(not device.simulated_hand_target(Transform3D.IDENTITY, INF), "refused")
-	_check_message("simulated_hand_target", ["finite"])
+	check(not device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(NAN, 0, 0)), 0.0), "refused")
+	check(not device.set_simulated_hand_target(Transform3D.IDENTITY, INF), "refused")
+	_check_message("set_simulated_hand_target", ["finite"])
 	device.workspace_scale = 0.0
 	check_equal(device.workspace_scale, 1.0, "workspace_scale 0 is refused")
 	device.advance_cycles(200)

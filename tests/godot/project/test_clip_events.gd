@@ -392,7 +392,7 @@ func glide(to: Vector3, speed: float, rest: int = 0) -> void:
 	Engine.physics_ticks_per_second = 1000
 	for i: int in count:
 		at = from.lerp(to, float(i + 1) / count)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
 		if i % 16 == 0:
 			await physics_frames(1)
 		else:

@@ -11,8 +11,8 @@ func test_a_plane_stops_the_hand() -> void:
 	var device: SpidarG = await _armed_device()
 	var surface: float = -0.02
 	var target: float = -0.05
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, target, 0)), 0.0)
-	_press(device, _plane(Vector3.UP, surface, SpidarG.CONTACT_CENTRE, 7), 2000)
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, target, 0)), 0.0)
+	_press(device, _plane(Vector3.UP, surface, SpidarG.CONTACT_CENTER, 7), 2000)
 	# Two springs in balance: the plane's and the hand's.
 	var depth: float = HAND_STIFFNESS * (surface - target) / (STIFFNESS + HAND_STIFFNESS)
 	var height: float = device.get_grip_transform().origin.y
@@ -27,10 +27,10 @@ func test_a_plane_stops_the_hand() -> void:
 
 func test_a_plane_never_pulls() -> void:
 	var device: SpidarG = await _armed_device()
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, 0.03, 0)), 0.0)
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, 0.03, 0)), 0.0)
 	var lowest: float = 0.0
 	for _i: int in 40:
-		device.set_contacts(_plane(Vector3.UP, 0.0, SpidarG.CONTACT_CENTRE, 1))
+		device.set_contacts(_plane(Vector3.UP, 0.0, SpidarG.CONTACT_CENTER, 1))
 		device.advance_cycles(25)
 		lowest = minf(lowest, device.get_requested_wrench()[1])
 	check(lowest >= 0.0, "leaving a plane asks for no force towards it: %f" % lowest)
@@ -39,8 +39,8 @@ func test_a_plane_never_pulls() -> void:
 
 func test_contacts_fade_when_the_game_stops_sending() -> void:
 	var device: SpidarG = await _armed_device()
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, -0.03, 0)), 0.0)
-	_press(device, _plane(Vector3.UP, 0.0, SpidarG.CONTACT_CENTRE, 1), 1000)
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, -0.03, 0)), 0.0)
+	_press(device, _plane(Vector3.UP, 0.0, SpidarG.CONTACT_CENTER, 1), 1000)
 	check(device.get_requested_wrench()[1] > 1.0, "pushes while renewed")
 	device.advance_cycles(90)
 	check(device.get_requested_wrench()[1] > 1.0, "still in full at 90 ms")
@@ -52,7 +52,7 @@ func test_grasp_stop_holds_the_jaws_at_the_width() -> void:
 	var device: SpidarG = await _armed_device()
 	var width: float = 0.035
 	var angle: float = device.get_grasp_angle_for_gap(width)
-	device.simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(60.0))
+	device.set_simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(60.0))
 	_press(device, _grasp_stop(angle, 3), 2000)
 	check(device.get_grasp_angle() < deg_to_rad(55.0), "the stop holds against the hand")
 	check(device.get_grasp_angle() > angle - 0.01, "the hand closes up to the stop")
@@ -72,12 +72,12 @@ func test_planes_are_given_in_world_coordinates() -> void:
 	device.workspace_scale = 2.0
 	add(device)
 	await physics_frames(1)
-	device.simulated_hand_target(Transform3D(turn, Vector3(1, 2, 3)), 0.0)
+	device.set_simulated_hand_target(Transform3D(turn, Vector3(1, 2, 3)), 0.0)
 	device.advance_cycles(1600)
 	check(device.get_grip_transform().origin.distance_to(Vector3(1, 2, 3)) < 1e-3, "rests at the node")
 	# 4 cm below a floor through the node: 2 cm of the device.
-	device.simulated_hand_target(Transform3D(turn, Vector3(1, 1.96, 3)), 0.0)
-	_press(device, _plane(Vector3.UP, 2.0, SpidarG.CONTACT_CENTRE, 1), 2000)
+	device.set_simulated_hand_target(Transform3D(turn, Vector3(1, 1.96, 3)), 0.0)
+	_press(device, _plane(Vector3.UP, 2.0, SpidarG.CONTACT_CENTER, 1), 2000)
 	var depth: float = HAND_STIFFNESS * 0.02 / (STIFFNESS + HAND_STIFFNESS)
 	var grip: Vector3 = device.get_grip_transform().origin
 	check_near(grip.y, 2.0 - 2.0 * depth, 0.1 * depth, "depth in the scene is twice that of the device")
@@ -119,16 +119,16 @@ func test_impulse_over_device_time_is_the_mean_force() -> void:
 		lone.advance_cycles(1600)
 		Engine.time_scale = time_scale
 		# 10 mm into the hand.
-		var plane := PackedFloat64Array([0, 1, 0, 0.01, 0, 0, 0, 200, 0, 0, SpidarG.CONTACT_CENTRE, 7])
+		var plane := PackedFloat64Array([0, 1, 0, 0.01, 0, 0, 0, 200, 0, 0, SpidarG.CONTACT_CENTER, 7])
 		var impulse: float = 0.0
 		var began_s: float = 0.0
 		for i: int in 60:
-			lone.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+			lone.set_simulated_hand_target(Transform3D.IDENTITY, 0.0)
 			lone.set_contacts(plane)
 			await physics_frames(1)
 			if i == 40:
 				impulse = lone.get_contact_impulses()[7].y
-				began_s = lone.get_device_time_s()
-		var force: float = (lone.get_contact_impulses()[7].y - impulse) / (lone.get_device_time_s() - began_s)
+				began_s = lone.get_device_time()
+		var force: float = (lone.get_contact_impulses()[7].y - impulse) / (lone.get_device_time() - began_s)
 		check_near(force / lone.get_requested_wrench()[1], 1.0, 0.01, "time scale %s" % time_scale)
 		lone.free()

@@ -44,7 +44,7 @@ func test_without_a_device_the_simulated_one_stands_in_and_says_so() -> void:
 	var info: Dictionary = device.get_device_info()
 	check_equal(info["simulated"], true, "simulated")
 	check((info["fallback_reason"] as String).length() > 20, "the reason is told: %s" % info["fallback_reason"])
-	check(device.simulated_hand_target(Transform3D(), 0.0), "and it has a hand")
+	check(device.set_simulated_hand_target(Transform3D(), 0.0), "and it has a hand")
 	device.free()
 
 
@@ -151,10 +151,10 @@ func test_buttons_arrive_as_input_events_and_as_a_signal() -> void:
 	add(listener)
 	add(device)
 	await physics_frames(3)
-	check_equal(device.simulated_buttons(256), false, "more buttons than there are")
-	check(device.simulated_buttons(0b101), "pressed")
+	check_equal(device.set_simulated_buttons(256), false, "more buttons than there are")
+	check(device.set_simulated_buttons(0b101), "pressed")
 	await physics_frames(4)
-	check(device.simulated_buttons(0b100), "one let go")
+	check(device.set_simulated_buttons(0b100), "one let go")
 	await physics_frames(4)
 	await frames(2)
 	check_equal(_buttons, [[0, true], [2, true], [0, false]], "signals")

@@ -69,7 +69,7 @@ func _is_felt(heading: String, script: GDScript, told: Dictionary) -> void:
 	var most: PackedFloat64Array = [0, 0, 0, 0, 0, 0, 0]
 	for frame: int in FRAMES:
 		var moved := Vector3(0.0, speed * (frame - FRAMES / 2) / 60.0, 0.0)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, place + moved), told.get("angle", 0.0))
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, place + moved), told.get("angle", 0.0))
 		scene.call("example")
 		await physics_frames(1)
 		if frame >= FRAMES - MEASURED:
@@ -84,7 +84,7 @@ func _is_felt(heading: String, script: GDScript, told: Dictionary) -> void:
 	device.clear_contacts()
 	device.clear_coupling()
 	device.clear_effects()
-	device.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+	device.set_simulated_hand_target(Transform3D.IDENTITY, 0.0)
 	await physics_frames(90)
 	check(not felt.call(device.get_achieved_wrench()), "%s: and ends: %s" % [heading, device.get_achieved_wrench()])
 	scene.free()

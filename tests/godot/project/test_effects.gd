@@ -28,7 +28,7 @@ func test_coupling_takes_world_coordinates_and_a_mask() -> void:
 	device.workspace_scale = 2.0
 	add(device)
 	await physics_frames(1)
-	device.simulated_hand_target(Transform3D(turn, Vector3(1, 2, 3)), 0.0)
+	device.set_simulated_hand_target(Transform3D(turn, Vector3(1, 2, 3)), 0.0)
 	device.advance_cycles(1600)
 	for _i: int in 100:
 		# World y is the node's x.
@@ -75,7 +75,7 @@ func test_what_is_too_stiff_is_brought_down_and_told() -> void:
 	check_equal(device.get_clamp_text(), "", "nothing yet")
 	var most: Vector3 = device.get_stiffness_limits()
 	check(most.x >= 900.0 and most.y >= 2.0 and most.z >= 0.5, "limits %s" % most)
-	device.set_contacts(PackedFloat64Array([0, 1, 0, -0.02, 0, 0, 0, 9000, 2, 0, SpidarG.CONTACT_CENTRE, 1]))
+	device.set_contacts(PackedFloat64Array([0, 1, 0, -0.02, 0, 0, 0, 9000, 2, 0, SpidarG.CONTACT_CENTER, 1]))
 	device.advance_cycles(10)
 	var text: String = device.get_clamp_text()
 	for word: String in ["contact", "9000", "N/m", "latency", "lower"]:
@@ -84,7 +84,7 @@ func test_what_is_too_stiff_is_brought_down_and_told() -> void:
 
 func test_a_turn_stop_holds_the_turn() -> void:
 	var device: SpidarG = await _armed_device()
-	device.simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.4), Vector3.ZERO), 0.0)
+	device.set_simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.4), Vector3.ZERO), 0.0)
 	for _i: int in 100:
 		# Turns about y up to 0.2 rad are free.
 		device.set_contacts(PackedFloat64Array([0, -1, 0, -0.2, 0, 0, 0, 1.0, 0.003, 0, SpidarG.CONTACT_TURN_STOP, 1]))

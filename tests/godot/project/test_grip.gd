@@ -49,7 +49,7 @@ func test_in_a_tick_it_stands_exactly_at_the_grip() -> void:
 func test_the_offset_is_in_the_frame_of_the_grip_and_not_scaled() -> void:
 	await _set_up("child", 3.0)
 	grip.offset = Transform3D(Basis(Vector3.RIGHT, 0.5), Vector3(0.1, 0.2, 0.3))
-	device.simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.4), Vector3.ZERO), 0.0)
+	device.set_simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.4), Vector3.ZERO), 0.0)
 	await physics_frames(60)
 	var wanted: Transform3D = device.get_grip_transform() * grip.offset
 	check_near(grip.global_position.distance_to(wanted.origin), 0.0, ROUNDING_M, "placed by the offset")
@@ -112,7 +112,7 @@ func test_between_ticks_it_is_drawn_smoothly() -> void:
 func test_where_each_frame_has_its_tick_nothing_is_late() -> void:
 	await _set_up("child", 1.0)
 	for i: int in 40:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.1 * i / 60.0, 0, 0)), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.1 * i / 60.0, 0, 0)), 0.0)
 		await frames(1)
 		check_near(grip.global_position.distance_to(device.get_grip_transform().origin), 0.0, ROUNDING_M, "in the frame of the tick")
 	await _leave()
@@ -122,7 +122,7 @@ func test_the_newest_pose_is_drawn_if_that_is_wanted() -> void:
 	Engine.physics_ticks_per_second = 20
 	await _set_up("child", 1.0)
 	grip.smoothing = Grip.Smoothing.NEWEST
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05, 0, 0)), 0.0)
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05, 0, 0)), 0.0)
 	for _i: int in 20:
 		device.advance_cycles(5)
 		await frames(1)
@@ -262,7 +262,7 @@ func _swing(ticks: int) -> void:
 	for i: int in ticks:
 		var turn := Basis(Vector3(1, 2, 0.5).normalized(), 0.3 * sin(0.2 * i))
 		var target := Transform3D(turn, Vector3(0.05 * sin(0.15 * i), 0.03, 0.0))
-		device.simulated_hand_target(device.transform * target, 0.2)
+		device.set_simulated_hand_target(device.transform * target, 0.2)
 		await physics_frames(1)
 
 
@@ -277,7 +277,7 @@ func _steps_of_frames(value: Callable) -> PackedFloat64Array:
 	witness.look_when_drawn = func() -> void: now[0] = value.call()
 	for i: int in 60:
 		var target := Transform3D(device.basis, start + Vector3(0.1 * (i + 1) / 60.0 - 0.05, 0, 0))
-		device.simulated_hand_target(target, 0.0)
+		device.set_simulated_hand_target(target, 0.0)
 		await frames(1)
 		if i >= 36:
 			steps.append(now[0] - last)

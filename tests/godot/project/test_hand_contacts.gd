@@ -91,7 +91,7 @@ func test_everything_scales_with_the_workspace() -> void:
 	await set_up(Vector3.ZERO)
 	device.workspace_scale = 2.0
 	await physics_frames(2)
-	check_near(hand.get_pad_radius_m(), 2.0 * PAD_RADIUS, 1e-9, "pad radius")
+	check_near(hand.get_pad_radius(), 2.0 * PAD_RADIUS, 1e-9, "pad radius")
 	var gap: float = hand.get_pad_position(0).distance_to(hand.get_pad_position(1))
 	check_near(gap, 0.16, 0.002, "open jaws")
 

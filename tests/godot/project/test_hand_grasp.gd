@@ -17,7 +17,7 @@ func test_weight_is_felt_on_lift_and_gone_after_release() -> void:
 		check_equal(hand.get_held_body(), body, "the box is held")
 		check(told.size() > 0, "what is held is told")
 		check_near(told.back().y, 0.03, 0.001, "its width")
-		check_near(told.back().z, hand.get_squeeze_torque_nm(), 0.003, "the squeeze on it")
+		check_near(told.back().z, hand.get_squeeze_torque(), 0.003, "the squeeze on it")
 		await move_to(at + Vector3(0.0, 0.06, 0.0), SQUEEZE_ANGLE, 60)
 		await physics_frames(60)
 		var lifted: float = body.global_position.y - (FLOOR_Y + 0.02)
@@ -48,7 +48,7 @@ func test_the_stop_is_at_the_width_and_is_felt() -> void:
 		await grasp(body)
 		var expected: float = device.get_grasp_angle_for_gap(width)
 		check_near(hand.get_stop_angle(), expected, 0.01, "stop at the width's angle")
-		check_near(hand.get_held_width_m(), width, 0.001, "held width")
+		check_near(hand.get_held_width(), width, 0.001, "held width")
 		var felt: PackedFloat64Array = await mean_felt(20)
 		check(felt[6] < -0.02, "the fingers are pushed open: %f N m" % felt[6])
 		# The same width from what is felt alone: the stop is a spring from its angle on, at 60 % of what is allowed.

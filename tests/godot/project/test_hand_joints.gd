@@ -137,7 +137,7 @@ func test_a_knob_turns_in_its_place() -> void:
 	var rest: Vector3 = _body.global_position
 	for i: int in 60:
 		_turn = Basis(Vector3.UP, 0.8 * (i + 1) / 60.0)
-		device.simulated_hand_target(Transform3D(_turn, at + Vector3(0.004, 0.0, 0.0) * (i + 1) / 60.0), angle)
+		device.set_simulated_hand_target(Transform3D(_turn, at + Vector3(0.004, 0.0, 0.0) * (i + 1) / 60.0), angle)
 		await physics_frames(1)
 	await physics_frames(60)
 	var felt: PackedFloat64Array = await mean_felt(20)
@@ -166,7 +166,7 @@ func _pull_at_random(kind: String, seconds: int) -> void:
 		if i % 400 == 0:
 			from = to
 			to = Transform3D.IDENTITY if i + 400 >= 1000 * seconds else _random_pose(kind, random)
-		device.simulated_hand_target(from.interpolate_with(to, minf((i % 400) / 300.0, 1.0)), angle)
+		device.set_simulated_hand_target(from.interpolate_with(to, minf((i % 400) / 300.0, 1.0)), angle)
 		if i % 16 == 0:
 			await physics_frames(1)
 		else:
@@ -185,7 +185,7 @@ func _pull_at_random(kind: String, seconds: int) -> void:
 		if i % 24 == 0:
 			from = to
 			to = _random_pose(kind, random)
-		device.simulated_hand_target(from.interpolate_with(to, minf((i % 24) / 18.0, 1.0)), angle)
+		device.set_simulated_hand_target(from.interpolate_with(to, minf((i % 24) / 18.0, 1.0)), angle)
 		await physics_frames(1)
 		off = maxf(off, _off_its_joint(kind))
 	print("INFO %s, %d s at random: steps of the force up to %.3f N a servo cycle, %.2f mm off its joint, %.4f J given" % [
@@ -285,7 +285,7 @@ func _opened(opened: float, beside: Vector3 = Vector3.ZERO) -> Transform3D:
 func _swing_to(opened: float, frame_count: int) -> void:
 	var from: float = _aimed if frame_count > 1 else opened
 	for i: int in frame_count:
-		device.simulated_hand_target(_opened(lerpf(from, opened, float(i + 1) / frame_count)), angle)
+		device.set_simulated_hand_target(_opened(lerpf(from, opened, float(i + 1) / frame_count)), angle)
 		await physics_frames(1)
 	_aimed = opened
 

@@ -131,7 +131,7 @@ func _slide(kind: String, speed: float) -> Array[Vector3]:
 	var tick_count: int = roundi(SLIDING_TICKS * way.length() / speed)
 	for i: int in tick_count:
 		at = from + way * (float(i + 1) / tick_count)
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), 0.0)
 		await physics_frames(1)
 		trace.append(force_of(device.get_requested_wrench()))
 		if i % 16 == 0:

@@ -27,7 +27,7 @@ func test_carrying_does_not_tremble() -> void:
 			# The light hand yields under the floor's and the body's forces: aim where the body is.
 			await grasp(body)
 			var held: bool = hand.get_held_body() == body
-			print("INFO %s hand, %.2f kg: squeeze %.3f N m" % [HANDS[kind], mass, hand.get_squeeze_torque_nm()])
+			print("INFO %s hand, %.2f kg: squeeze %.3f N m" % [HANDS[kind], mass, hand.get_squeeze_torque()])
 			if held:
 				await move_to(at + Vector3(0.0, 0.06, 0.0), SQUEEZE_ANGLE, 40)
 				await physics_frames(60)

@@ -51,7 +51,7 @@ func test_a_flailing_hand_stays_bounded() -> void:
 			at = at.move_toward(aim, 0.008)
 			angle = move_toward(angle, close, 0.06)
 			var tilt := Basis(Vector3.UP, 0.6 * sin(0.02 * frame))
-			device.simulated_hand_target(Transform3D(tilt, at), angle)
+			device.set_simulated_hand_target(Transform3D(tilt, at), angle)
 			if frame % 150 == 149:
 				var doomed: RigidBody3D = bodies.pop_back()
 				doomed.free()  # Held or not.

@@ -111,7 +111,7 @@ func _slide(kind: String, outside: bool, speed: float, own: float) -> float:
 		var angle_rad: float = half * (2.0 * (i + 1) / count - 1.0)
 		at = place.call(angle_rad)
 		turn = turned.call(angle_rad)
-		device.simulated_hand_target(Transform3D(turn, at), SQUEEZE_ANGLE)
+		device.set_simulated_hand_target(Transform3D(turn, at), SQUEEZE_ANGLE)
 		await physics_frames(1)
 		var due_now: Vector3 = _due(middle)
 		if i > count / 8:  # once the hand is under way

@@ -98,7 +98,7 @@ func test_stepped_runs_are_identical() -> void:
 		var record := PackedFloat64Array()
 		for frame: int in 120:
 			await physics_frames(1)
-			device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05 * sin(0.1 * frame), 0, 0)), 0.3)
+			device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05 * sin(0.1 * frame), 0, 0)), 0.3)
 			device.request_wrench(Vector3(1, 0, 0), Vector3.ZERO, 0.01)
 			record.append_array(device.get_string_tensions())
 			record.append_array(device.get_string_lengths())

@@ -228,7 +228,7 @@ func _glide(speed: Vector3, cycle_count: int, game_cycles: int = 16) -> PackedVe
 	var felt: PackedVector3Array = []
 	for i: int in cycle_count:
 		at += speed * 0.001
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), angle)
 		if i % game_cycles == 0:
 			await physics_frames(1)
 		else:

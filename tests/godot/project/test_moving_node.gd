@@ -156,7 +156,7 @@ func test_a_plane_and_a_coupling_that_move_along_do_not_drag() -> void:
 			else:
 				# 4 mm into the hand, rough.
 				device.set_contacts(PackedFloat64Array([
-					0, 1, 0, car.position.y + 0.004, velocity.x, velocity.y, velocity.z, 300, 2, 0.5, SpidarG.CONTACT_CENTRE, 7
+					0, 1, 0, car.position.y + 0.004, velocity.x, velocity.y, velocity.z, 300, 2, 0.5, SpidarG.CONTACT_CENTER, 7
 				]))
 			var felt: PackedFloat64Array = device.get_requested_wrench()
 			if i >= 30:
@@ -185,7 +185,7 @@ func test_a_step_of_a_platform_feels_alike_whatever_body_it_is() -> void:
 			await move_to(Vector3(0, FLOOR_Y + 0.002, 0), 0.0, 60)
 			await physics_frames(40)
 			# All are seen at the same time of the device, whose ticks have 16 or 17 cycles: what physics moves a tick later.
-			while device.get_device_time_s() < (3.475 if kind == "static" else 3.46):
+			while device.get_device_time() < (3.475 if kind == "static" else 3.46):
 				await physics_frames(1)
 			platform.position.y += 0.001 * step_mm
 			var peak: float = 0.0
@@ -229,7 +229,7 @@ func _set_up_car(
 	device.forces_enabled = true
 	device.position = offset
 	hand = SpidarGHand.new()
-	hand.contact_stiffness_n_m = 350.0
+	hand.contact_stiffness = 350.0
 	device.add_child(hand)
 	car.add_child(device)
 	if table is AnimatableBody3D:
@@ -259,7 +259,7 @@ func _put_box(to: PhysicsBody3D, size: Vector3, position: Vector3) -> void:
 func _tick() -> void:
 	if drive.is_valid():
 		drive.call()
-	device.simulated_hand_target(car.global_transform * here, angle)
+	device.set_simulated_hand_target(car.global_transform * here, angle)
 	await physics_frames(1)
 
 

@@ -49,7 +49,7 @@ func test_a_scripts_contacts_stay_beside_a_hands() -> void:
 	check_equal(device.get_free_contacts("another"), 7, "seven are left to the others")
 	# Towards the floor: the hand publishes its own planes, tick by tick.
 	for i: int in 60:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, FLOOR_Y + 0.007, 0) * (i / 59.0)), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, FLOOR_Y + 0.007, 0) * (i / 59.0)), 0.0)
 		var wall: PackedFloat64Array = PLANE.duplicate()
 		wall[0] = 1.0
 		wall[1] = 0.0
@@ -96,8 +96,8 @@ func test_of_two_hands_on_one_device_the_first_acts() -> void:
 	await set_up(Vector3.ZERO)
 	var second := SpidarGHand.new()
 	second.name = "Second"
-	second.contact_stiffness_n_m = 350.0
-	hand.contact_stiffness_n_m = 350.0
+	second.contact_stiffness = 350.0
+	hand.contact_stiffness = 350.0
 	device.add_child(second)
 	check(second.get_warnings().size() >= 1, "warned in the editor")
 	await move_to(Vector3(0.0, FLOOR_Y + 0.007, 0.0), 0.0, 40)

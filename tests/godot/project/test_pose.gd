@@ -20,7 +20,7 @@ func test_pose_is_at_the_quantisation_limit_over_the_workspace() -> void:
 	var grasp_sum: float = 0.0
 	var worst_m: float = 0.0
 	for _i: int in POSES:
-		device.simulated_hand_target(_random_pose(random), deg_to_rad(random.randf_range(-30.0, 30.0)))
+		device.set_simulated_hand_target(_random_pose(random), deg_to_rad(random.randf_range(-30.0, 30.0)))
 		device.advance_cycles(CYCLES_A_POSE)
 		var truth: Dictionary = device.get_simulated_truth()
 		var true_grip: Transform3D = truth["grip_transform"]
@@ -75,7 +75,7 @@ func test_closing_hand_raises_grasp_angle_and_signals() -> void:
 	device.over_closed.connect(func() -> void: events.append("over_closed"))
 	await physics_frames(1)
 	for degrees: float in [30.0, 60.0, 30.0, 0.0]:
-		device.simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(degrees))
+		device.set_simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(degrees))
 		device.advance_cycles(800)
 		check_near(rad_to_deg(device.get_grasp_angle()), degrees, 0.2, "grasp angle")
 	check_equal(events, ["grasped", "over_closed", "grasped", "released"], "phases in order")

@@ -3,7 +3,7 @@ extends "res://test_case.gd"
 
 const CONFIG: String = "spidar_g/device/default_config"
 const HARDWARE: String = "spidar_g/device/use_hardware"
-const FORCE: String = "spidar_g/safety/largest_force_n"
+const FORCE: String = "spidar_g/safety/max_force"
 const PANIC: String = "spidar_g/safety/panic_key"
 const DEFAULTS: Dictionary[String, Variant] = {CONFIG: "", HARDWARE: true, FORCE: 40.0, PANIC: 0}
 const FILE: String = "user://default_config.tres"
@@ -50,7 +50,7 @@ func test_without_hardware_the_simulated_device_needs_no_reason() -> void:
 	var device := SpidarG.new()
 	add(device)
 	check(await until(func() -> bool: return is_open(device)), "opens")
-	check(device.simulated_hand_target(Transform3D.IDENTITY, 0.0), "as the simulated one")
+	check(device.set_simulated_hand_target(Transform3D.IDENTITY, 0.0), "as the simulated one")
 	check_equal(device.get_device_info()["fallback_reason"], "", "and looked for no other")
 	device.free()
 	ProjectSettings.set_setting(HARDWARE, DEFAULTS[HARDWARE])
@@ -99,7 +99,7 @@ func _active_device() -> SpidarG:
 func _felt_n() -> float:
 	var device: SpidarG = await _active_device()
 	for _i: int in 20:
-		device.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+		device.set_simulated_hand_target(Transform3D.IDENTITY, 0.0)
 		device.request_wrench(Vector3(0.0, 5.0, 0.0), Vector3.ZERO, 0.0)
 		await physics_frames(1)
 	var felt: float = device.get_achieved_wrench()[1]

@@ -17,10 +17,10 @@ func test_a_recorded_run_replays_to_the_bit() -> void:
 	check(device.is_recording(), "it runs")
 	var poses: Array[Transform3D] = []
 	for frame: int in FRAMES:
-		device.simulated_hand_target(
+		device.set_simulated_hand_target(
 			Transform3D(Basis(), Vector3(0.0, -0.04 if frame % 30 < 15 else 0.02, 0.0)), 0.3)
 		device.set_contacts(PackedFloat64Array(
-			[0, 1, 0, -0.01 - 0.0001 * frame, 0, 0, 0, 350, 2, 0.3, SpidarG.CONTACT_CENTRE, 1]))
+			[0, 1, 0, -0.01 - 0.0001 * frame, 0, 0, 0, 350, 2, 0.3, SpidarG.CONTACT_CENTER, 1]))
 		await physics_frames(1)
 		poses.append(device.get_grip_transform())
 	var statistics: Dictionary = device.get_recording_statistics()
@@ -34,7 +34,7 @@ func test_a_recorded_run_replays_to_the_bit() -> void:
 		func(identical: bool, message: String) -> void: ends.append([identical, message]))
 	check(device.start_replay(PATH), "the replay starts")
 	check(device.is_replaying(), "it runs")
-	check(not device.simulated_hand_target(Transform3D(), 0.0), "no hand while a recording plays")
+	check(not device.set_simulated_hand_target(Transform3D(), 0.0), "no hand while a recording plays")
 	var seen: Array[Transform3D] = []
 	for frame: int in FRAMES + 5:
 		await physics_frames(1)
@@ -53,7 +53,7 @@ func test_a_recorded_run_replays_to_the_bit() -> void:
 	check(not device.is_replaying(), "stopped")
 	await physics_frames(3)
 	check(is_open(device), "the device is open again")
-	check(device.simulated_hand_target(Transform3D(), 0.0), "and its hand too")
+	check(device.set_simulated_hand_target(Transform3D(), 0.0), "and its hand too")
 	device.free()
 
 
@@ -153,7 +153,7 @@ func test_a_recording_of_another_build_plays_as_poses() -> void:
 	check(device.start_recording(PATH), "the recording starts")
 	var poses: Array[Transform3D] = []
 	for frame: int in 60:
-		device.simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.2)
+		device.set_simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.2)
 		await physics_frames(1)
 		poses.append(device.get_grip_transform())
 	device.stop_recording()
@@ -196,7 +196,7 @@ func test_a_cut_recording_plays_up_to_the_cut() -> void:
 	await physics_frames(2)
 	check(device.start_recording(PATH), "the recording starts")
 	for frame: int in 60:
-		device.simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis(), Vector3(0.0, 0.0005 * frame, 0.0)), 0.0)
 		await physics_frames(1)
 	device.stop_recording()
 	var whole: PackedByteArray = FileAccess.get_file_as_bytes(PATH)

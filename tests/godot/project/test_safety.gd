@@ -70,7 +70,7 @@ func test_a_device_that_restarted_needs_a_zero_at_home() -> void:
 	device.advance_cycles(700)
 	check_equal(device.get_state(), SpidarG.STATE_TAUT, "waits for the motion that checks it")
 	for target: Vector3 in [Vector3(0.05, 0.03, 0), Vector3(-0.05, 0, 0.04), Vector3(0, -0.04, -0.03)]:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, target), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, target), 0.0)
 		device.advance_cycles(500)
 	check(_names().has("zero_confirmed"), "confirmed: %s" % [_names()])
 	check(device.get_statistics()["zero_known"], "known again")

@@ -73,7 +73,7 @@ func test_of_two_hands_on_one_body_the_last_gives_it_its_sleep() -> void:
 		for upper: int in 2:
 			var lone: SpidarG = ideal_device()
 			lone.position = Vector3(0.0, 0.04 - 0.05 + 0.04 * upper, 0.0)
-			lone.simulated_hand_target(lone.transform, 0.0)
+			lone.set_simulated_hand_target(lone.transform, 0.0)
 			var holder := SpidarGHand.new()
 			lone.add_child(holder)
 			add(lone)
@@ -83,7 +83,7 @@ func test_of_two_hands_on_one_body_the_last_gives_it_its_sleep() -> void:
 		body.gravity_scale = 0.0
 		for frame: int in 90:
 			for lone: SpidarG in devices:
-				lone.simulated_hand_target(lone.transform, SQUEEZE_ANGLE * minf(frame / 40.0, 1.0))
+				lone.set_simulated_hand_target(lone.transform, SQUEEZE_ANGLE * minf(frame / 40.0, 1.0))
 			await physics_frames(1)
 		check(hands[0].get_held_body() == body and hands[1].get_held_body() == body, "both hold it")
 		check(not body.can_sleep, "a held body does not sleep")
@@ -121,12 +121,12 @@ func test_a_mirrored_or_scaled_place_is_warned_about_and_turns_rightly() -> void
 		var target := Transform3D(Basis(Vector3.UP, 0.3), Vector3(0.03, 0.02, 0.01))
 		check(lone.get_grip_transform().basis.is_equal_approx(Basis.IDENTITY), "%s: the grip rests unturned" % kind)
 		for _i: int in 90:
-			lone.simulated_hand_target(target, 0.0)
+			lone.set_simulated_hand_target(target, 0.0)
 			await physics_frames(1)
 		var before: Basis = lone.get_grip_transform().basis
 		check_near(lone.get_grip_transform().origin.distance_to(target.origin), 0.0, 1e-4, "%s: where its hand is" % kind)
 		for _i: int in 60:
-			lone.simulated_hand_target(target, 0.0)
+			lone.set_simulated_hand_target(target, 0.0)
 			lone.request_wrench(Vector3(0, 0.5, 0), Vector3(0, 0.05, 0), 0.0)
 			await physics_frames(1)
 		var turned: Vector3 = (lone.get_grip_transform().basis * before.inverse()).get_euler()
@@ -222,7 +222,7 @@ func test_hand_view_and_node_have_one_config() -> void:
 	check_equal(lone.get_effective_config().frame_size, Vector3(0.8, 0.6, 0.7), "the project's")
 	check_equal(view._frame_size(), Vector3(0.8, 0.6, 0.7), "drawn so")
 	for frame: int in 100:
-		lone.simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(60.0) * minf(frame / 60.0, 1.0))
+		lone.set_simulated_hand_target(Transform3D.IDENTITY, deg_to_rad(60.0) * minf(frame / 60.0, 1.0))
 		await physics_frames(1)
 	check_near(rad_to_deg(hand.get_stop_angle()), 30.0, 0.01, "the jaws stop where they are closed")
 	ProjectSettings.set_setting(CONFIG, "")
@@ -253,7 +253,7 @@ func test_what_is_drawn_is_not_interpolated() -> void:
 	check(not view.is_physics_interpolated(), "the view as well")
 	tree.physics_interpolation = true
 	for i: int in 20:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.004 * i, 0, 0)), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.004 * i, 0, 0)), 0.0)
 		await frames(1)
 		var drawn: Vector3 = view._parts._poles[0].get_global_transform_interpolated().origin
 		check_near(drawn.distance_to(view._drawn_grip.origin), 0.0, 1e-6, "drawn where the grip was when it was drawn, m")

@@ -27,7 +27,7 @@ func test_a_pad_pressed_askew_on_a_face_is_shown_on_it() -> void:
 	# A pad's flat back meets the wall at 100 mm, turned by 4 degrees.
 	for i: int in 120:
 		at = Vector3(0.06 * minf((i + 1) / 60.0, 1.0), 0.0, 0.0)
-		device.simulated_hand_target(Transform3D(Basis(Vector3.UP, TURN), at), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis(Vector3.UP, TURN), at), 0.0)
 		await physics_frames(1)
 		check(depth(true) <= CLEAR_M, "shown %.3f mm inside" % [1e3 * depth(true)])
 	check(depth(false) > 0.001, "the grip itself is %.3f mm inside" % [1e3 * depth(false)])

@@ -17,7 +17,7 @@ func test_every_fault_can_be_injected_and_cleared() -> void:
 		check_equal(device.get_state(), SpidarG.STATE_ACTIVE, "active before fault %d" % fault)
 		check(device.inject_simulated_fault(fault, 2, 0.05, 0.3), "fault %d is accepted" % fault)
 		for frame: int in 30:
-			device.simulated_hand_target(
+			device.set_simulated_hand_target(
 				Transform3D(Basis(), Vector3(0.03 * sin(0.3 * frame), 0.03 * cos(0.3 * frame), 0.0)), 0.2)
 			await physics_frames(1)
 			for tension_n: float in device.get_string_tensions():

@@ -35,7 +35,7 @@ func test_two_hands_with_sockets_of_their_own_do_not_mix() -> void:
 	var before: PackedFloat64Array = await mean_felt(20)
 	var one: SpidarG = first[0]
 	for part: int in 30:
-		one.simulated_hand_target(Transform3D(Basis(), first[5] + Vector3(0.0, 0.008 * part / 29.0, 0.0)), first[6])
+		one.set_simulated_hand_target(Transform3D(Basis(), first[5] + Vector3(0.0, 0.008 * part / 29.0, 0.0)), first[6])
 		await physics_frames(1)
 	await physics_frames(30)
 	check(first[3].is_linked() and first[3].get_mate() == first[4], "the first is still linked")
@@ -134,7 +134,7 @@ func test_a_ball_turns_with_the_hand_and_its_mate_meets_many() -> void:
 	check_equal(cup.get_mates().size() + second.get_mates().size(), 3, "with the other link as it was")
 	var turned := Basis(Vector3.UP, 0.3)
 	for part: int in 30:
-		device.simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.3 * part / 29.0), at), SQUEEZE_ANGLE)
+		device.set_simulated_hand_target(Transform3D(Basis(Vector3.UP, 0.3 * part / 29.0), at), SQUEEZE_ANGLE)
 		await physics_frames(1)
 	await physics_frames(30)
 	var turn: float = body.basis.get_rotation_quaternion().angle_to(turned.get_rotation_quaternion())
@@ -194,7 +194,7 @@ func _set_up_two() -> void:
 
 func _aim(who: int, to_angle: float) -> void:
 	var lowered := Vector3(0.0, at.y if who == 1 else 0.0, 0.0)
-	devices[who].simulated_hand_target(devices[who].transform.translated(lowered), to_angle)
+	devices[who].set_simulated_hand_target(devices[who].transform.translated(lowered), to_angle)
 
 
 ## Lowers the upper hand until its plug, as it holds it, is `height` over the lower one's.

@@ -16,8 +16,8 @@ func _lean(calibration: SpidarGCalibration) -> Vector2:
 	add(device)
 	await physics_frames(1)
 	device.advance_cycles(1600)
-	device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, -0.03, 0)), 0.0)
-	var wall := PackedFloat64Array([0, 1, 0, 0, 0, 0, 0, WALL, 2.0, 0.0, SpidarG.CONTACT_CENTRE, 1])
+	device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0, -0.03, 0)), 0.0)
+	var wall := PackedFloat64Array([0, 1, 0, 0, 0, 0, 0, WALL, 2.0, 0.0, SpidarG.CONTACT_CENTER, 1])
 	for _i: int in 100:
 		device.set_contacts(wall)
 		device.advance_cycles(20)

@@ -45,7 +45,7 @@ func test_a_controller_follows_on_a_lift_with_the_velocity_against_its_origin() 
 	for _i: int in 40:
 		origin.position += Vector3(0, 1, 0) / 60.0
 		device.position += Vector3(0, 1, 0) / 60.0
-		device.simulated_hand_target(device.transform, 0.0)
+		device.set_simulated_hand_target(device.transform, 0.0)
 		await physics_frames(1)
 	check_near(seen_apart_m, 0.0, NEAR_M, "apart in a tick")
 	var velocity: Vector3 = controller.get_pose().linear_velocity
@@ -61,7 +61,7 @@ func test_poses_have_velocities_in_the_axes_of_the_origin() -> void:
 	for i: int in 120:
 		# World x is the origin's z: 0.1 m/s of the device, 0.2 of the scene, 0.05 of the play space. A turn of 0.4 rad/s about y.
 		var turn: Basis = Basis(Vector3.UP, 0.4 * i / 60.0)
-		device.simulated_hand_target(device.transform * Transform3D(turn, Vector3(0.2 * i / 60.0 - 0.2, 0, 0)), 0.0)
+		device.set_simulated_hand_target(device.transform * Transform3D(turn, Vector3(0.2 * i / 60.0 - 0.2, 0, 0)), 0.0)
 		await physics_frames(1)
 		# The simulated hand swings a little about its turn.
 		if i >= 60:
@@ -129,7 +129,7 @@ func test_squeezing_is_the_input_trigger() -> void:
 	check_near(controller.get_float("trigger"), 0.0, 0.02, "nothing between the pads, not closed")
 	await _grasp_slowly(deg_to_rad(40.0), SQUEEZE_ANGLE)
 	await physics_frames(30)
-	var squeeze: float = (device.get_child(-1) as SpidarGHand).get_squeeze_torque_nm()
+	var squeeze: float = (device.get_child(-1) as SpidarGHand).get_squeeze_torque()
 	print("INFO squeeze of the closed pads: %.4f N m, trigger %.3f" % [squeeze, controller.get_float("trigger")])
 	check(squeeze > 0.02, "squeezed: %f N m" % squeeze)
 	check_near(controller.get_float("trigger"), minf(1.0, squeeze / tracker.full_squeeze_nm), 0.01, "as a part of the full squeeze")
@@ -164,25 +164,25 @@ func test_the_trigger_may_be_an_action_or_the_grasp() -> void:
 func test_the_buttons_of_the_device_are_inputs() -> void:
 	await _set_up()
 	for button: int in 3:
-		device.simulated_buttons(1 << button)
+		device.set_simulated_buttons(1 << button)
 		await physics_frames(3)
 		check(controller.is_button_pressed(["ax_button", "by_button", "menu_button"][button]), "button %d is held" % button)
-	device.simulated_buttons(0)
+	device.set_simulated_buttons(0)
 	await physics_frames(3)
 	for input: String in ["ax_button", "by_button", "menu_button"]:
 		check_equal(pressed.count(input), 1, "%s pressed once" % input)
 		check_equal(released.count(input), 1, "%s let go once" % input)
 	# Without a name.
-	device.simulated_buttons(1 << 7)
+	device.set_simulated_buttons(1 << 7)
 	await physics_frames(3)
 	check(not pressed.has(""), "a button without a name is no input")
-	device.simulated_buttons(0)
+	device.set_simulated_buttons(0)
 	await _leave()
 
 
 func test_a_device_in_fault_or_closed_is_not_active() -> void:
 	await _set_up()
-	device.simulated_buttons(1)
+	device.set_simulated_buttons(1)
 	await physics_frames(3)
 	check(controller.is_button_pressed("ax_button"), "held before")
 	device.panic_stop()
@@ -239,7 +239,7 @@ func test_the_place_in_the_play_space_is_calibrated_from_one_pose() -> void:
 	await _set_up(2.0)
 	origin.world_scale = 2.0
 	origin.transform = Transform3D(Basis(Vector3.UP, 0.4), Vector3(3, 0, 0))
-	device.simulated_hand_target(device.transform * Transform3D(Basis(Vector3.UP, 0.2), Vector3(0.06, 0.04, 0)), 0.0)
+	device.set_simulated_hand_target(device.transform * Transform3D(Basis(Vector3.UP, 0.2), Vector3(0.06, 0.04, 0)), 0.0)
 	await physics_frames(60)
 	var known := Transform3D(Basis(Vector3.UP, 1.1), Vector3(0.3, 1.0, -0.4))
 	check(tracker.calibrate_place(known), "taken")
@@ -319,12 +319,12 @@ func _leave() -> void:
 func _swing(ticks: int) -> void:
 	for i: int in ticks:
 		var target := Transform3D(Basis(Vector3.UP, 0.3 * sin(0.2 * i)), Vector3(0.05 * sin(0.15 * i), 0.03, 0.0) * device.workspace_scale)
-		device.simulated_hand_target(device.global_transform * target, 0.2)
+		device.set_simulated_hand_target(device.global_transform * target, 0.2)
 		await physics_frames(1)
 
 
 func _grasp_slowly(from: float, to: float) -> void:
 	for i: int in 40:
-		device.simulated_hand_target(device.transform, lerpf(from, to, (i + 1) / 40.0))
+		device.set_simulated_hand_target(device.transform, lerpf(from, to, (i + 1) / 40.0))
 		await physics_frames(1)
 	await physics_frames(30)

@@ -129,7 +129,7 @@ func _hold_both(mass: float = 0.05) -> void:
 
 func _aim(k: int, at: Vector3) -> void:
 	_at[k] = at
-	_devices[k].simulated_hand_target(Transform3D(Basis.IDENTITY, at), _angle[k])
+	_devices[k].set_simulated_hand_target(Transform3D(Basis.IDENTITY, at), _angle[k])
 
 
 func _felt(k: int) -> Vector3:

@@ -31,7 +31,7 @@ func test_parts_are_where_the_device_is() -> void:
 		device.basis * Basis(Vector3(1.0, 1.0, 0.0).normalized(), 0.3), Vector3(1.05, 2.04, 2.97)
 	)
 	for _i: int in 90:
-		device.simulated_hand_target(target, 0.4)
+		device.set_simulated_hand_target(target, 0.4)
 		await physics_frames(1)
 	await frames(2)
 	var grip: Transform3D = device.get_grip_transform()
@@ -44,7 +44,7 @@ func test_parts_are_where_the_device_is() -> void:
 		check_near(drawn.basis.x.length(), 2.0, 1e-4, "drawn at the workspace's scale")
 	for side: int in 2:
 		var pad: Vector3 = view._parts._pads[side].global_position
-		var middle: Vector3 = hand.get_pad_transform(side) * Vector3(0.25 * hand.get_pad_radius_m(), 0.0, 0.0)
+		var middle: Vector3 = hand.get_pad_transform(side) * Vector3(0.25 * hand.get_pad_radius(), 0.0, 0.0)
 		check_near(pad.distance_to(middle), 0.0, 1e-5, "pad %d" % side)
 		var outward: Vector3 = (hand.get_pad_position(side) - hand.get_pad_position(1 - side)).normalized()
 		var disc: Vector3 = view._parts._pads[side].global_basis.y.normalized()
@@ -57,13 +57,13 @@ func test_a_hidden_view_does_not_follow_and_catches_up() -> void:
 	device.add_child(view)
 	add(device)
 	for _i: int in 30:
-		device.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+		device.set_simulated_hand_target(Transform3D.IDENTITY, 0.0)
 		await physics_frames(1)
 	await frames(2)
 	view.visible = false
 	var where: Vector3 = view._parts._poles[0].global_position
 	for _i: int in 60:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05, 0.0, 0.0)), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, Vector3(0.05, 0.0, 0.0)), 0.0)
 		await physics_frames(1)
 	await frames(2)
 	check_equal(view._parts._poles[0].global_position, where, "hidden: not moved")
@@ -90,7 +90,7 @@ func test_a_grip_that_is_not_shown_does_not_follow_and_catches_up() -> void:
 
 func go_to(device: SpidarG, where: Vector3) -> void:
 	for _i: int in 60:
-		device.simulated_hand_target(Transform3D(Basis.IDENTITY, where), 0.0)
+		device.set_simulated_hand_target(Transform3D(Basis.IDENTITY, where), 0.0)
 		await physics_frames(1)
 	await frames(2)
 

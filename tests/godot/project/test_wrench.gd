@@ -43,14 +43,14 @@ func test_power_is_wrench_times_twist_in_every_dof() -> void:
 		_hold(device, asked, 1500)
 		var start: PackedFloat64Array = _pose(device)
 		var energy: float = device.get_simulated_truth()["energy_to_hand_j"]
-		device.simulated_hand_target(_target(dof, steps[dof]), steps[6] if dof == 6 else 0.0)
+		device.set_simulated_hand_target(_target(dof, steps[dof]), steps[6] if dof == 6 else 0.0)
 		_hold(device, asked, 1500)
 		var moved: float = _pose(device)[dof] - start[dof]
 		var work: float = float(device.get_simulated_truth()["energy_to_hand_j"]) - energy
 		print("INFO %s: work %.6f J, wrench x displacement %.6f J" % [NAMES[dof], work, asked[dof] * moved])
 		check(moved > 0.5 * steps[dof], "%s: the hand moved %.4f" % [NAMES[dof], moved])
 		check_near(work / (asked[dof] * moved), 1.0, 0.03, "%s: work against wrench x displacement" % NAMES[dof])
-		device.simulated_hand_target(Transform3D.IDENTITY, 0.0)
+		device.set_simulated_hand_target(Transform3D.IDENTITY, 0.0)
 		device.advance_cycles(1500)
 
 

@@ -113,7 +113,7 @@ func _move(tick: int, above: Vector3) -> void:
 	for way: Array in ways:
 		if tick < way[0]:
 			var part: float = float(tick - began + 1) / (way[0] - began)
-			device.simulated_hand_target(
+			device.set_simulated_hand_target(
 				Transform3D(Basis.IDENTITY, from.lerp(way[1], part)), lerpf(from_angle, way[2], part))
 			return
 		began = way[0]

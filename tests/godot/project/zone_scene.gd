@@ -59,7 +59,7 @@ func run(ticks: int, to: Vector3 = at) -> void:
 	var from: Vector3 = at
 	for tick: int in ticks:
 		at = from.lerp(to, float(tick + 1) / ticks)
-		device.simulated_hand_target(device.global_transform * Transform3D(Basis.IDENTITY, at), 0.0)
+		device.set_simulated_hand_target(device.global_transform * Transform3D(Basis.IDENTITY, at), 0.0)
 		await physics_frames(1)
 		for _cycle: int in CYCLES_A_TICK:
 			device.advance_cycles(1)

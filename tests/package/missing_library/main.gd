@@ -52,9 +52,9 @@ func _on_body_grasped(_body: RigidBody3D) -> void:
 
 
 func _physics_process(_delta: float) -> void:
-	device.simulated_hand_target(Transform3D(Basis(), Vector3(0, -0.05, 0)), deg_to_rad(30.0))
+	device.set_simulated_hand_target(Transform3D(Basis(), Vector3(0, -0.05, 0)), deg_to_rad(30.0))
 	device.request_wrench(Vector3(0, -1.5, 0), Vector3.ZERO, 0.0)
-	device.set_contacts([0, 1, 0, -0.02, 0, 0, 0, 350, 2, 0.3, SpidarG.CONTACT_CENTRE, 1])
+	device.set_contacts([0, 1, 0, -0.02, 0, 0, 0, 350, 2, 0.3, SpidarG.CONTACT_CENTER, 1])
 	state = device.get_state()
 	frames += 1
 	if frames < FRAMES:

@@ -15,4 +15,4 @@ func _physics_process(delta: float) -> void:
 	_time_s += delta
 	var closed: float = clampf(_time_s - 1.5, 0.0, 1.0) # when its forces are on
 	var sway: Vector3 = SWAY_M * (1.0 - cos(TAU * maxf(_time_s - 3.0, 0.0) / PERIOD_S))
-	_right.simulated_hand_target(Transform3D(_right.global_basis, _end + sway), SQUEEZE_RAD * closed)
+	_right.set_simulated_hand_target(Transform3D(_right.global_basis, _end + sway), SQUEEZE_RAD * closed)

@@ -35,14 +35,14 @@ func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: f
 	_id = id
 	_direction = direction.normalized()
 	_share = share
-	_began_s = of.get_device_time_s()
+	_began_s = of.get_device_time()
 
 
 ## Renews the vibration. Returns false when the clip is over, and when the device does not take the effect.
 func step(tick_s: float) -> bool:
 	if not is_instance_valid(spidar) or spidar.get_state() == SpidarG.STATE_CLOSED:
 		return false
-	var now_s: float = spidar.get_device_time_s() - _began_s
+	var now_s: float = spidar.get_device_time() - _began_s
 	if _fades:
 		return now_s - _stepped_s < CROSS_FADE_S
 	if now_s == _stepped_s: # nothing of what was asked for has been rendered yet

@@ -285,7 +285,7 @@ func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 ## Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
 func _is_new(spidar: SpidarG) -> bool:
 	var id: int = spidar.get_instance_id()
-	var now_s: float = spidar.get_device_time_s()
+	var now_s: float = spidar.get_device_time()
 	var before_s: float = _heard_s.get(id, -INF)
 	_heard_s[id] = now_s
 	return not _runs.has(id) and now_s - before_s >= BOUNCE_S and now_s - _ended_s.get(id, -INF) >= cooldown
@@ -293,7 +293,7 @@ func _is_new(spidar: SpidarG) -> bool:
 
 func _on_left(hand: SpidarGHand) -> void:
 	if is_instance_valid(hand) and hand.spidar != null:
-		_heard_s[hand.spidar.get_instance_id()] = hand.spidar.get_device_time_s()
+		_heard_s[hand.spidar.get_instance_id()] = hand.spidar.get_device_time()
 
 
 func _on_slip_ended(hand: SpidarGHand) -> void:
@@ -346,7 +346,7 @@ func _drop(id: int) -> void:
 	_choose()
 	var is_there: bool = is_instance_valid(run.spidar)
 	if is_there:
-		_ended_s[id] = run.spidar.get_device_time_s()
+		_ended_s[id] = run.spidar.get_device_time()
 	finished.emit(run.spidar if is_there else null)
 
 

@@ -23,7 +23,7 @@ static func trigger(source: int, spidar: SpidarG, hand: SpidarGHand, full_squeez
 			source = TRIGGER_SQUEEZE
 	match source:
 		TRIGGER_SQUEEZE:
-			return clampf(hand.get_squeeze_torque_nm() / full_squeeze_nm, 0.0, 1.0) if hand != null else 0.0
+			return clampf(hand.get_squeeze_torque() / full_squeeze_nm, 0.0, 1.0) if hand != null else 0.0
 		TRIGGER_ACTION:
 			return Input.get_action_strength(action) if InputMap.has_action(action) else 0.0
 	return closed_part(spidar)

@@ -12,10 +12,10 @@ public:
 
     // Once a physics tick of tick_s. press_n: what the world presses on the body; since_s: device time since it was told
     // before, 0 when nothing new is known of it. stretch_m: device metres between the body and its place in the grip.
-    [[nodiscard]] bool breaks(double press_n, double break_force_n, double since_s,
-                              double stretch_m, double tick_s) noexcept {
+    [[nodiscard]] bool breaks(double press_n, double break_force, double since_s, double stretch_m,
+                              double tick_s) noexcept {
         if (since_s > 0.0) {
-            overload_s_ = press_n > break_force_n ? overload_s_ + since_s : 0.0;
+            overload_s_ = press_n > break_force ? overload_s_ + since_s : 0.0;
         }
         torn_s_ = stretch_m > kMaxStretch_m ? torn_s_ + tick_s : 0.0;
         return std::max(overload_s_, torn_s_) >= kBreakTime_s;
