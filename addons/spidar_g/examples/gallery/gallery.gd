@@ -10,15 +10,17 @@ const EXAMPLES: Dictionary[String, String] = {
 	"materials": "Materials\nHard, soft, slippery, rough, sticky, magnetic: ten samples.",
 	"grasp": "Grasp\nThree things to lift, each with its weight and width.",
 	"door_and_drawer": "Door and drawer\nHandles on joints: springs, ends and a weight.",
+	"two_hands": "Two hands\nA bar that two devices hold: each feels the other.",
 	"socket": "Socket\nA plug that clicks on a stand and below an arm.",
 	"zone": "Zone\nWater, wind, a rail and a buzz in the air.",
+	"clip": "Clip\nA drum, a motor and a board play vibrations.",
 	"grip": "Grip\nA torch in the hand: what is below a node follows it.",
 	"tracker": "Tracker\nThe device as an XR controller, without a headset.",
 	"mouse_hand": "Mouse hand\nWhat mouse and keys do where there is no device.",
 }
 
 ## Of a button, in its own width: its height, and that of its letters.
-const HEIGHT: float = 0.86
+const HEIGHT: float = 0.83
 const LETTERS: float = 0.058
 
 var _example: Node = null

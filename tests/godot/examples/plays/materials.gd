@@ -8,6 +8,7 @@ const DEPTH_M: float = 0.006 # how deep the hand wants to press
 const SLIDE_M_S: float = 0.06
 const WAY_M := Vector3(0.0075, 0.0, 0.015) # from the middle of a sample to both sides
 const LIFT_M_S: float = 0.02
+const LEAST_SHAKE_N: float = 0.03 # root mean square
 
 ## Of the grip in each servo cycle of the last glide.
 var _places: PackedVector3Array = []
@@ -94,7 +95,7 @@ func _has_texture(name: String, along: Vector3) -> void:
 	var felt: PackedVector3Array = _last(await _slide(name, along))
 	var shake_n: float = _shake_n(felt, along)
 	print("INFO %s shakes by %.3f N, Ice by %.3f N" % [name, shake_n, calm_n])
-	check(shake_n > 0.04 and shake_n > 2.0 * calm_n, "%s shakes: %.3f N, and ice %.3f N" % [name, shake_n, calm_n])
+	check(shake_n > LEAST_SHAKE_N and shake_n > 3.0 * calm_n, "%s shakes: %.3f N, and ice %.3f N" % [name, shake_n, calm_n])
 	var due_m: float = _material(name).texture_wavelength / device.workspace_scale
 	check_near(1e3 * _felt_wave_m(felt, along, due_m), 1e3 * due_m, 50.0 * due_m, "%s from crest to crest, mm" % name)
 
