@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The examples of the add-on, each in a Godot of its own: run_example_tests.py GODOT [--pictures FOLDER] [PART_OF_NAME ...]
+"""The examples of the add-on, each in a Godot of its own: run_example_tests.py GODOT [PART_OF_NAME ...] [--pictures FOLDER [--size WxH] | --gallery]
 
 The project tests/godot/examples holds the add-on and Godot's own settings, as a project into which somebody copies the
 add-on. Every scene addons/spidar_g/examples/NAME/NAME.tscn is loaded and played: tests/godot/examples/check_example.gd says
 what it must have, tests/godot/examples/plays/NAME.gd what is done in it. To add an example, add both files. Nothing may be
-printed as a warning or an error. --pictures needs a display (xvfb-run) and saves FOLDER/NAME.png.
+printed as a warning or an error. --pictures needs a display (xvfb-run) and saves FOLDER/NAME.png. --gallery needs one too
+and makes the gallery's own pictures anew, addons/spidar_g/examples/gallery/pictures/NAME.webp. The gallery itself is no
+example: check_gallery.gd opens all of them in it.
 """
 
 import argparse
@@ -20,6 +22,8 @@ from godot_project import ADDONS, prepare_project  # noqa: E402
 
 PROJECT = os.path.join(HERE, "examples")
 SCENES = os.path.join(ADDONS, "spidar_g", "examples")
+GALLERY = "gallery/gallery"
+GALLERY_PICTURES = os.path.join(SCENES, "gallery", "pictures")
 TIME_LIMIT_S = 120  # a play takes seconds; a script error stops its coroutine for ever
 NOISE = re.compile(r"^(?:SCRIPT |USER )?(?:ERROR|WARNING)\b.*(?:\n   .*)*|^Leaked instance.*", re.M)
 # What Godot says of itself: of a display without a graphics card, and of a computer with few processors.
@@ -34,11 +38,12 @@ def scenes(parts):
     return [name for name in names if not parts or any(part in name for part in parts)]
 
 
-def run(godot, name, picture):
+def run(godot, name, picture, size):
     """How many checks of an example passed and failed. Prints what is wrong, and what was measured."""
-    shown = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy", "--resolution", "1280x720"]
+    shown = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy", "--resolution", size]
+    check = "check_gallery.gd" if name == GALLERY else "check_example.gd"
     command = [godot, *(shown if picture else ["--headless"]), "--verbose", "--path", PROJECT, "--fixed-fps", "60", "-s",
-               "res://check_example.gd", "--", f"res://addons/spidar_g/examples/{name}.tscn", *([picture] if picture else [])]
+               f"res://{check}", "--", f"res://addons/spidar_g/examples/{name}.tscn", *([size, picture] if picture else [])]
     try:
         done = subprocess.run(command, timeout=TIME_LIMIT_S, text=True, errors="replace", stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
@@ -62,14 +67,19 @@ def main():
     parser.add_argument("godot")
     parser.add_argument("names", nargs="*", metavar="PART_OF_NAME")
     parser.add_argument("--pictures", metavar="FOLDER", default="")
+    parser.add_argument("--size", metavar="WxH", default="1280x720")
+    parser.add_argument("--gallery", action="store_true")
     arguments = parser.parse_args()
+    folder, ending = (GALLERY_PICTURES, ".webp") if arguments.gallery else (arguments.pictures, ".png")
     prepare_project(PROJECT, arguments.godot)
-    if arguments.pictures:
-        os.makedirs(arguments.pictures, exist_ok=True)
+    if folder:
+        os.makedirs(folder, exist_ok=True)
     passed = failed = 0
     for name in scenes(arguments.names):
-        picture = arguments.pictures and os.path.abspath(os.path.join(arguments.pictures, name.split("/")[-1] + ".png"))
-        good, bad = run(arguments.godot, name, picture)
+        if arguments.gallery and name == GALLERY:
+            continue
+        picture = folder and os.path.abspath(os.path.join(folder, name.split("/")[-1] + ending))
+        good, bad = run(arguments.godot, name, picture, arguments.size)
         passed, failed = passed + good, failed + bad
     print(f"{passed} passed, {failed} failed")
     return 0 if passed and not failed else 1

@@ -1,5 +1,6 @@
-## Runs one example as a user would find it, and plays in it: -s check_example.gd -- SCENE [PICTURE]. Headless it ends with
-## "N passed, N failed"; with a display it also saves what the camera sees in the end, 1280x720, to the file PICTURE.
+## Runs one example as a user would find it, and plays in it: -s check_example.gd -- SCENE [SIZE PICTURE]. Headless it ends
+## with "N passed, N failed"; with a display it also saves what the camera sees in the end in a window of SIZE (1280x720) to
+## the file PICTURE. A .webp is a picture for the gallery, 320x180.
 ##
 ## What is done in a scene is in plays/NAME.gd, which extends plays/play.gd; without such a file the hand presses on the
 ## middle of the table.
@@ -9,6 +10,8 @@ const Play := preload("res://plays/play.gd")
 const ADDON: String = "res://addons/spidar_g/"
 const EXAMPLES: String = ADDON + "examples/"
 const SIZE_PX: Vector2i = Vector2i(1280, 720)
+const GALLERY_PX: Vector2i = Vector2i(320, 180)
+const GALLERY_QUALITY: float = 0.85
 const LONGEST_SCRIPT: int = 30
 const ARMING_LIMIT: int = 300
 
@@ -24,6 +27,8 @@ func _run() -> void:
 	var arguments: PackedStringArray = OS.get_cmdline_user_args()
 	var path: String = arguments[0]
 	root.size = SIZE_PX
+	if arguments.size() > 1:
+		root.size = Vector2i(arguments[1].get_slice("x", 0).to_int(), arguments[1].get_slice("x", 1).to_int())
 	var name: String = path.get_file().get_basename()
 	var own: String = "res://plays/%s.gd" % name
 	_play = (load(own) as GDScript).new() if ResourceLoader.exists(own) else Play.new()
@@ -41,8 +46,8 @@ func _run() -> void:
 	_check_view(scene)
 	await _play.play()
 	_play.check(_play.check_count > 0, "plays/%s.gd checks something" % name)
-	if arguments.size() > 1:
-		await _save(arguments[1])
+	if arguments.size() > 2:
+		await _save(arguments[2])
 	scene.free()
 	await process_frame
 	for failure: String in _play.failures:
@@ -115,7 +120,13 @@ func _save(file: String) -> void:
 	for _i: int in 3:
 		await process_frame
 	await RenderingServer.frame_post_draw
-	var error: Error = root.get_texture().get_image().save_png(file)
+	var picture: Image = root.get_texture().get_image()
+	var error: Error
+	if file.get_extension() == "webp":
+		picture.resize(GALLERY_PX.x, GALLERY_PX.y, Image.INTERPOLATE_LANCZOS)
+		error = picture.save_webp(file, true, GALLERY_QUALITY)
+	else:
+		error = picture.save_png(file)
 	_play.check_equal(error, OK, "the picture %s is saved" % file)
 
 

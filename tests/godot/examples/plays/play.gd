@@ -106,6 +106,12 @@ func check_equal(actual: Variant, expected: Variant, message: String) -> bool:
 	return check(actual == expected, "%s: got %s, expected %s" % [message, actual, expected])
 
 
+## `what` names the quantity and its unit. What was measured is printed.
+func check_near(actual: float, expected: float, tolerance: float, what: String) -> bool:
+	print("INFO %s: %.4f, expected %.4f" % [what, actual, expected])
+	return check(absf(actual - expected) <= tolerance, "%s: %.4f, expected %.4f +- %.4f" % [what, actual, expected, tolerance])
+
+
 func take(runner: SceneTree, example: Node) -> void:
 	tree = runner
 	scene = example
