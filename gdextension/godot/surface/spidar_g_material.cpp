@@ -67,7 +67,7 @@ void SpidarGMaterial::_bind_methods() {
     constexpr auto real = godot::Variant::FLOAT;
     ADD_GROUP("Press", "");
     SPIDAR_G_BIND_FIELD(Self, real, stiffness, godot::PROPERTY_HINT_RANGE, "0,2000,1,suffix:N/m");
-    SPIDAR_G_BIND_FIELD(Self, real, damping, godot::PROPERTY_HINT_RANGE, "0,10,0.1,suffix:N s/m");
+    SPIDAR_G_BIND_FIELD(Self, real, damping, godot::PROPERTY_HINT_RANGE, "0,5,0.1,suffix:N s/m");
     SPIDAR_G_BIND_FIELD(Self, real, squeeze_stiffness, godot::PROPERTY_HINT_RANGE,
                         "0,0.4,0.01,suffix:N m/rad");
     ADD_GROUP("Slide", "");

@@ -227,14 +227,16 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
         if (!(rows[k].depth > 0.0)) {
             continue;
         }
+        double more_m_n = 0.0; // by which the surface gives way beside the tool
         if (other.stiffness_n_m > 0.0) {
-            const double more_m_n = std::max(0.0, 1.0 / other.stiffness_n_m - softness_m_n);
+            more_m_n = std::max(0.0, 1.0 / other.stiffness_n_m - softness_m_n);
             rows[k].compliance = more_m_n * touching[contact.scene_part];
         }
         const Vec3 speed_m_s = point_velocity(tool.parts[contact.tool_part], tool.jaws, pose_,
                                               velocity, contact.point_m) -
                                surface_velocity(other, contact.point_m);
-        const double damping_s = settings_.damping_s + other.damping_n_s_m * softness_m_n;
+        const double damping_s =
+            settings_.damping_s + other.damping_n_s_m * (softness_m_n + more_m_n);
         const double height_m = other.traits.texture.depth_m > 0.0
                                     ? press_into(contact, other, own_push(rows[k]), speed_m_s, dt_s)
                                     : 0.0;

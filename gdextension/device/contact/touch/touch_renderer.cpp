@@ -168,6 +168,12 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
             capped(part.friction, kMaxFriction, GainClamp::Gain::friction, s, false, clamp);
         part.traits.static_friction = capped(part.traits.static_friction, kMaxFriction,
                                              GainClamp::Gain::friction, s, false, clamp);
+        // The tool's own damping and the surface's together.
+        part.damping_n_s_m =
+            capped(part.damping_n_s_m,
+                   std::max(0.0, caps_.damping_n_s_m -
+                                     std::min(asked_damping_n_s_m_, caps_.damping_n_s_m)),
+                   GainClamp::Gain::damping, s, false, clamp);
         part.velocity_m_s = capped_speed(part.velocity_m_s, s, clamp);
         part.belt_m_s = capped_speed(part.belt_m_s, s, clamp);
         shape_numbers_[k] = part.shape->number();

@@ -228,6 +228,19 @@ TEST_CASE("traits: crests too fast for the servo cycle are gone, and no texture 
     CHECK(stiffest_n_m > 0.2 * kStiffness_n_m);
 }
 
+TEST_CASE("traits: a surface damps by its own damping, however soft it is") {
+    for (const double stiffness_n_m : {0.0, 300.0, 150.0}) {
+        BallOnFloor rig;
+        rig.floor.stiffness_n_m = stiffness_n_m;
+        rig.floor.damping_n_s_m = 4.0;
+        rig.press(0.004);
+        const double still_n = rig.proxy.wrench().force_n.y;
+        rig.tick({Vec3(0.0, -0.05, 0.0), Vec3(0.0), 0.0}); // it is there, and moves
+        CAPTURE(stiffness_n_m);
+        CHECK(std::abs(rig.proxy.wrench().force_n.y - still_n - 4.0 * 0.05) < 1e-6);
+    }
+}
+
 TEST_CASE("traits: a scene with senseless ones is refused") {
     TouchScene touch = FloorScene().touch;
     CHECK(validate(touch) == Status::ok);

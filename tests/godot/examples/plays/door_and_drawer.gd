@@ -112,7 +112,7 @@ func _grasps(body: RigidBody3D, handle: Vector3, from: Vector3) -> void:
 	press(mouse.grasp_action, true)
 	await ticks(100)
 	check(hand.get_held_body() == body, "%s is held; %s" % [body.name, refused])
-	var width_m: float = hand.get_held_width_m()
+	var width_m: float = hand.get_held_width()
 	check(width_m > 0.02 and width_m < 0.04, "%s is %.4f m wide between the fingers" % [body.name, width_m])
 
 

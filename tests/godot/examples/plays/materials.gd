@@ -174,7 +174,7 @@ func _cycle(i: int) -> void:
 	if i % 16 == 0:
 		await ticks(1)
 	else:
-		device.simulated_hand_target(mouse.get_target(), mouse.grasp_angle_rad)
+		device.set_simulated_hand_target(mouse.get_target(), mouse.grasp_angle_rad)
 		device.advance_cycles(1)
 
 
