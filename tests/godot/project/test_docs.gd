@@ -5,6 +5,8 @@ const PAGE: String = "../../../docs/use_in_your_game.md"
 const LISTING: String = "Ten lines to a felt object"
 ## It opens a scene of the reader's; tests/package/missing_library is the game that does so.
 const NOT_FELT: String = "Where there is no library"
+## It is for a table of the reader's; what it does is measured in test_material.gd.
+const MATERIAL: String = "How things feel"
 ## What stands around an example that is no script of its own.
 const AROUND: String = "extends Node3D\nvar device: SpidarG\nfunc example() -> void:\n"
 const FRAMES: int = 120
@@ -44,8 +46,9 @@ func test_the_listing_is_felt() -> void:
 func test_each_example_is_felt() -> void:
 	var blocks: Dictionary[String, String] = _blocks()
 	var examples: Dictionary[String, Dictionary] = _examples()
-	check_equal(blocks.size(), examples.size() + 2, "every example has its check, every check its example")
+	check_equal(blocks.size(), examples.size() + 3, "every example has its check, every check its example")
 	_compiled(NOT_FELT, blocks.get(NOT_FELT, ""))
+	await _gives_a_table_ribs(blocks.get(MATERIAL, ""))
 	for heading: String in examples:
 		if not check(blocks.has(heading), "the page has \"%s\"" % heading):
 			continue
@@ -53,6 +56,21 @@ func test_each_example_is_felt() -> void:
 		var script: GDScript = _compiled(heading, AROUND + lines)
 		if script != null:
 			await _is_felt(heading, script, examples[heading])
+
+
+func _gives_a_table_ribs(lines: String) -> void:
+	var script: GDScript = _compiled(MATERIAL, "extends Node3D\nvar table := StaticBody3D.new()\nfunc example() -> void:\n" + lines.indent("\t"))
+	if script == null:
+		return
+	var scene: Node3D = script.new()
+	var table: StaticBody3D = scene.get("table")
+	add(scene)
+	scene.add_child(table)
+	scene.call("example")
+	var surface: SpidarGSurface = table.get_child(0)
+	check_equal(surface.get_warnings().size(), 0, "the table has ribs")
+	check_near(surface.material.texture_wavelength, 0.004, 1e-9, "of 4 mm")
+	scene.free()
 
 
 func _is_felt(heading: String, script: GDScript, told: Dictionary) -> void:
