@@ -57,7 +57,7 @@ int hinge_axis(const ToolJoint &joint) noexcept {
     int found = -1;
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        if (!joint.axes[static_cast<std::size_t>(3 + axis)].is_locked()) {
+        if (!joint.axes[3 + static_cast<std::size_t>(axis)].is_locked()) {
             found = axis;
             ++count;
         }
@@ -106,7 +106,7 @@ JointTie::Coordinates JointTie::coordinates_of(const ToolJoint &joint, const Too
         const double angle = std::atan2(turn[next][last], turn[next][next]);
         const double whole = 2.0 * kPi;
         turns[hinge] =
-            angle + whole * std::round((near[static_cast<std::size_t>(3 + hinge)] - angle) / whole);
+            angle + whole * std::round((near[3 + static_cast<std::size_t>(hinge)] - angle) / whole);
     } else {
         turns = rotation_log(turn);
     }

@@ -245,8 +245,10 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
     std::unordered_map<std::uint64_t, Placement> bases;
     std::erase_if(held_, [](const SceneJoints::Found &one) {
         const auto *const node = Object::cast_to<godot::Joint3D>(ObjectDB::get_instance(one.joint));
-        return node == nullptr || !node->is_inside_tree() ||
-               (one.other.body != 0 && ObjectDB::get_instance(one.other.body) == nullptr);
+        const bool ties = node != nullptr && node->is_inside_tree() &&
+                          !node->is_queued_for_deletion() &&
+                          !(node->get_node_a().is_empty() && node->get_node_b().is_empty());
+        return !ties || (one.other.body != 0 && ObjectDB::get_instance(one.other.body) == nullptr);
     });
     for (const SceneJoints::Found &one : held_) {
         const auto *const node = Object::cast_to<godot::Joint3D>(ObjectDB::get_instance(one.joint));
