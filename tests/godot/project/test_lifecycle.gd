@@ -53,7 +53,8 @@ func test_random_lives_leave_no_thread() -> void:
 	await frames(3)
 	check(most_threads > threads_before, "devices do run threads of their own (%d > %d)" % [
 		most_threads, threads_before])
-	check_equal(_thread_count(), threads_before, "threads after %d rounds" % ROUNDS)
+	check(await until(func() -> bool: return _thread_count() == threads_before),
+		"threads after %d rounds: %d, before %d" % [ROUNDS, _thread_count(), threads_before])
 
 
 func test_changing_scenes_closes_and_opens_devices() -> void:
@@ -70,7 +71,8 @@ func test_changing_scenes_closes_and_opens_devices() -> void:
 		check(await until(is_open.bind(tree.current_scene)), "its device is open")
 	tree.unload_current_scene()
 	await frames(3)
-	check_equal(_thread_count(), threads_before, "threads after the last scene")
+	check(await until(func() -> bool: return _thread_count() == threads_before),
+		"threads after the last scene: %d, before %d" % [_thread_count(), threads_before])
 
 
 func test_threaded_device_runs_on_its_own() -> void:
