@@ -22,8 +22,9 @@ using Move = JointTie::Move;
 constexpr double kGivesBack_s = 0.1;
 // A spring comes, goes and changes in this time.
 constexpr double kSpringTime_s = 0.02;
-// Of a row of unit stiffness, what is left of it beside the others when it says nothing new: two hinges of one door.
-constexpr double kDependent = 1e-6;
+// Of a row of unit stiffness, what is left of it beside the others when it says nothing new, as of two hinges of one door. So
+// small a rest, 2 degrees, would turn the little by which two joints contradict each other into a large move.
+constexpr double kDependent = 1e-3;
 // With 1, a knob that is turned at random for ten minutes at 1 ms and 1 kHz gives 0.04 J, without any 0.29 J.
 constexpr double kSpringDamping = 1.5;
 constexpr double kPi = 3.14159265358979323846;
@@ -71,10 +72,9 @@ Vec3 log_row(const Vec3 &log, int i) noexcept {
     unit[i] = 1.0;
     const double angle = glm::length(log);
     constexpr double kSmall = 1e-4;
-    const double factor =
-        angle < kSmall
-            ? 1.0 / 12.0
-            : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+    const double factor = angle < kSmall
+                              ? 1.0 / 12.0
+                              : 1.0 / (angle * angle) - 1.0 / (2.0 * angle * std::tan(0.5 * angle));
     // The transpose of I - [log] / 2 + factor [log]^2.
     return unit + 0.5 * glm::cross(log, unit) + factor * glm::cross(log, glm::cross(log, unit));
 }
@@ -233,7 +233,10 @@ void JointTie::look(const ToolPose &pose, const Move &root, double damping_s,
     for (int i = 0; i < force_count_; ++i) {
         Force &force = forces_[static_cast<std::size_t>(i)];
         force.now += dot(force.row, correction_);
-        force.row = left(force.row);
+        if (!leave(force.row)) {
+            force.row = {};
+            continue;
+        }
         const JointAxis &rule = force.axis;
         if (rule.is_limited() && limit_count_ < kMaxLimits) {
             // The end that is nearer.
@@ -266,6 +269,12 @@ Move JointTie::left(const Move &move) const noexcept {
     Move part = move;
     add(part, -1.0, locked(move));
     return part;
+}
+
+bool JointTie::leave(Move &row) const noexcept {
+    const double whole = dot(row, row);
+    row = left(row);
+    return dot(row, row) > kDependent * whole;
 }
 
 Move JointTie::bend(const Move &target) const noexcept {

@@ -33,6 +33,8 @@ public:
 
     // Of a move, the part that the joints leave.
     [[nodiscard]] Move left(const Move &move) const noexcept;
+    // The same of a row of the problem. False: the joints leave nothing of it but rounding, so no move can do anything about it.
+    [[nodiscard]] bool leave(Move &row) const noexcept;
     // The part that they lock.
     [[nodiscard]] Move locked(const Move &move) const noexcept;
     // What brings the tool back to where locked axes belong.

@@ -12,7 +12,7 @@ namespace {
 using Move = RowForces::Move;
 
 // Rows that say the same, as of two motors on one axis, share: this much of a row's own softness.
-constexpr double kShares = 1e-9;
+constexpr double kShares = 1e-6;
 
 double dot(const Move &a, const Move &b) noexcept {
     double sum = 0.0;

@@ -142,6 +142,11 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     if (tie_.is_tied()) {
         tie_.look(pose_, root_, settings_.damping_s, cycle_s_);
         back = tie_.correction();
+        // Joints that contradict each other, or a hand that is far off: not more in a cycle than any other step.
+        const double back_m = length_of(back, tool);
+        for (double &lane : back) {
+            lane *= back_m > most_m ? most_m / back_m : 1.0;
+        }
         target = tie_.left(target);
         bent_ = tie_.bend(target);
         for (std::size_t lane = 0; lane < target.size(); ++lane) {
@@ -157,9 +162,11 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         rows_[k] = ConstraintRow();
         const Move row =
             unit_move(tool.parts[contact.tool_part], tool.jaws, contact.point_m, contact.normal);
-        rows_[k].row = tie_.is_tied() ? tie_.left(row) : row;
+        rows_[k].row = row;
+        const bool moves = !tie_.is_tied() || tie_.leave(rows_[k].row);
         least[k] = comes_m - contact.gap_m - dot(row, back);
-        rows_[k].depth = least[k] - dot(rows_[k].row, target);
+        // What presses on a joint's locked axis alone is carried by the joint.
+        rows_[k].depth = moves ? least[k] - dot(rows_[k].row, target) : kOpen;
     }
     const auto stop = static_cast<std::size_t>(count_);
     row_count_ = count_ + 1;
@@ -167,7 +174,14 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         const auto k = static_cast<std::size_t>(row_count_++);
         rows_[k] = ConstraintRow();
         rows_[k].row = tie_.limit_row(i);
-        least[k] = tie_.limit_least(i);
+        // What lies beyond its limit comes back no faster than any other step.
+        Move whole = rows_[k].row;
+        const double per_row = tie_.limit_least(i) / dot(whole, whole);
+        for (double &lane : whole) {
+            lane *= per_row;
+        }
+        const double way_m = per_row > 0.0 ? length_of(whole, tool) : 0.0;
+        least[k] = tie_.limit_least(i) * (way_m > most_m ? most_m / way_m : 1.0);
         rows_[k].depth = least[k] - dot(rows_[k].row, target);
     }
     rows_[stop] = ConstraintRow();
@@ -285,7 +299,7 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
     }
     wrench_ = of_lanes<Wrench>(sum);
     if (tie_.is_tied()) {
-        add_joints(pull, velocity);
+        add_joints(pull, pushed, velocity);
     }
 }
 

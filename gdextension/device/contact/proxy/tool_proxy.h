@@ -115,7 +115,7 @@ private:
     void add_force(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m, const Vec3 &force_n,
                    std::array<double, kDofCount> &sum) const noexcept;
     // Adds what joints do beside their limits.
-    void add_joints(const Move &pull, const Twist &velocity) noexcept;
+    void add_joints(const Move &pull, const Move &pushed, const Twist &velocity) noexcept;
     [[nodiscard]] double part_at_levers(const Tool &tool, const ContactScene &scene,
                                         double all_n) const noexcept;
     // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.

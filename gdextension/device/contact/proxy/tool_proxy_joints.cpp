@@ -1,11 +1,29 @@
 // What the joints of a tool let through to the hand.
 #include "device/contact/proxy/tool_proxy.h"
 
+#include <cmath>
+
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
 
-void ToolProxy::add_joints(const Move &pull, const Twist &velocity) noexcept {
+namespace {
+
+double size_of(const std::array<double, 8> &move) noexcept {
+    double sum = 0.0;
+    for (const double lane : move) {
+        sum += lane * lane;
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace
+
+void ToolProxy::add_joints(const Move &pull, const Move &pushed, const Twist &velocity) noexcept {
+    // Springs and contacts together hold the proxy where it is. A proxy that is still on its way there is not yet pulled so far.
+    const double most = kMostPush * (size_of(pull) + size_of(pushed));
+    const double bent = size_of(bent_);
+    const double part = bent > most ? most / bent : 1.0;
     Move slides{};
     for (std::size_t dof = 0; dof < kDofCount; ++dof) {
         slides[dof] = lanes(velocity)[dof] * root_[dof];
@@ -14,7 +32,7 @@ void ToolProxy::add_joints(const Move &pull, const Twist &velocity) noexcept {
     const Move slips = tie_.locked(slides);
     DofLanes sum = lanes(wrench_);
     for (std::size_t dof = 0; dof < sum.size(); ++dof) {
-        sum[dof] += root_[dof] * (held[dof] + bent_[dof] -
+        sum[dof] += root_[dof] * (held[dof] + part * bent_[dof] -
                                   settings_.damping_s * (slips[dof] - tie_.carried()[dof]));
     }
     wrench_ = of_lanes<Wrench>(sum);
