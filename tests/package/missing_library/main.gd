@@ -34,6 +34,9 @@ func _ready() -> void:
 	device.add_child(SpidarGZone.new())
 	var body := StaticBody3D.new()
 	body.add_child(SpidarGSocket.new())
+	var surface := SpidarGSurface.new()
+	surface.material = SpidarGMaterial.new()
+	body.add_child(surface)
 	var player := SpidarGClipPlayer.new()
 	player.clip = SpidarGClip.new()
 	player.event = SpidarGClipPlayer.Event.TOUCH
