@@ -131,8 +131,8 @@ void SpidarGSurface::_bind_methods() {
     godot::ClassDB::bind_method(godot::D_METHOD("get_touch_force"), &Self::get_touch_force);
     godot::ClassDB::bind_method(godot::D_METHOD("get_slip_speed"), &Self::get_slip_speed);
     godot::ClassDB::bind_method(godot::D_METHOD("get_warnings"), &Self::get_warnings);
-    const godot::PropertyInfo hand(godot::Variant::OBJECT, "hand", godot::PROPERTY_HINT_NODE_TYPE,
-                                   "SpidarGHand");
+    const godot::PropertyInfo hand(godot::Variant::OBJECT, "hand",
+                                   godot::PROPERTY_HINT_RESOURCE_TYPE, "SpidarGHand");
     const godot::PropertyInfo point(godot::Variant::VECTOR3, "point");
     const godot::PropertyInfo force(godot::Variant::FLOAT, "force");
     const godot::PropertyInfo speed(godot::Variant::FLOAT, "speed");
