@@ -42,6 +42,7 @@ signal linked(mate: SpidarGSocket)
 ## off. It is 0 after [method unlink], and when one of the sockets was disabled or has left the scene tree.
 signal unlinked(mate: SpidarGSocket, pull_n: float)
 
+const InRange := preload("values/in_range.gd")
 const SocketHand := preload("socket_hand.gd")
 const SocketHands := preload("socket_hands.gd")
 const SocketLink := preload("socket_link.gd")
@@ -268,9 +269,4 @@ func _leave_groups() -> void:
 
 # A number that makes no sense is refused; NAN compares false.
 func _checked(field: StringName, value: float, old: float, least: float, most: float, unit: String) -> float:
-	if value >= least and value <= most:
-		return value
-	push_error(
-		"SpidarGSocket \"%s\": %s = %s %s: give %s to %s; the old value stays." % [name, field, value, unit, least, most]
-	)
-	return old
+	return InRange.checked("SpidarGSocket \"%s\"" % name, field, value, old, unit, least, most)

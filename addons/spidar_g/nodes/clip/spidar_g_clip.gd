@@ -30,6 +30,7 @@ extends Resource
 ## 120 Hz 2 to 3.6 times as strong, and 250 Hz is a tenth. With stiff strings ([member SpidarGConfig.simulated_elastic] off) up to
 ## 120 Hz is felt within 10 %, 150 Hz is 13 % and 250 Hz 27 % weaker. It was not measured on a real device: begin with weak clips.
 
+const InRange := preload("../values/in_range.gd")
 const WavFeel := preload("wav_feel.gd")
 
 ## Largest amplitude that the servo loop gives to a vibration, in newtons. [member strength] times [member gain] is limited to it.
@@ -186,8 +187,4 @@ func _label() -> String:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	if value >= least and value <= most: # false for NAN
-		return value
-	var wrong: String = "%s: %s = %s %s: give %s to %s; the old value stays."
-	push_error(wrong % [_label(), field, value, unit, least, most])
-	return old
+	return InRange.checked(_label(), field, value, old, unit, least, most)

@@ -53,6 +53,7 @@ enum Event {
 }
 
 const Devices := preload("../zone/devices_in_tree.gd")
+const InRange := preload("../values/in_range.gd")
 const Events := preload("clip_events.gd")
 const Run := preload("clip_run.gd")
 const Source := preload("clip_source.gd")
@@ -351,8 +352,4 @@ func _drop(id: int) -> void:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	if value >= least and value <= most: # false for NAN
-		return value
-	var wrong: String = "SpidarGClipPlayer \"%s\": %s = %s %s: give %s to %s; the old value stays."
-	push_error(wrong % [name, field, value, unit, least, most])
-	return old
+	return InRange.checked("SpidarGClipPlayer \"%s\"" % name, field, value, old, unit, least, most)
