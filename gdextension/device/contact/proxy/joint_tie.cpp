@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -15,8 +16,6 @@ namespace spidar {
 
 namespace {
 
-using Move = JointTie::Move;
-
 // What a joint was off when it was caught is given back in this time: the physics engine holds joints to a fraction of a
 // millimetre, and so much at once would be a blow.
 constexpr double kGivesBack_s = 0.1;
@@ -27,31 +26,6 @@ constexpr double kSpringTime_s = 0.02;
 constexpr double kDependent = 1e-3;
 // With 1, a knob that is turned at random for ten minutes at 1 ms and 1 kHz gives 0.04 J, without any 0.29 J.
 constexpr double kSpringDamping = 1.5;
-constexpr double kPi = 3.14159265358979323846;
-
-double dot(const Move &a, const Move &b) noexcept {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
-
-void add(Move &to, double factor, const Move &what) noexcept {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        to[i] += factor * what[i];
-    }
-}
-
-// How the tool moves along it, in units of sqrt(energy).
-Move row_of(const Vec3 &linear, const Vec3 &angular, const Move &root) noexcept {
-    const DofLanes along = lanes(linear, angular, 0.0);
-    Move row{};
-    for (std::size_t dof = 0; dof < along.size(); ++dof) {
-        row[dof] = along[dof] / root[dof];
-    }
-    return row;
-}
 
 // The only axis about which it turns; -1: about none or several.
 int hinge_axis(const ToolJoint &joint) noexcept {
@@ -80,10 +54,7 @@ Vec3 log_row(const Vec3 &log, int i) noexcept {
 }
 
 void move_on(ToolJoint &joint, double dt_s) noexcept {
-    joint.base.origin_m += dt_s * joint.velocity_m_s;
-    if (joint.angular_rad_s != Vec3(0.0)) {
-        joint.base.rotation = rotation_exp(dt_s * joint.angular_rad_s) * joint.base.rotation;
-    }
+    carry_on(joint.base, joint.velocity_m_s, joint.angular_rad_s, dt_s);
 }
 
 } // namespace
@@ -104,7 +75,7 @@ JointTie::Coordinates JointTie::coordinates_of(const ToolJoint &joint, const Too
         unit[hinge] = 1.0;
         turns = rotation_between(unit, turn[hinge]);
         const double angle = std::atan2(turn[next][last], turn[next][next]);
-        const double whole = 2.0 * kPi;
+        const double whole = 2.0 * std::numbers::pi;
         turns[hinge] =
             angle + whole * std::round((near[3 + static_cast<std::size_t>(hinge)] - angle) / whole);
     } else {
@@ -201,7 +172,7 @@ void JointTie::look_at(State &state, const ToolPose &pose, const Move &root) noe
                                                        : joint.base.rotation[k];
         const Vec3 linear = is_turn ? Vec3(0.0) : direction;
         const Vec3 angular = is_turn ? direction : glm::cross(lever_m, direction);
-        const Move row = row_of(linear, angular, root);
+        const Move row = over(lanes(linear, angular, 0.0), root);
         const JointAxis &rule = joint.axes[axis];
         if (rule.is_locked()) {
             const Vec3 there_m_s =

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "device/contact/god_object.h"
+#include "device/contact/proxy/move.h"
 #include "device/contact/proxy/tool.h"
 #include "device/contact/proxy/tool_joint.h"
 
@@ -16,9 +17,6 @@ inline constexpr int kMaxTieRows = 6 * kMaxToolJoints;
 
 class JointTie {
 public:
-    // Moves of god_object.h: seven DOF and a lane of zero, in units of sqrt(energy).
-    using Move = std::array<double, 8>;
-
     // The joints of a new scene, as they will be in later_s. What the same joint is corrected by since the last scene is
     // given back slowly.
     void accept(const Tool &tool, double later_s, const ToolPose &pose) noexcept;

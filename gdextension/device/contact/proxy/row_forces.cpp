@@ -9,18 +9,8 @@ namespace spidar {
 
 namespace {
 
-using Move = RowForces::Move;
-
 // Rows that say the same, as of two motors on one axis, share: this much of a row's own softness.
 constexpr double kShares = 1e-6;
-
-double dot(const Move &a, const Move &b) noexcept {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
 
 } // namespace
 
@@ -42,9 +32,7 @@ void RowForces::solve_acting(const std::array<bool, kMost> &acts, Forces &forces
             which[size++] = i;
             continue;
         }
-        for (std::size_t lane = 0; lane < given.size(); ++lane) {
-            given[lane] += forces[i] * rows_[i].row[lane];
-        }
+        spidar::add(given, forces[i], rows_[i].row);
     }
     std::array<std::array<double, kMost>, kMost> lower{};
     Forces solved{};
@@ -93,9 +81,7 @@ Move RowForces::solve() const noexcept {
     }
     Move move{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-        for (std::size_t lane = 0; lane < move.size(); ++lane) {
-            move[lane] += forces[i] * rows_[i].row[lane];
-        }
+        spidar::add(move, forces[i], rows_[i].row);
     }
     return all_finite(move) ? move : Move{};
 }

@@ -4,13 +4,14 @@
 #include <array>
 #include <limits>
 
+#include "device/contact/proxy/move.h"
+
 namespace spidar {
 
 // Each row asks the move m, in units of sqrt(energy), for row . m = way - compliance * force, with |force| <= most. The move is
 // the sum of force * row, and costs its squared length / 2: that of the springs which hold the tool to the device.
 class RowForces {
 public:
-    using Move = std::array<double, 8>;
     static constexpr int kMost = 24;
 
     // More than kMost are left out.

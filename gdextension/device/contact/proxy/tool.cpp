@@ -55,4 +55,12 @@ Vec3 point_velocity(const ToolPart &part, const Jaws &jaws, const ToolPose &pose
            (slide_m_rad * twist.grasp_rate_rad_s) * pose.rotation[0];
 }
 
+void carry_on(Placement &at, const Vec3 &velocity_m_s, const Vec3 &angular_rad_s,
+              double dt_s) noexcept {
+    at.origin_m += dt_s * velocity_m_s;
+    if (angular_rad_s != Vec3(0.0)) {
+        at.rotation = rotation_exp(dt_s * angular_rad_s) * at.rotation;
+    }
+}
+
 } // namespace spidar

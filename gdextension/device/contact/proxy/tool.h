@@ -44,6 +44,10 @@ inline constexpr std::uint8_t kPadGroup = 1;
 inline constexpr std::uint8_t kHeldGroup = 2;
 inline constexpr std::uint8_t kAllGroups = 0xff;
 
+// What moves on for dt_s at these velocities, that of its origin and its turn's.
+void carry_on(Placement &at, const Vec3 &velocity_m_s, const Vec3 &angular_rad_s,
+              double dt_s) noexcept;
+
 struct ToolPart {
     const ToolShape *shape = nullptr;
     ToolMount mount = ToolMount::grip;

@@ -21,21 +21,6 @@ constexpr int kMostPasses = 3;
 // feel.
 constexpr double kAnticipated_m = 1e-6;
 
-double dot(const std::array<double, 8> &a, const std::array<double, 8> &b) noexcept {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
-
-void move_on(ScenePart &part, double dt_s) noexcept {
-    part.at.origin_m += dt_s * part.velocity_m_s;
-    if (part.angular_rad_s != Vec3(0.0)) {
-        part.at.rotation = rotation_exp(dt_s * part.angular_rad_s) * part.at.rotation;
-    }
-}
-
 } // namespace
 
 void ToolProxy::configure(const ProxySettings &settings) noexcept {
@@ -54,13 +39,8 @@ void ToolProxy::put(const ToolPose &pose) noexcept {
     placed_ = true;
 }
 
-ToolProxy::Move ToolProxy::scaled(const Displacement &by) const noexcept {
-    const DofLanes row = lanes(by);
-    Move move{};
-    for (std::size_t dof = 0; dof < row.size(); ++dof) {
-        move[dof] = row[dof] * root_[dof];
-    }
-    return move;
+Move ToolProxy::scaled(const Displacement &by) const noexcept {
+    return times(lanes(by), root_);
 }
 
 Displacement ToolProxy::unscaled(const Move &move) const noexcept {
@@ -71,24 +51,17 @@ Displacement ToolProxy::unscaled(const Move &move) const noexcept {
     return of_lanes<Displacement>(row);
 }
 
-ToolProxy::Move ToolProxy::unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
-                                     const Vec3 &direction) const noexcept {
-    const DofLanes along = lanes(moves_along(part, jaws, pose_, point_m, direction));
-    Move move{};
-    for (std::size_t dof = 0; dof < along.size(); ++dof) {
-        move[dof] = along[dof] / root_[dof];
-    }
-    return move;
+Move ToolProxy::unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
+                          const Vec3 &direction) const noexcept {
+    return over(lanes(moves_along(part, jaws, pose_, point_m, direction)), root_);
 }
 
-ToolProxy::Move ToolProxy::nearest_to(const Move &target, const Rows &rows,
-                                      const RowPushes<kMaxRows> &pushes) const noexcept {
+Move ToolProxy::nearest_to(const Move &target, const Rows &rows,
+                           const RowPushes<kMaxRows> &pushes) const noexcept {
     Move move = target;
     for (int i = 0; i < row_count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        for (std::size_t lane = 0; lane < move.size(); ++lane) {
-            move[lane] += pushes.push[k] * rows[k].row[lane];
-        }
+        add(move, pushes.push[k], rows[k].row);
     }
     return move;
 }
@@ -107,8 +80,8 @@ double ToolProxy::length_of(const Move &move, const Tool &tool) const noexcept {
 }
 
 // Two steps that break no row have none between them that does: what gets out of the way, and a part of the rest.
-ToolProxy::Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &least,
-                                     const Tool &tool, double most_m) const noexcept {
+Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &least,
+                          const Tool &tool, double most_m) const noexcept {
     Rows rows = rows_;
     for (int i = 0; i < row_count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -149,9 +122,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         }
         target = tie_.left(target);
         bent_ = tie_.bend(target);
-        for (std::size_t lane = 0; lane < target.size(); ++lane) {
-            target[lane] += bent_[lane];
-        }
+        add(target, 1.0, bent_);
     }
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -206,9 +177,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         }
         contact.gap_m = dot(rows_[k].row, step) - least[k];
     }
-    for (std::size_t lane = 0; lane < step.size(); ++lane) {
-        step[lane] += back[lane];
-    }
+    add(step, 1.0, back);
     pose_ = moved(pose_, unscaled(step));
     return cut || anticipated;
 }
@@ -267,10 +236,7 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
     }
     for (std::size_t k = stop + 1; k < static_cast<std::size_t>(row_count_); ++k) {
         // A joint's limit is damped like a contact.
-        double speed = 0.0;
-        for (std::size_t dof = 0; dof < kDofCount; ++dof) {
-            speed += rows[k].row[dof] * root_[dof] * lanes(velocity)[dof];
-        }
+        const double speed = dot(rows[k].row, times(lanes(velocity), root_));
         if (rows[k].depth > 0.0) {
             rows[k].depth = std::max(0.0, rows[k].depth - settings_.damping_s * speed);
             note_own(k);
@@ -347,7 +313,9 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
                               [](const ScenePart &part) { return acts(part.traits); });
     const double margin_m = margin_for(scene, dt_s);
     cycle_s_ = dt_s;
-    tie_.advance(dt_s);
+    if (tie_.is_tied()) {
+        tie_.advance(dt_s);
+    }
     double left_s = dt_s; // of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
@@ -355,7 +323,8 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
         again = step_towards(tool, scene, device, margin_m, left_s, memory);
         ++passes_;
         for (int s = 0; s < scene.count && left_s > 0.0; ++s) {
-            move_on(scene.parts[static_cast<std::size_t>(s)], left_s);
+            ScenePart &part = scene.parts[static_cast<std::size_t>(s)];
+            carry_on(part.at, part.velocity_m_s, part.angular_rad_s, left_s);
         }
         left_s = 0.0;
     }

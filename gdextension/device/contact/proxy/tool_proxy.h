@@ -100,7 +100,6 @@ public:
 private:
     using Contacts = std::array<ProxyContact, kMaxPoints>;
     using Rows = std::array<ConstraintRow, kMaxRows>;
-    using Move = JointTie::Move;
     // Of the margin, what the tool may move before the closest points are looked for again.
     static constexpr double kPartOfMargin = 0.75;
     // Normals further apart than this are of different surfaces (3e-3 rad).

@@ -1,0 +1,44 @@
+// Moves of the tool in units of sqrt(energy), as god_object.h has them: seven DOF and a lane of zero.
+#pragma once
+
+#include <array>
+
+#include "device/contract/dof_lanes.h"
+
+namespace spidar {
+
+using Move = std::array<double, 8>;
+
+[[nodiscard]] inline double dot(const Move &a, const Move &b) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+inline void add(Move &to, double factor, const Move &what) noexcept {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i] += factor * what[i];
+    }
+}
+
+// root: of the stiffnesses. A displacement or a velocity as a move.
+[[nodiscard]] inline Move times(const DofLanes &row, const Move &root) noexcept {
+    Move move{};
+    for (std::size_t dof = 0; dof < row.size(); ++dof) {
+        move[dof] = row[dof] * root[dof];
+    }
+    return move;
+}
+
+// What a force does along each DOF, or how a point moves with each, as a row of moves.
+[[nodiscard]] inline Move over(const DofLanes &row, const Move &root) noexcept {
+    Move move{};
+    for (std::size_t dof = 0; dof < row.size(); ++dof) {
+        move[dof] = row[dof] / root[dof];
+    }
+    return move;
+}
+
+} // namespace spidar
