@@ -22,6 +22,12 @@ struct JointAxis {
     double motor_speed = 0.0;
     double motor_most = 0.0;
 
+    [[nodiscard]] static JointAxis free() noexcept {
+        JointAxis axis;
+        axis.lower = 1.0;
+        axis.upper = -1.0;
+        return axis;
+    }
     [[nodiscard]] bool is_locked() const noexcept { return lower == upper; }
     [[nodiscard]] bool is_limited() const noexcept { return lower < upper; }
 };

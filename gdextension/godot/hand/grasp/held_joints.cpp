@@ -17,6 +17,7 @@
 
 #include "core/geometry/rotation_log.h"
 #include "godot/base/type_conversions.h"
+#include "godot/hand/grasp/joint_frames.h"
 
 namespace spidar {
 
@@ -33,13 +34,6 @@ using godot::Transform3D;
 using Axes = std::array<JointAxis, 6>;
 constexpr std::size_t kTurns = 3; // the first turn among the axes
 
-JointAxis free_axis() {
-    JointAxis axis;
-    axis.lower = 1.0;
-    axis.upper = -1.0;
-    return axis;
-}
-
 JointAxis limited(double lower, double upper) {
     JointAxis axis;
     axis.lower = lower;
@@ -54,7 +48,7 @@ Axes axes_of(const HingeJoint3D &joint, double tick_s) {
     hinge = joint.get_flag(HingeJoint3D::FLAG_USE_LIMIT)
                 ? limited(joint.get_param(HingeJoint3D::PARAM_LIMIT_LOWER),
                           joint.get_param(HingeJoint3D::PARAM_LIMIT_UPPER))
-                : free_axis();
+                : JointAxis::free();
     if (joint.get_flag(HingeJoint3D::FLAG_ENABLE_MOTOR)) {
         hinge.motor_speed = joint.get_param(HingeJoint3D::PARAM_MOTOR_TARGET_VELOCITY);
         hinge.motor_most = joint.get_param(HingeJoint3D::PARAM_MOTOR_MAX_IMPULSE) / tick_s;
@@ -82,7 +76,7 @@ Axes axes_of(const ConeTwistJoint3D &joint) {
 Axes ball_axes() {
     Axes axes{};
     for (std::size_t axis = kTurns; axis < axes.size(); ++axis) {
-        axes[axis] = free_axis();
+        axes[axis] = JointAxis::free();
     }
     return axes;
 }
@@ -121,7 +115,7 @@ Axes axes_of(const Generic6DOFJoint3D &joint) {
         way = ways.flag(k, Six::FLAG_ENABLE_LINEAR_LIMIT)
                   ? limited(ways.value(k, Six::PARAM_LINEAR_LOWER_LIMIT),
                             ways.value(k, Six::PARAM_LINEAR_UPPER_LIMIT))
-                  : free_axis();
+                  : JointAxis::free();
         if (ways.flag(k, Six::FLAG_ENABLE_LINEAR_SPRING)) {
             way.stiffness = ways.value(k, Six::PARAM_LINEAR_SPRING_STIFFNESS);
             way.damping = ways.value(k, Six::PARAM_LINEAR_SPRING_DAMPING);
@@ -135,7 +129,7 @@ Axes axes_of(const Generic6DOFJoint3D &joint) {
         turn = ways.flag(k, Six::FLAG_ENABLE_ANGULAR_LIMIT)
                    ? limited(ways.value(k, Six::PARAM_ANGULAR_LOWER_LIMIT),
                              ways.value(k, Six::PARAM_ANGULAR_UPPER_LIMIT))
-                   : free_axis();
+                   : JointAxis::free();
         if (ways.flag(k, Six::FLAG_ENABLE_ANGULAR_SPRING)) {
             turn.stiffness = ways.value(k, Six::PARAM_ANGULAR_SPRING_STIFFNESS);
             turn.damping = ways.value(k, Six::PARAM_ANGULAR_SPRING_DAMPING);
@@ -260,10 +254,7 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
         const Transform3D base =
             other != nullptr ? other->get_global_transform().orthonormalized() * one.other.frame
                              : one.other.frame;
-        ToolJoint joint;
-        joint.id = static_cast<std::int32_t>(one.joint & 0x7fffffffU);
-        joint.base = {frame.point_to_device(to_core(base.origin)),
-                      glm::transpose(frame.rotation) * to_core(base.basis)};
+        ToolJoint joint = joint_between(one.joint, base, in_grip * one.held.frame, frame);
         const auto before = bases_.find(one.joint);
         if (before != bases_.end()) {
             joint.velocity_m_s = (joint.base.origin_m - before->second.origin_m) / tick_s;
@@ -272,8 +263,6 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
                 tick_s;
         }
         bases[one.joint] = joint.base;
-        const Transform3D tool = in_grip * one.held.frame;
-        joint.in_grip = {to_core(tool.origin) / frame.scale, to_core(tool.basis.orthonormalized())};
         Axes axes = axes_of(*node, tick_s);
         add_damping(body, base, axes);
         for (std::size_t axis = 0; axis < axes.size(); ++axis) {

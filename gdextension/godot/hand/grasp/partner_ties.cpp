@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <glm/matrix.hpp>
-
 #include "godot/base/type_conversions.h"
+#include "godot/hand/grasp/joint_frames.h"
 
 namespace spidar {
 
@@ -18,9 +17,7 @@ constexpr double kPartOfOwn = 2.0;
 constexpr double kLeaves_s = 0.2;
 
 JointAxis spring(double stiffness) {
-    JointAxis axis;
-    axis.lower = 1.0; // no limits
-    axis.upper = -1.0;
+    JointAxis axis = JointAxis::free();
     axis.stiffness = stiffness;
     return axis;
 }
@@ -38,14 +35,9 @@ std::vector<ToolJoint> PartnerTies::now(const std::vector<SharedHold> &others,
         tie.joint.angular_rad_s = Vec3(0.0);
     }
     for (const SharedHold &other : others) {
-        ToolJoint joint;
-        joint.id = static_cast<std::int32_t>(other.hand & 0x7fffffffU);
-        joint.base = {frame.point_to_device(to_core(other.body.origin)),
-                      glm::transpose(frame.rotation) * to_core(other.body.basis.orthonormalized())};
+        ToolJoint joint = joint_between(other.hand, other.body, in_grip, frame);
         joint.velocity_m_s = frame.velocity_to_device(to_core(other.velocity));
         joint.angular_rad_s = frame.turn_to_device(to_core(other.turning));
-        joint.in_grip = {to_core(in_grip.origin) / frame.scale,
-                         to_core(in_grip.basis.orthonormalized())};
         for (std::size_t axis = 0; axis < joint.axes.size(); ++axis) {
             joint.axes[axis] = spring(kPartOfOwn * stiffness[axis]);
         }

@@ -13,23 +13,16 @@ using namespace spidar::test;
 
 namespace {
 
-constexpr double kFree_lower = 1.0; // above upper: no limit
-constexpr double kLever_m = 0.06;   // from the hinge to the grip
+constexpr double kLever_m = 0.06; // from the hinge to the grip
 constexpr double kLinear_n_m = 1000.0;
 constexpr double kTurn_nm_rad = 2.0;
 // Of the grip on its springs, about the hinge.
 constexpr double kAboutHinge_nm_rad = kLinear_n_m * kLever_m * kLever_m + kTurn_nm_rad;
 
-JointAxis free_axis() {
-    JointAxis axis;
-    axis.lower = kFree_lower;
-    return axis;
-}
-
 // A door whose handle is held at the origin: it turns about y, 60 mm to the left.
 struct Door : ProxyRig {
     ToolJoint &joint;
-    explicit Door(const JointAxis &hinge = free_axis()) : joint(tool.joints[0]) {
+    explicit Door(const JointAxis &hinge = JointAxis::free()) : joint(tool.joints[0]) {
         add_tool(make_sphere(0.005));
         joint.id = 1;
         joint.base.origin_m = Vec3(-kLever_m, 0.0, 0.0);
@@ -97,7 +90,7 @@ TEST_CASE("joints: a door turns about its hinge and nothing else, wherever the h
 }
 
 TEST_CASE("joints: torque against angle is the hinge's spring, and about its axis alone") {
-    JointAxis hinge = free_axis();
+    JointAxis hinge = JointAxis::free();
     hinge.stiffness = 0.8;
     hinge.rest = 0.2;
     Door door(hinge);
@@ -117,7 +110,7 @@ TEST_CASE("joints: torque against angle is the hinge's spring, and about its axi
 }
 
 TEST_CASE("joints: the hinge's damping is felt as damping times speed") {
-    JointAxis hinge = free_axis();
+    JointAxis hinge = JointAxis::free();
     hinge.damping = 0.3;
     Door door(hinge);
     door.swing(0.0, 1.0, 1000); // 1 rad/s
@@ -192,7 +185,7 @@ TEST_CASE("joints: a drawer slides along its rail, a knob turns on, a ball turns
     ball.joint.id = 4;
     ball.joint.axes = {};
     for (const std::size_t axis : {3U, 4U, 5U}) {
-        ball.joint.axes[axis] = free_axis();
+        ball.joint.axes[axis] = JointAxis::free();
     }
     ball.proxy.tie(ball.tool, 0.0);
     ToolPose turned;
@@ -225,7 +218,7 @@ TEST_CASE(
 }
 
 TEST_CASE("joints: a motor moves the door at its speed, as hard as it is, and no harder") {
-    JointAxis hinge = free_axis();
+    JointAxis hinge = JointAxis::free();
     hinge.motor_speed = 0.5;
     hinge.motor_most = 0.2;
     Door door(hinge);
@@ -240,7 +233,7 @@ TEST_CASE("joints: a motor moves the door at its speed, as hard as it is, and no
 }
 
 TEST_CASE("joints: two hinges of one door are one") {
-    JointAxis hinge = free_axis();
+    JointAxis hinge = JointAxis::free();
     hinge.stiffness = 0.4;
     Door door(hinge);
     ToolJoint &second = door.tool.joints[1];
@@ -298,7 +291,7 @@ TEST_CASE("joints: a door in a wall that moves is carried along, and a scene tha
 
 TEST_CASE("joints: a way round gives back what it took, and with a damper it only takes") {
     for (const double damping : {0.0, 0.05}) {
-        JointAxis hinge = free_axis();
+        JointAxis hinge = JointAxis::free();
         hinge.stiffness = 0.6;
         hinge.damping = damping;
         Door door(hinge);
@@ -337,7 +330,7 @@ TEST_CASE(
         hand.joint = ToolJoint();
         hand.joint.id = 9;
         for (std::size_t axis = 0; axis < 6; ++axis) {
-            hand.joint.axes[axis] = free_axis();
+            hand.joint.axes[axis] = JointAxis::free();
             hand.joint.axes[axis].stiffness = 2.0 * hand.settings.stiffness[axis];
         }
         hand.settings.damping_s = 0.0018;
