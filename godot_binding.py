@@ -106,7 +106,7 @@ def dump_api(godot, cache):
 
 # --- Real godot-cpp ------------------------------------------------------------------------------
 
-HOW_TO_BUILD = "docs/building.md has the commands; binding=in_tree builds without it"
+HOW_TO_BUILD = "docs/how_to/building.md has the commands; binding=in_tree builds without it"
 # In a library that was built with hot reload, Wrapped has a member for the object that is made again.
 HOT_RELOAD = re.compile(rb"_ZN5godot7Wrapped\d+[a-z_]*recreate")
 PLATFORM_DEFINES = {"linux": ["LINUX_ENABLED", "UNIX_ENABLED"], "windows": ["WINDOWS_ENABLED"]}

@@ -100,13 +100,13 @@ class Results(unittest.TestCase):
             self.assertTrue(all(tuple(one) == bench_rows.COLUMNS for one in rows))
 
     def test_the_page_tells_the_committed_results(self):
-        path = os.path.join(run_bench.ROOT, "docs", "accuracy_and_speed.md")
+        path = os.path.join(run_bench.ROOT, "docs", "why", "accuracy_and_speed.md")
         with open(path, encoding="utf-8") as file:
             page = file.read()
         self.assertEqual(len(write_tables.MARK.findall(page)), 5)
         folder = os.path.join(run_bench.ROOT, "tests", "bench", "results")
         self.assertEqual(write_tables.fill(page, folder), page,
-                         "run python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md")
+                         "run python3 tests/bench/write_tables.py tests/bench/results docs/why/accuracy_and_speed.md")
 
 
 if __name__ == "__main__":

@@ -71,7 +71,7 @@ def layout_cases(check, scratch):
     beside = lay(awkward / "source", generated="../beside/gen/include", library=f"../beside/bin/{NAME}")
     put(awkward / "beside" / "CMakeCache.txt", f"A:B=C\nCMAKE_HOME_DIRECTORY:INTERNAL={beside}\n")
     accepted("a CMake build folder", awkward / "beside")
-    refused("a CMake build folder elsewhere", beside, "not built", "docs/building.md")
+    refused("a CMake build folder elsewhere", beside, "not built", "docs/how_to/building.md")
     refused("no such folder", scratch / "nowhere", "no such folder", "in_tree")
     (scratch / "empty").mkdir(parents=True)
     refused("no godot-cpp", scratch / "empty", "it is no godot-cpp")

@@ -1,4 +1,4 @@
-// The firmware of a serial motor board as docs/serial_boards.md describes it, without hardware: bytes and encoder counts
+// The firmware of a serial motor board as docs/reference/serial_boards.md describes it, without hardware: bytes and encoder counts
 // in, bytes and motor currents out. It has no watchdog: the last current holds. Written from the description alone.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A controller's firmware as docs/hid_protocol.md asks for it, without hardware: bytes and encoder counts in, bytes
+// A controller's firmware as docs/reference/hid_protocol.md asks for it, without hardware: bytes and encoder counts in, bytes
 // and motor tensions out, on a clock that the caller moves. Integers only; what a firmware author may start from.
 #pragma once
 

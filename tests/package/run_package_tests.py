@@ -24,7 +24,7 @@ NEEDED = ["README.md", "LICENSE.md", "THIRDPARTY.md", "plugin.cfg", "spidar_g.gd
           "stand_in/.gdignore", "stand_in/spidar_g.gd"]
 PLATFORMS = ["linux.debug.x86_64", "linux.release.x86_64", "linux.debug.arm64", "linux.release.arm64",
              "windows.debug.x86_64", "windows.release.x86_64"]
-# docs/building.md gives this number to the user.
+# docs/how_to/building.md gives this number to the user.
 GLIBC_FLOOR = (2, 35)
 LIMIT_S = 120
 

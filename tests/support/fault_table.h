@@ -1,4 +1,4 @@
-// The table of faults in docs/safety.md, as tests: one row a fault. test_fault_table.cpp runs every row with every
+// The table of faults in docs/reference/safety.md, as tests: one row a fault. test_fault_table.cpp runs every row with every
 // hand and fails when a row of the page has no test here.
 #pragma once
 

@@ -19,7 +19,7 @@ bench_contacts() {
     "$python" tests/bench/draw_bench.py build/bench motions
     if [[ -n $publish ]]; then
         cp build/bench/{contacts,motions}.{json,csv} build/bench/motions.png tests/bench/results/
-        python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md
+        python3 tests/bench/write_tables.py tests/bench/results docs/why/accuracy_and_speed.md
     fi
 }
 
@@ -41,7 +41,7 @@ bench() { # bench [publish] [--runs N] [--rows N]: figures and pictures into bui
     "$python" tests/bench/draw_bench.py build/bench
     if [[ -n $publish ]]; then
         cp build/bench/*.{json,csv,png,md,txt} tests/bench/results/
-        python3 tests/bench/write_tables.py tests/bench/results docs/accuracy_and_speed.md
+        python3 tests/bench/write_tables.py tests/bench/results docs/why/accuracy_and_speed.md
     fi
     python3 tests/godot_project.py "$GODOT" tests/godot/project
     timeout --foreground -k 10 "$bench_limit_s" "$GODOT" --headless --path tests/godot/project --fixed-fps 60 \

@@ -23,8 +23,8 @@ paper() {
     python=$(plotting_python)
     paper_numbers build/paper
     "$python" tools/paper/draw.py build/paper docs/pictures/paper
-    python3 tools/paper/write_page.py build/paper docs/paper_reproduction.md
-    python3 tests/paper/check_paper.py build/paper docs/paper_reproduction.md
+    python3 tools/paper/write_page.py build/paper docs/why/paper_reproduction.md
+    python3 tests/paper/check_paper.py build/paper docs/why/paper_reproduction.md
 }
 
 results() { # results DIR

@@ -65,7 +65,7 @@ stage_bench() { counted python3 tests/bench/test_bench_rows.py build/bin/spidar_
 
 stage_paper() {
     paper_numbers build/paper_check
-    counted python3 tests/paper/check_paper.py build/paper_check docs/paper_reproduction.md
+    counted python3 tests/paper/check_paper.py build/paper_check docs/why/paper_reproduction.md
 }
 
 stage_binding_tests() {
@@ -215,10 +215,10 @@ stage_package() {
 
 stage_stress() {
     stress build/bin 200000 2000
-    # A case is five seconds of a device here; the whole is docs/calibration.md.
+    # A case is five seconds of a device here; the whole is docs/how_to/calibration.md.
     checked build/bin/string_faults --cases 60 --seed 5 --healthy_s 600
     checked build/bin/error_budget --cases 1 --seed 2
-    # The long run is documented in docs/safety.md: an hour with each hand, ten thousand unplugs, a million commands.
+    # The long run is documented in docs/reference/safety.md: an hour with each hand, ten thousand unplugs, a million commands.
     checked build/bin/safety_hours --minutes 3 --cycles 500 --commands 50000 --stall_minutes 2
     checked build/bin/soak --minutes 0.5
     checked build/bin/passivity_gates --cases 6 --seed 1

@@ -1,5 +1,5 @@
 // Section III.1: which corner should each pole end's two strings come from? All 8! / 2!^4 = 2520 ways, by
-// det(A A^T). (The paper prints det(A^T A), which is zero for every one: docs/paper_notes.md.)
+// det(A A^T). (The paper prints det(A^T A), which is zero for every one: docs/why/paper_notes.md.)
 #include <algorithm>
 #include <array>
 #include <cmath>

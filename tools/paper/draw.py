@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""draw.py CSV_FOLDER PICTURE_FOLDER: the pictures of docs/paper_reproduction.md. Needs matplotlib."""
+"""draw.py CSV_FOLDER PICTURE_FOLDER: the pictures of docs/why/paper_reproduction.md. Needs matplotlib."""
 
 import os
 import sys

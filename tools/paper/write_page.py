@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""write_page.py CSV_FOLDER PAGE: docs/paper_reproduction.md from the CSV files. Needs no matplotlib."""
+"""write_page.py CSV_FOLDER PAGE: docs/why/paper_reproduction.md from the CSV files. Needs no matplotlib."""
 
 import sys
 

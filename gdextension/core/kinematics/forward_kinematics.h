@@ -1,6 +1,6 @@
 // String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
 // step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
-// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/paper_notes.md). Rigid grips, exit
+// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/why/paper_notes.md). Rigid grips, exit
 // pulleys and other frames take the same way with general steps: gauss_newton.h, and seven starts without closed form.
 #pragma once
 

@@ -21,7 +21,7 @@ enum class Preset : std::uint8_t {
 };
 inline constexpr int kPresetCount = 6;
 
-// What a device's serial motor boards (docs/serial_boards.md) must be told of its motors.
+// What a device's serial motor boards (docs/reference/serial_boards.md) must be told of its motors.
 struct BoardWiring {
     // What the usual host sends: it thinks in volts. 0: this device has no such boards.
     double units_per_newton = 0.0;

@@ -42,7 +42,7 @@ Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &l
     if (!read_feature(*opened.control, HidReportId::capabilities, kCapabilitiesSize,
                       opened.capabilities)) {
         problem = name_of(device) + " does not answer with the capabilities of a SPIDAR-G; check "
-                                    "its firmware against docs/hid_protocol.md.";
+                                    "its firmware against docs/reference/hid_protocol.md.";
         return Status::protocol_mismatch;
     }
     if (opened.capabilities.protocol_version != kHidProtocolVersion) {

@@ -1,4 +1,4 @@
-// A real device behind USB HID (docs/hid_protocol.md). read() is for the servo loop's thread and never waits; write()
+// A real device behind USB HID (docs/reference/hid_protocol.md). read() is for the servo loop's thread and never waits; write()
 // may block for as long as the device does and may run in a thread of its own. A device that is unplugged is looked
 // for every 250 ms by a thread of this transport; plugged in again it is read, but it counts as not zeroed.
 #pragma once

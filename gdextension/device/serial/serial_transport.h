@@ -1,4 +1,4 @@
-// A SPIDAR behind serial motor boards (docs/serial_boards.md): one to eight of them on a bus of 2 Mbit/s. read() is for the
+// A SPIDAR behind serial motor boards (docs/reference/serial_boards.md): one to eight of them on a bus of 2 Mbit/s. read() is for the
 // servo loop's thread and never waits; write() waits no longer than kLongestWrite_ms and may run in a thread of its own.
 // Each write asks all boards and gives them their currents; the next read finds the counts that they answered with. The
 // motors pull only while a guard runs that switches them off when this process dies. A device that is unplugged is looked

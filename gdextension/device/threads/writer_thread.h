@@ -29,7 +29,7 @@ public:
     // Begins with an empty mailbox: what was posted before is never written. open_failed: the system has no thread left.
     Status start() noexcept;
     // Writes motors off, after a write that is still under way, and joins. A device that does not accept it is asked
-    // again for kStopPatience_ns; then its firmware lets go by itself (docs/safety.md, row 34).
+    // again for kStopPatience_ns; then its firmware lets go by itself (docs/reference/safety.md, row 34).
     void stop() noexcept;
 
     // From the servo thread; wait-free. The newest command wins.

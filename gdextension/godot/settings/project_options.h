@@ -1,5 +1,5 @@
 // The project settings under spidar_g/: what holds for every SpidarG of a game. Shown in Project > Project Settings; told in
-// docs/editor.md.
+// docs/how_to/editor.md.
 #pragma once
 
 #include <godot_cpp/classes/ref.hpp>

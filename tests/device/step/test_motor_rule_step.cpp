@@ -1,5 +1,5 @@
 // The rule for motors (device/safety/motor_rule.h) through the whole step, as a table: every state in which a device can be,
-// every cause as it really comes about, with the time until the motors are off. docs/safety.md has the times.
+// every cause as it really comes about, with the time until the motors are off. docs/reference/safety.md has the times.
 #include <doctest/doctest.h>
 
 #include <cmath>

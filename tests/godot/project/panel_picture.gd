@@ -1,5 +1,5 @@
 ## Draws the diagnosis panel of a device whose hand presses on a floor, and saves it: --resolution 800x900
-## -s panel_picture.gd -- FILE. Needs a display of that size. The picture of docs/recording.md is made so.
+## -s panel_picture.gd -- FILE. Needs a display of that size. The picture of docs/reference/recording.md is made so.
 extends SceneTree
 
 const PANEL: String = "res://addons/spidar_g/nodes/spidar_g_panel.tscn"

@@ -1,7 +1,7 @@
-## Every example of docs/use_in_your_game.md runs as it stands there, and is felt.
+## Every example of docs/how_to/use_in_your_game.md runs as it stands there, and is felt.
 extends "res://test_case.gd"
 
-const PAGE: String = "../../../docs/use_in_your_game.md"
+const PAGE: String = "../../../docs/how_to/use_in_your_game.md"
 const LISTING: String = "Ten lines to a felt object"
 ## It opens a scene of the reader's; tests/package/missing_library is the game that does so.
 const NOT_FELT: String = "Where there is no library"

@@ -1,5 +1,5 @@
 // Closed-form kinematics of the paper's grip in a box frame, eq. (4)-(15) with the paper's misprints put
-// right (docs/paper_notes.md). x, y, x1, y2 follow directly; y1 and x2 are each a root of a cubic,
+// right (docs/why/paper_notes.md). x, y, x1, y2 follow directly; y1 and x2 are each a root of a cubic,
 //   (2b y1 - k1)(y1^2 - (d^2 - x1^2)) + (E1 - y y1)^2 = 0   (and likewise for x2),
 // two of whose roots can lie on the pole's circle: pole upright or flipped. Four pairs in all.
 #pragma once

@@ -1,5 +1,5 @@
 // Distance of two convex cores by Gilbert, Johnson and Keerthi (1988), in double precision. In float32, as in Jolt,
-// a core 1 mm from a floor of 40 m counts as touching it: docs/accuracy_and_speed.md.
+// a core 1 mm from a floor of 40 m counts as touching it: docs/why/accuracy_and_speed.md.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"

@@ -1,4 +1,4 @@
-// The HID report descriptor of a SPIDAR-G controller: a firmware author copies these bytes. docs/hid_protocol.md
+// The HID report descriptor of a SPIDAR-G controller: a firmware author copies these bytes. docs/reference/hid_protocol.md
 // shows them too, and a test holds both together.
 #pragma once
 

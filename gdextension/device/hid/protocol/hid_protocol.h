@@ -1,4 +1,4 @@
-// The HID protocol of a SPIDAR-G controller, version 1, as docs/hid_protocol.md describes it: what its reports hold.
+// The HID protocol of a SPIDAR-G controller, version 1, as docs/reference/hid_protocol.md describes it: what its reports hold.
 // Integers only, little-endian; forces in mN, times in us or ms. hid_codec.h turns them into bytes and back.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The serial motor boards B1M to B5M as bytes on a wire (docs/serial_boards.md): numbers of commands, and how long each
+// The serial motor boards B1M to B5M as bytes on a wire (docs/reference/serial_boards.md): numbers of commands, and how long each
 // command and reply of a board is. All lengths count the header. Facts from public sources; none was tried on hardware.
 #pragma once
 

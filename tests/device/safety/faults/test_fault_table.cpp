@@ -1,4 +1,4 @@
-// Every row of the fault table in docs/safety.md is tested, and answered in time, with every hand.
+// Every row of the fault table in docs/reference/safety.md is tested, and answered in time, with every hand.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -63,9 +63,9 @@ std::vector<FaultRow> all_rows() {
 
 } // namespace
 
-TEST_CASE("fault table: every row of docs/safety.md has a test, and every test a row") {
+TEST_CASE("fault table: every row of docs/reference/safety.md has a test, and every test a row") {
     std::set<int> documented;
-    std::istringstream page(content("docs/safety.md"));
+    std::istringstream page(content("docs/reference/safety.md"));
     for (std::string line; std::getline(page, line);) {
         int number = 0;
         if (std::sscanf(line.c_str(), "| %d |", &number) == 1) {

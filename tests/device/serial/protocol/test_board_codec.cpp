@@ -1,4 +1,4 @@
-// The bytes of the motor boards' protocol against the table of docs/serial_boards.md.
+// The bytes of the motor boards' protocol against the table of docs/reference/serial_boards.md.
 #include <doctest/doctest.h>
 
 #include <vector>
