@@ -21,6 +21,7 @@ from godot_project import ADDONS, list_extensions  # noqa: E402
 
 LIMIT_S = 400
 START_LIMIT_S = 60
+LINES_OF_A_CHECK = 3
 # In the order of their dependences; those that the kernel has built in are not there as files.
 MODULES = (
     "usb-common", "usbcore", "hid", "hid-generic", "usbhid", "uhid", "udc-core", "configfs",
@@ -132,7 +133,7 @@ def fill_root(root, program, kernel, only):
     with open(os.path.join(root, "modules/order"), "w", encoding="utf-8") as file:
         file.write("\n".join(names) + "\n")
     with open(os.path.join(root, "arguments"), "w", encoding="utf-8") as file:
-        file.write(f"--test-case={only}" if only else "--no-colors")
+        file.write("--no-colors\n" + (f"--test-case={only}\n" if only else ""))
 
 
 def pack(root, archive):
@@ -168,6 +169,17 @@ def run_machine(kernel, archive, log):
     return lines
 
 
+def found_wrong(lines):
+    """The lines of failed checks: doctest's with the two that follow (expression and values), and the game's."""
+    wrong = []
+    for i, line in enumerate(lines):
+        if re.search(r"\.(cpp|h):\d+: (FATAL )?ERROR", line):
+            wrong += lines[i:i + LINES_OF_A_CHECK]
+        elif line.startswith("WRONG"):
+            wrong.append(line)
+    return wrong
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
@@ -189,6 +201,9 @@ def main():
     if not re.search(r"^RESULT rc=0\s*$", text, re.MULTILINE) and failed == 0:
         print("run_vm_tests: the guest did not end well")
         failed = 1
+    if failed:
+        # Said again at the end: a log that keeps only its tail must still name what failed.
+        print("\n".join(["run_vm_tests: what the guest found wrong:", *found_wrong(lines)]))
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 

@@ -8,6 +8,11 @@ for module in $(cat /modules/order); do
     insmod "/modules/$module" || echo "no module $module"
 done
 mount -t configfs configfs /sys/kernel/config
-/bin/spidar_hid_vm "$(cat /arguments)"
+# One argument a line: a name of a test has spaces.
+set --
+while read -r argument; do
+    set -- "$@" "$argument"
+done </arguments
+/bin/spidar_hid_vm "$@"
 echo "RESULT rc=$?"
 poweroff -f
