@@ -173,7 +173,9 @@ void Recorder::take_touches() {
         if (one.touch != nullptr) {
             const TouchScene &touch = *one.touch;
             for (int i = 0; i < std::clamp(touch.scene.count, 0, kMaxSceneParts); ++i) {
-                keep(touch.scene.parts[static_cast<std::size_t>(i)].shape);
+                const ScenePart &part = touch.scene.parts[static_cast<std::size_t>(i)];
+                keep(part.shape);
+                keep(part.traits.texture.relief);
             }
             for (int i = 0; i < std::clamp(touch.tool.count, 0, kMaxToolParts); ++i) {
                 keep(touch.tool.parts[static_cast<std::size_t>(i)].shape);

@@ -56,6 +56,8 @@ const char *name_of(spidar::ShapeKind kind) {
         return "height_map";
     case spidar::ShapeKind::half_space:
         return "half_space";
+    case spidar::ShapeKind::relief:
+        return "relief";
     }
     return "";
 }

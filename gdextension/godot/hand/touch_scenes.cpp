@@ -69,6 +69,9 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
         part.id = shape.id;
         part.groups = shape.seen_by;
         touch.shapes.push_back(shape.shape);
+        if (part.traits.texture.relief != nullptr) {
+            touch.shapes.push_back(shape.facts.relief);
+        }
     }
 }
 

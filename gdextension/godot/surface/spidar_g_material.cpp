@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include <godot_cpp/variant/callable_method_pointer.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "core/base/describe_value.h"
 #include "godot/base/resource_field.h"
 #include "godot/base/type_conversions.h"
+#include "godot/surface/image_relief.h"
 
 void SpidarGMaterial::refuse(const std::string &message) const {
     godot::UtilityFunctions::push_error(spidar::to_godot("SpidarGMaterial." + message));
@@ -48,6 +50,41 @@ void SpidarGMaterial::set_texture_direction(const godot::Vector3 &direction) {
     }
 }
 
+void SpidarGMaterial::set_texture_image(const godot::Ref<godot::Texture2D> &image) {
+    if (image == texture_image_) {
+        return;
+    }
+    const godot::Callable listener = callable_mp(this, &SpidarGMaterial::forget_relief);
+    if (texture_image_.is_valid()) {
+        texture_image_->disconnect("changed", listener);
+    }
+    texture_image_ = image;
+    if (texture_image_.is_valid()) {
+        texture_image_->connect("changed", listener);
+    }
+    forget_relief();
+}
+
+void SpidarGMaterial::forget_relief() {
+    relief_is_known_ = false;
+    emit_changed();
+}
+
+std::shared_ptr<const spidar::CookedShape> SpidarGMaterial::relief() const {
+    if (!relief_is_known_) {
+        relief_is_known_ = true;
+        relief_ = nullptr;
+        if (texture_image_.is_valid()) {
+            std::string problem;
+            relief_ = spidar::relief_of(*texture_image_.ptr(), problem);
+            if (!problem.empty()) {
+                refuse("texture_image " + problem);
+            }
+        }
+    }
+    return relief_;
+}
+
 spidar::SurfaceTraits SpidarGMaterial::traits() const {
     spidar::SurfaceTraits traits;
     traits.static_friction = std::max(static_friction_, 0.0);
@@ -57,7 +94,8 @@ spidar::SurfaceTraits SpidarGMaterial::traits() const {
     traits.magnet_range_m = magnet_range_;
     if (texture_wavelength_ > 0.0) {
         const godot::Vector3 across = texture_direction_.normalized();
-        traits.texture = {texture_wavelength_, texture_depth_, spidar::to_core(across)};
+        traits.texture = {texture_wavelength_, texture_depth_, spidar::to_core(across),
+                          relief().get()};
     }
     return traits;
 }
@@ -87,6 +125,11 @@ void SpidarGMaterial::_bind_methods() {
                         "0,0.05,0.0001,suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, texture_depth, godot::PROPERTY_HINT_RANGE,
                         "0,0.002,0.00001,suffix:m");
+    spidar::bind_checked<&Self::set_texture_image, "", "set_texture_image", "texture_image">();
+    godot::ClassDB::bind_method(godot::D_METHOD("get_texture_image"), &Self::get_texture_image);
+    ADD_PROPERTY(godot::PropertyInfo(godot::Variant::OBJECT, "texture_image",
+                                     godot::PROPERTY_HINT_RESOURCE_TYPE, "Texture2D"),
+                 "set_texture_image", "get_texture_image");
     spidar::bind_checked<&Self::set_texture_direction, "", "set_texture_direction",
                          "texture_direction">();
     godot::ClassDB::bind_method(godot::D_METHOD("get_texture_direction"),

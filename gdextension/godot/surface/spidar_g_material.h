@@ -3,9 +3,11 @@
 // gdextension/doc_classes/SpidarGMaterial.xml.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/classes/texture2d.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
@@ -50,6 +52,13 @@ public:
     void set_texture_direction(const godot::Vector3 &direction);
     [[nodiscard]] godot::Vector3 get_texture_direction() const { return texture_direction_; }
 
+    // Brightness is height. Null: grooves or pits.
+    void set_texture_image(const godot::Ref<godot::Texture2D> &image);
+    [[nodiscard]] godot::Ref<godot::Texture2D> get_texture_image() const { return texture_image_; }
+    // The image as a shape of kind relief; null without one, or while it is not ready (a NoiseTexture2D). traits() points at
+    // it. Read again when the texture has changed.
+    [[nodiscard]] std::shared_ptr<const spidar::CookedShape> relief() const;
+
     // Lengths in metres of the scene, directions in the body's frame. static_friction is set where the material says one.
     [[nodiscard]] spidar::SurfaceTraits traits() const;
 
@@ -63,6 +72,12 @@ private:
     void take(const char *name, double value, double least, double most, const char *unit,
               double &kept);
 
+    void forget_relief();
+
     bool stick_slip_ = false;
     godot::Vector3 texture_direction_;
+    godot::Ref<godot::Texture2D> texture_image_;
+    // Made when it is first needed.
+    mutable std::shared_ptr<const spidar::CookedShape> relief_;
+    mutable bool relief_is_known_ = false;
 };

@@ -260,7 +260,13 @@ TEST_CASE("replay: a ring that overflows loses cycles, says so, and goes on with
             ++ticks;
         }
         disk.go_on();
-        std::this_thread::sleep_for(std::chrono::milliseconds(100)); // and time to catch up
+        // Time to catch up: until nothing more comes to the file.
+        constexpr auto kLook = std::chrono::milliseconds(100);
+        std::uint64_t bytes = 0;
+        do {
+            bytes = recorder.statistics().bytes;
+            std::this_thread::sleep_for(kLook);
+        } while (recorder.statistics().bytes != bytes);
     }
     recorder.close();
     disk.finish();

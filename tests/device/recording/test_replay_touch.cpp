@@ -59,7 +59,11 @@ public:
             slides.angular_rad_s = Vec3(0.0, 1.0, 0.0);
             slides.friction = 0.3;
         }
-        add(*touch, hills_, {Vec3(-0.02, -0.015, 0.0), Mat3(1.0)});
+        ScenePart &hills = add(*touch, hills_, {Vec3(-0.02, -0.015, 0.0), Mat3(1.0)});
+        if (frame % 30 >= 10) {
+            hills.traits.texture = {0.02, 0.0003, Vec3(0.0), image_.get()};
+            touch->shapes.push_back(image_);
+        }
         touch->load.force_n = Vec3(0.0, -0.2, 0.0);
         touch->tool.stop_rad = 0.4;
         return touch;
@@ -69,6 +73,16 @@ private:
     int still_;
     ToolResult ball_ = make_sphere(kBall_m);
     ToolResult bar_ = make_tool(*box(Vec3(0.02, 0.004, 0.004)));
+    ShapePtr image_ = cooked([] {
+        ShapeDescription shape;
+        shape.kind = ShapeKind::relief;
+        shape.columns = 16;
+        shape.rows = 16;
+        for (int i = 0; i < 256; ++i) {
+            shape.heights_m.push_back(0.1F * static_cast<float>(i * i % 11));
+        }
+        return shape;
+    }());
     ShapePtr floor_ = cooked_half_space();
     ShapePtr box_ = box(Vec3(0.008, 0.009, 0.01));
     ShapePtr hills_ = cooked(field(
@@ -345,7 +359,8 @@ TEST_CASE("recording: a scene comes back to the bit, NaN too, and shapes that no
             part.belt_rad_s = Vec3(random.nasty());
             part.traits.static_friction = random.nasty();
             part.traits.adhesion_n = random.nasty();
-            part.traits.texture = {random.nasty(), random.nasty(), Vec3(random.nasty())};
+            part.traits.texture = {random.nasty(), random.nasty(), Vec3(random.nasty()),
+                                   part.traits.texture.relief};
             part.id = static_cast<std::int32_t>(random.bits());
         }
         for (ToolJoint &joint : touch->tool.joints) {
@@ -366,6 +381,8 @@ TEST_CASE("recording: a scene comes back to the bit, NaN too, and shapes that no
         // Put the shapes back, and compare all words.
         for (std::size_t k = 0; k < found.scene.parts.size(); ++k) {
             found.scene.parts[k].shape = touch->scene.parts[k].shape;
+            found.scene.parts[k].traits.texture.relief =
+                touch->scene.parts[k].traits.texture.relief;
         }
         for (std::size_t k = 0; k < found.tool.parts.size(); ++k) {
             found.tool.parts[k].shape = touch->tool.parts[k].shape;

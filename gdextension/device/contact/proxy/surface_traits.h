@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/types.h"
+#include "device/contact/shapes/cooked_shape.h"
 
 namespace spidar {
 
@@ -13,6 +14,10 @@ struct SurfaceTexture {
     // Unit, in the part's frame: the grooves run at right angles to it. Zero: pits, with this wavelength along the part's
     // three axes.
     Vec3 across{0.0};
+    // In place of grooves and pits: an image of heights, whose width along the surface is wavelength_m. It is laid on the
+    // part from the three axes of its frame, each counted as far as the surface faces along it. Of kind relief; the game
+    // keeps it alive. Null: none.
+    const CookedShape *relief = nullptr;
 };
 
 struct SurfaceTraits {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "device/contact/shapes/relief_map.h"
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
@@ -48,6 +50,37 @@ Relief relief_at(const SurfaceTexture &texture, const Vec3 &local_m, const Vec3 
     return relief;
 }
 
+// How a relief lies on the plane across an axis: the part's axes along which its columns and rows run. Its rows run downwards
+// in an image, so along -Y where the surface stands upright.
+struct Lay {
+    int u;
+    int v;
+    double v_sign;
+};
+constexpr std::array<Lay, 3> kLays{{{2, 1, -1.0}, {0, 2, 1.0}, {0, 1, -1.0}}};
+
+// coarseness: as relief_point() takes it.
+Relief mapped_relief(const SurfaceTexture &texture, double coarseness, const Vec3 &local_m,
+                     const Vec3 &normal) noexcept {
+    Relief relief;
+    for (int axis = 0; axis < 3; ++axis) {
+        // The squares of a normal's parts add up to 1.
+        const double share = normal[axis] * normal[axis];
+        if (!(share > 0.0)) {
+            continue;
+        }
+        const Lay &lay = kLays[static_cast<std::size_t>(axis)];
+        const ReliefPoint point =
+            relief_point(*texture.relief, coarseness, local_m[lay.u] / texture.wavelength_m,
+                         lay.v_sign * local_m[lay.v] / texture.wavelength_m);
+        const double scaled_m = share * texture.depth_m;
+        relief.height_m += scaled_m * (point.height - 1.0);
+        relief.slope[lay.u] += scaled_m * point.slope_u / texture.wavelength_m;
+        relief.slope[lay.v] += lay.v_sign * scaled_m * point.slope_v / texture.wavelength_m;
+    }
+    return relief;
+}
+
 } // namespace
 
 double ToolProxy::magnet_range_m(const SurfaceTraits &traits) const noexcept {
@@ -65,15 +98,36 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
                              const Vec3 &speed_m_s, double dt_s) const noexcept {
     const SurfaceTexture &texture = other.traits.texture;
     const Mat3 &turn = other.at.rotation;
-    const Relief relief =
-        relief_at(texture, glm::transpose(turn) * (contact.point_m - other.at.origin_m),
-                  glm::transpose(turn) * contact.normal);
+    const Vec3 local_m = glm::transpose(turn) * (contact.point_m - other.at.origin_m);
+    const Vec3 normal = glm::transpose(turn) * contact.normal;
     const Vec3 slides_m_s = along_surface(speed_m_s, contact.normal);
     const double passing = glm::length(slides_m_s) * dt_s / texture.wavelength_m;
-    const double k_m = 2.0 * std::numbers::pi / texture.wavelength_m;
-    const double stiffens_n_m = push_n * 0.5 * texture.depth_m * k_m * k_m;
     const double most_n_m = kTextureShare * settings_.stiffness[0];
-    const double kept = std::clamp(2.0 - passing / kFinestPassing, 0.0, 1.0) *
+    // By which the surface gets stiffer along itself, for a curvature of 1 / wavelength.
+    const double bends_n_m =
+        push_n * texture.depth_m / (texture.wavelength_m * texture.wavelength_m);
+    Relief relief;
+    double passing_share = passing / kFinestPassing;
+    double stiffens_n_m = 0.0;
+    if (texture.relief != nullptr) {
+        const double curvature =
+            bends_n_m > 0.0 ? most_n_m / bends_n_m : std::numeric_limits<double>::infinity();
+        // Its finest crests are two heights apart.
+        const double coarseness =
+            relief_coarseness(*texture.relief, 0.5 * passing_share, curvature);
+        relief = mapped_relief(texture, coarseness, local_m, normal);
+        const ReliefLevel &coarsest = coarsest_level(*texture.relief);
+        stiffens_n_m =
+            std::max(std::min(most_n_m, bends_n_m * finest_level(*texture.relief).most_curvature),
+                     bends_n_m * coarsest.most_curvature);
+        passing_share *= 0.5 * coarsest.columns;
+    } else {
+        const double k = 2.0 * std::numbers::pi;
+        relief = relief_at(texture, local_m, normal);
+        stiffens_n_m = 0.5 * k * k * bends_n_m;
+    }
+    // A relief has been made coarser first; what even its coarsest level is too fine for is flattened.
+    const double kept = std::clamp(2.0 - passing_share, 0.0, 1.0) *
                         std::min(1.0, most_n_m / std::max(stiffens_n_m, most_n_m));
     // What makes the surface stiffer along itself is damped as a contact is.
     contact.drawn_n = -(settings_.damping_s * kept * stiffens_n_m) * slides_m_s;

@@ -208,6 +208,29 @@ Refusal cook_half_space(CookedShape::Data &data) {
     return {};
 }
 
+Refusal cook_relief(CookedShape::Data &data) {
+    const ShapeDescription &map = data.description;
+    constexpr int kFewest = 4; // a cubic B-spline has four heights in reach
+    constexpr int kMost = 1024;
+    if (map.columns < kFewest || map.rows < kFewest || map.columns > kMost || map.rows > kMost) {
+        return wrong("A relief needs 4 to 1024 columns and rows.");
+    }
+    const auto count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
+    if (map.heights_m.size() != count) {
+        return wrong("heights_m of a relief needs columns * rows values.");
+    }
+    for (const float height : map.heights_m) {
+        if (!std::isfinite(height)) {
+            return not_finite("A height of heights_m");
+        }
+        if (height < 0.0F || height > 1.0F) {
+            return wrong("A height of a relief must be from 0 to 1.");
+        }
+    }
+    data.relief = make_relief_levels(map.columns, map.rows, map.heights_m);
+    return {};
+}
+
 Refusal cook_kind(CookedShape::Data &data, int &dropped) {
     switch (data.description.kind) {
     case ShapeKind::box:
@@ -224,6 +247,8 @@ Refusal cook_kind(CookedShape::Data &data, int &dropped) {
         return cook_height_map(data);
     case ShapeKind::half_space:
         return cook_half_space(data);
+    case ShapeKind::relief:
+        return cook_relief(data);
     }
     return wrong("This kind of shape is not known.");
 }

@@ -26,6 +26,7 @@ enum class ShapeKind : std::uint8_t {
         5, // triangles: three indices into points_m each; counter-clockwise seen from their front
     height_map = 6, // heights_m over a grid in X and Z
     half_space = 7, // solid below the plane normal . x = offset_m
+    relief = 8,     // no solid: heights_m of a texture, from 0 to 1, that repeats (relief_map.h)
 };
 
 // What to cook, in the shape's own frame (m). Scale is already applied: a box of twice the size has twice the half
@@ -65,8 +66,8 @@ public:
     CookedShape &operator=(const CookedShape &) = delete;
 
     [[nodiscard]] ShapeKind kind() const noexcept;
-    [[nodiscard]] bool convex() const noexcept; // every kind but mesh and height_map
-    // Bounding box in the shape's frame (m). A half space is infinite in all directions.
+    [[nodiscard]] bool convex() const noexcept; // every kind but mesh, height_map and relief
+    // Bounding box in the shape's frame (m). A half space is infinite in all directions; a relief is empty.
     [[nodiscard]] Vec3 lower_m() const noexcept;
     [[nodiscard]] Vec3 upper_m() const noexcept;
     [[nodiscard]] std::size_t bytes() const noexcept;

@@ -3,6 +3,7 @@
 
 #include "device/contact/shapes/convex_core.h"
 #include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/shapes/relief_map.h"
 #include "device/contact/shapes/tool_shape.h"
 #include "device/contact/shapes/triangle_tree.h"
 
@@ -16,6 +17,7 @@ struct CookedShape::Data {
     double skin_m = 0.0;
     TriangleTree tree;                                    // of a mesh
     std::vector<std::uint8_t> sharp_edges;                // of a mesh: NearTriangle::sharp_edges
+    std::vector<ReliefLevel> relief;                      // of a relief: finest first
     std::vector<std::array<std::uint32_t, 3>> neighbours; // of a mesh: over each edge, or kNone
 };
 

@@ -181,6 +181,8 @@ void add_outline(const CookedShape &shape, const Vec3 &ball_m, double ball_radiu
     case ShapeKind::half_space:
         add_grid(data.description, ball, counted);
         return;
+    case ShapeKind::relief: // has no outline
+        return;
     }
 }
 

@@ -70,6 +70,14 @@ void TouchRenderer::retune(const ServoSettings &settings) noexcept {
     caps_ = gain_caps(settings.render, settings.rate_hz);
     GainClamp unnoted;
     tune(unnoted);
+    use_wanted_springs();
+}
+
+void TouchRenderer::use_wanted_springs() noexcept {
+    settings_ = wanted_settings_;
+    springs_left_s_ = 0.0;
+    proxy_.configure(settings_);
+    settled_ = false;
 }
 
 void TouchRenderer::tune(GainClamp &clamp) noexcept {
@@ -81,22 +89,20 @@ void TouchRenderer::tune(GainClamp &clamp) noexcept {
             asked_[dof] > 0.0 ? capped(asked_[dof], cap.most, cap.gain,
                                        static_cast<std::int32_t>(dof), caps_.from_latency, clamp)
                               : kAutomaticShare * cap.most;
-        settings_.stiffness[dof] = std::max(wanted, kSoftest);
+        wanted_settings_.stiffness[dof] = std::max(wanted, kSoftest);
     }
     // The same time for all DOF, so that none is damped more than its cap.
     const double damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
                                         GainClamp::Gain::damping, 0, false, clamp);
     double stiffest_n_m = 0.0;
-    settings_.damping_s = kMostDamping_s;
+    wanted_settings_.damping_s = kMostDamping_s;
     for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
-        const double stiffness = settings_.stiffness[dof];
+        const double stiffness = wanted_settings_.stiffness[dof];
         stiffest_n_m = std::max(stiffest_n_m, dof < 3 ? stiffness : 0.0);
-        settings_.damping_s =
-            std::min(settings_.damping_s, damping_cap(caps_, dof).most / stiffness);
+        wanted_settings_.damping_s =
+            std::min(wanted_settings_.damping_s, damping_cap(caps_, dof).most / stiffness);
     }
-    settings_.damping_s = std::min(settings_.damping_s, damping_n_s_m / stiffest_n_m);
-    proxy_.configure(settings_);
-    settled_ = false;
+    wanted_settings_.damping_s = std::min(wanted_settings_.damping_s, damping_n_s_m / stiffest_n_m);
 }
 
 GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
@@ -107,7 +113,13 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     clock_.receive(touch.state_time_s, now_s);
     asked_ = touch.stiffness;
     asked_damping_n_s_m_ = touch.damping_n_s_m;
+    const ProxySettings wanted_before = wanted_settings_;
     tune(clamp);
+    if (empty()) {
+        use_wanted_springs(); // nobody feels the change
+    } else if (!same(wanted_settings_, wanted_before)) {
+        springs_left_s_ = kFeelFade_s;
+    }
     tool_ = touch.tool;
     for (int t = 0; t < tool_.count; ++t) {
         const auto k = static_cast<std::size_t>(t);
@@ -177,9 +189,12 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
         part.velocity_m_s = capped_speed(part.velocity_m_s, s, clamp);
         part.belt_m_s = capped_speed(part.belt_m_s, s, clamp);
         shape_numbers_[k] = part.shape->number();
+        const CookedShape *const relief = part.traits.texture.relief;
+        relief_numbers_[k] = relief != nullptr ? relief->number() : 0;
         Track track;
         track.velocity_m_s = part.velocity_m_s;
         track.angular_rad_s = part.angular_rad_s;
+        track.wanted = feel_of(part);
         if (part.angular_rad_s != Vec3(0.0)) {
             part.at.rotation = rotation_exp(later_s * part.angular_rad_s) * part.at.rotation;
         }
@@ -190,6 +205,8 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
             const Track &was = old_tracks[static_cast<std::size_t>(before - old.parts.data())];
             track.impulse_ns = was.impulse_ns;
             track.angular_impulse_nms = was.angular_impulse_nms;
+            track.feel_left_s = same(track.wanted, was.wanted) ? was.feel_left_s : kFeelFade_s;
+            set_feel(approach(feel_of(*before), track.wanted, kFeelFade_s, 0.0), part);
             if (apart_s > 0.0) {
                 track.seen_acceleration_m_s2 = (track.velocity_m_s - was.velocity_m_s) / apart_s;
                 track.acceleration_m_s2 =
@@ -250,6 +267,26 @@ bool TouchRenderer::carry(double dt_s) noexcept {
     return moves;
 }
 
+bool TouchRenderer::approach_feel(double dt_s) noexcept {
+    bool changes = springs_left_s_ > 0.0;
+    if (changes) {
+        settings_ = approach(settings_, wanted_settings_, springs_left_s_, dt_s);
+        springs_left_s_ = std::max(0.0, springs_left_s_ - dt_s);
+        proxy_.configure(settings_);
+    }
+    for (int s = 0; s < scene_.count; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        Track &track = tracks_[k];
+        if (track.feel_left_s > 0.0) {
+            changes = true;
+            set_feel(approach(feel_of(scene_.parts[k]), track.wanted, track.feel_left_s, dt_s),
+                     scene_.parts[k]);
+            track.feel_left_s = std::max(0.0, track.feel_left_s - dt_s);
+        }
+    }
+    return changes;
+}
+
 Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
     lead_s_ = motion.lead_s;
     const ToolPose grip{motion.grip.pose.position_m, motion.grip.frame.rotation,
@@ -258,6 +295,7 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
     if (memory_ == nullptr) {
         return {};
     }
+    const bool changes = approach_feel(dt_s);
     if (loaded_) {
         load_age_s_ += dt_s;
         const double share = cross_fade(load_age_s_);
@@ -271,8 +309,9 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
     }
     const double strength = strength_.value();
     // Joints have springs, motors and slack that go on by themselves.
-    const bool waits = !carry(dt_s) && tool_.joint_count == 0 && same(device, device_) &&
-                       same(motion.velocity, velocity_) && strength == rendered_strength_;
+    const bool waits = !carry(dt_s) && !changes && tool_.joint_count == 0 &&
+                       same(device, device_) && same(motion.velocity, velocity_) &&
+                       strength == rendered_strength_;
     if (settled_ && waits) {
         skipped_ += scene_.count > 0 ? 1 : 0;
         return wrench_;
@@ -345,6 +384,10 @@ bool TouchRenderer::is_sound() const noexcept {
                  tool_.joint_count <= kMaxToolJoints &&
                  are_flags(caps_.from_latency, loaded_, settled_) && clock_.is_sound() &&
                  proxy_.is_sound();
+    for (std::size_t k = 0; k < scene_.parts.size(); ++k) {
+        sound = sound && are_flags(scene_.parts[k].traits.catches_again,
+                                   tracks_[k].wanted.traits.catches_again);
+    }
     for (const ToolPart &part : tool_.parts) {
         sound = sound && is_one_of(part.mount, ToolMount::jaw_plus);
     }

@@ -7,6 +7,7 @@
 
 #include "core/base/sound_state.h"
 #include "device/contact/proxy/tool_proxy.h"
+#include "device/contact/touch/surface_feel.h"
 #include "device/contact/touch/touch_scene.h"
 #include "device/contract/game_clock.h"
 #include "device/contract/motion.h"
@@ -63,6 +64,11 @@ public:
             const auto k = static_cast<std::size_t>(s);
             scene_.parts[k].shape = shape_of(shape_numbers_[k]);
             found = found && scene_.parts[k].shape != nullptr;
+            const CookedShape *&relief = scene_.parts[k].traits.texture.relief;
+            const bool had_relief = relief_numbers_[k] != 0;
+            relief = had_relief ? shape_of(relief_numbers_[k]) : nullptr;
+            tracks_[k].wanted.traits.texture.relief = relief;
+            found = found && !is_relief(scene_.parts[k].shape) && is_relief(relief) == had_relief;
         }
         for (int t = 0; t < tool_.count; ++t) {
             const auto k = static_cast<std::size_t>(t);
@@ -73,6 +79,9 @@ public:
     }
 
 private:
+    [[nodiscard]] static bool is_relief(const CookedShape *shape) noexcept {
+        return shape != nullptr && shape->kind() == ShapeKind::relief;
+    }
     // What a part of the scene does until the next scene comes, beside its own velocity.
     struct Track {
         Vec3 velocity_m_s{0.0}; // its own, as given
@@ -82,6 +91,8 @@ private:
         Vec3 acceleration_m_s2{0.0};
         Vec3 correction_m{0.0}; // spread over kCrossFade_s
         Vec3 correction_rad{0.0};
+        SurfaceFeel wanted; // its feel, which is reached in feel_left_s
+        double feel_left_s = 0.0;
         Vec3 impulse_ns{0.0}; // on the part, since its id appeared
         Vec3 angular_impulse_nms{0.0};
     };
@@ -92,19 +103,25 @@ private:
     [[nodiscard]] bool empty() const noexcept;
     // The velocities of this cycle. False: nothing moves.
     bool carry(double dt_s) noexcept;
-    // The proxy's springs, of what was asked and what the caps allow.
+    // The proxy's springs that are wanted, of what the game requests and what the caps allow.
     void tune(GainClamp &clamp) noexcept;
+    void use_wanted_springs() noexcept;
+    // Springs and surfaces on their way to what is wanted. False: they are there.
+    bool approach_feel(double dt_s) noexcept;
 
     GainCaps caps_{};
     ProxyMemory *memory_ = nullptr;
     Tool tool_;
     ContactScene scene_;
-    std::array<std::uint64_t, kMaxSceneParts> shape_numbers_{}; // CookedShape::number()
+    std::array<std::uint64_t, kMaxSceneParts> shape_numbers_{};  // CookedShape::number()
+    std::array<std::uint64_t, kMaxSceneParts> relief_numbers_{}; // of textures; 0: none
     std::array<std::uint64_t, kMaxToolParts> tool_numbers_{};
     std::array<Track, kMaxSceneParts> tracks_{};
     DofGains asked_{}; // TouchScene::stiffness
     double asked_damping_n_s_m_ = 0.0;
     ProxySettings settings_;
+    ProxySettings wanted_settings_; // reached in springs_left_s_
+    double springs_left_s_ = 0.0;
     ToolProxy proxy_;
     std::uint8_t felt_ = kAllDof;
     Wrench load_from_; // when the scene came

@@ -17,6 +17,9 @@ Status validate_traits(const SurfaceTraits &traits) noexcept {
         return Status::not_finite;
     }
     const bool smooth = texture.depth_m == 0.0;
+    if (texture.relief != nullptr && texture.relief->kind() != ShapeKind::relief) {
+        return Status::invalid_request;
+    }
     const bool good = traits.static_friction >= 0.0 && traits.adhesion_n >= 0.0 &&
                       traits.magnet_n >= 0.0 && traits.magnet_range_m >= 0.0 &&
                       (smooth || (texture.depth_m > 0.0 && texture.wavelength_m > 0.0));
@@ -29,9 +32,9 @@ Status validate_part(const ScenePart &part) noexcept {
                     part.stiffness_n_m, part.damping_n_s_m, part.friction)) {
         return Status::not_finite;
     }
-    const bool good = part.shape != nullptr && part.stiffness_n_m >= 0.0 &&
-                      part.damping_n_s_m >= 0.0 && part.friction >= 0.0 &&
-                      are_flags(part.traits.catches_again);
+    const bool good = part.shape != nullptr && part.shape->kind() != ShapeKind::relief &&
+                      part.stiffness_n_m >= 0.0 && part.damping_n_s_m >= 0.0 &&
+                      part.friction >= 0.0 && are_flags(part.traits.catches_again);
     return good ? validate_traits(part.traits) : Status::invalid_request;
 }
 

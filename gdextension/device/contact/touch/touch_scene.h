@@ -25,7 +25,7 @@ struct TouchScene {
         kAllDof; // DOF in which the contacts reach the hand; the load is felt in all
     // As Coupling::state_time_s.
     double state_time_s = -1.0;
-    // The owners of the shapes above. The servo loop does not look at them: whoever publishes keeps a scene until a newer
+    // The owners of the shapes and reliefs above. The servo loop does not look at them: whoever publishes keeps a scene until a newer
     // one is acknowledged (TouchReport::sequence).
     std::vector<std::shared_ptr<const CookedShape>> shapes;
     std::vector<std::shared_ptr<const ToolShape>> tool_shapes;

@@ -15,7 +15,7 @@ static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
 static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
 static_assert(count_members<ScenePart>() == 12, "ScenePart changed: list its fields here");
 static_assert(count_members<SurfaceTraits>() == 6, "SurfaceTraits changed: list its fields here");
-static_assert(count_members<SurfaceTexture>() == 3, "SurfaceTexture changed: list its fields here");
+static_assert(count_members<SurfaceTexture>() == 4, "SurfaceTexture changed: list its fields here");
 
 namespace {
 
@@ -73,6 +73,7 @@ void visit_part(Part &part,
     visit("texture.wavelength_m", 0, part.traits.texture.wavelength_m);
     visit("texture.depth_m", 0, part.traits.texture.depth_m);
     visit_vector("texture.across", 0, part.traits.texture.across, visit);
+    visit("texture.relief", 0, part.traits.texture.relief);
     visit("id", 0, part.id);
     visit("groups", 0, part.groups);
 }

@@ -102,6 +102,7 @@ BodyFacts BodyFactsReader::read(const godot::RID &body, std::uint64_t object, bo
         facts.damping_n_s_m = own->get_damping();
         facts.squeeze_nm_rad = own->get_squeeze_stiffness();
         facts.traits = own->traits();
+        facts.relief = own->relief();
     }
     if (owner != nullptr) {
         const double slips = from_metadata(*owner, friction_);
@@ -114,7 +115,10 @@ BodyFacts BodyFactsReader::read(const godot::RID &body, std::uint64_t object, bo
         use(facts.stiffness_n_m, standard_->get_stiffness());
         use(facts.damping_n_s_m, standard_->get_damping());
         use(facts.squeeze_nm_rad, standard_->get_squeeze_stiffness());
-        facts.traits = own.is_valid() ? facts.traits : standard_->traits();
+        if (!own.is_valid()) {
+            facts.traits = standard_->traits();
+            facts.relief = standard_->relief();
+        }
     }
     return facts;
 }

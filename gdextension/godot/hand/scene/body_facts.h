@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct BodyFacts {
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
     double squeeze_nm_rad = 0.0;
-    SurfaceTraits traits; // scene metres, the body's axes
+    SurfaceTraits traits;                      // scene metres, the body's axes
+    std::shared_ptr<const CookedShape> relief; // owns traits.texture.relief
 
     // Coulomb coefficient of what slips on the body; mine: of a hand that touches what says nothing.
     [[nodiscard]] double slipping_friction(double mine) const noexcept;

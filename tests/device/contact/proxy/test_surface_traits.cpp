@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "support/proxy_rig.h"
@@ -206,6 +208,113 @@ TEST_CASE("traits: a texture is conservative: a way there and back gives nothing
     CHECK(std::abs(work_j) < 0.02 * most_j);
 }
 
+namespace {
+
+// Ridges across X, four in a tile, of so many columns.
+std::shared_ptr<const CookedShape> ridges(int columns) {
+    ShapeDescription shape;
+    shape.kind = ShapeKind::relief;
+    shape.columns = columns;
+    shape.rows = columns;
+    for (int i = 0; i < columns * columns; ++i) {
+        const double phase = 2.0 * std::numbers::pi * 4.0 * (i % columns) / columns;
+        shape.heights_m.push_back(static_cast<float>(0.5 + 0.5 * std::cos(phase)));
+    }
+    return cook(std::move(shape)).shape;
+}
+
+} // namespace
+
+TEST_CASE("traits: ridges of an image are felt as ridges, at any number of pixels") {
+    for (const int columns : {32, 64, 256}) {
+        const auto image = ridges(columns);
+        REQUIRE(image != nullptr);
+        for (const double speed_m_s : {0.02, 0.08}) {
+            BallOnFloor rig;
+            rig.floor.traits.texture = {0.016, 0.0002, Vec3(0.0), image.get()};
+            rig.press(0.001);
+            const std::vector<Vec3> forces = rig.slide(Vec3(speed_m_s, 0.0, 0.0), 3000);
+            BallOnFloor smooth;
+            smooth.floor.traits.texture = {0.004, 0.0002, Vec3(1.0, 0.0, 0.0)};
+            smooth.press(0.001);
+            const std::vector<Vec3> wanted = smooth.slide(Vec3(speed_m_s, 0.0, 0.0), 3000);
+            const auto swing = [](const std::vector<Vec3> &of) {
+                const auto [low, high] = std::ranges::minmax(of, {}, &Vec3::y);
+                return high.y - low.y;
+            };
+            CAPTURE(columns);
+            CAPTURE(speed_m_s);
+            CHECK(frequency_of(forces, 0) == doctest::Approx(speed_m_s / 0.004).epsilon(0.02));
+            CHECK(swing(forces) == doctest::Approx(swing(wanted)).epsilon(0.25));
+            // Along the ridges there is nothing.
+            rig.slide(Vec3(0.0), 20);
+            const Vec3 stands = rig.proxy.wrench().force_n;
+            for (const Vec3 &force : rig.slide(Vec3(0.0, 0.0, 0.02), 200)) {
+                CHECK(glm::length(force - stands) < 1e-3);
+            }
+        }
+    }
+}
+
+TEST_CASE("traits: an image lies on each side of a part, and never steps at its edges") {
+    const auto image = ridges(64);
+    ProxyRig rig;
+    ScenePart &ball = rig.add(round_shape(ShapeKind::sphere, 0.05));
+    rig.add_tool(make_sphere(kBall_m));
+    ball.traits.texture = {0.016, 0.0002, Vec3(0.0), image.get()};
+    const double reach_m = 0.05 + kBall_m - 0.001;
+    rig.start_at(at(Vec3(0.0, reach_m + 0.01, 0.0)));
+    rig.move_to(at(Vec3(0.0, reach_m, 0.0)), 100);
+    Vec3 before = rig.proxy.wrench().force_n;
+    double most_n = 0.0;
+    for (int i = 1; i < 6000; ++i) { // over the pole, down the side and around it
+        const double turn = 0.0005 * i;
+        const Vec3 to = reach_m * Vec3(std::sin(turn) * std::cos(0.7 * turn), std::cos(turn),
+                                       std::sin(turn) * std::sin(0.7 * turn));
+        rig.device.position_m = to;
+        rig.tick();
+        most_n = std::max(most_n, glm::length(rig.proxy.wrench().force_n - before));
+        before = rig.proxy.wrench().force_n;
+        REQUIRE(glm::length(before) > 0.3);
+    }
+    CHECK(most_n < 0.05);
+}
+
+TEST_CASE("traits: a noisy image gives no work for nothing, and is not stiffer than its share") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> height(0.0F, 1.0F);
+    ShapeDescription shape;
+    shape.kind = ShapeKind::relief;
+    shape.columns = 128;
+    shape.rows = 128;
+    for (int i = 0; i < 128 * 128; ++i) {
+        shape.heights_m.push_back(height(random));
+    }
+    const auto image = cook(std::move(shape)).shape;
+    BallOnFloor rig;
+    rig.floor.traits.texture = {0.02, 0.0005, Vec3(0.0), image.get()};
+    rig.press(0.002);
+    double work_j = 0.0;
+    double most_n_m = 0.0;
+    Vec3 before = rig.proxy.wrench().force_n;
+    for (int i = 0; i < 20000; ++i) {
+        const double phase = 2.0 * std::numbers::pi * i / 20000.0;
+        const Vec3 to(0.03 * std::sin(phase), kBall_m - 0.002,
+                      0.02 * (1.0 - std::cos(3.0 * phase)));
+        const Vec3 step_m = to - rig.device.position_m;
+        rig.device.position_m = to;
+        rig.tick({step_m / kProxyTick_s, Vec3(0.0), 0.0});
+        const Vec3 now = rig.proxy.wrench().force_n;
+        work_j += glm::dot(0.5 * (now + before), step_m);
+        const Vec3 along = (now - before) * Vec3(1.0, 0.0, 1.0);
+        most_n_m = std::max(most_n_m, glm::length(along) / glm::length(step_m));
+        before = now;
+    }
+    CHECK(work_j < 1e-5); // of the wrench on the hand: the surface gives none
+    CHECK(most_n_m < 0.6 * kStiffness_n_m);
+    CHECK(most_n_m > 0.05 * kStiffness_n_m);
+}
+
 TEST_CASE("traits: crests too fast for the servo cycle are gone, and no texture is stiffer than "
           "its share") {
     BallOnFloor fast;
@@ -249,6 +358,15 @@ TEST_CASE("traits: a scene with senseless ones is refused") {
     CHECK(validate(touch) == Status::invalid_request); // without a wavelength
     traits.texture.wavelength_m = 0.004;
     CHECK(validate(touch) == Status::ok);
+    traits.texture.relief = touch.scene.parts[0].shape; // a solid is no relief
+    CHECK(validate(touch) == Status::invalid_request);
+    const auto image = ridges(32);
+    traits.texture.relief = image.get();
+    CHECK(validate(touch) == Status::ok);
+    touch.scene.parts[0].shape = image.get(); // and a relief no solid
+    CHECK(validate(touch) == Status::invalid_request);
+    touch.scene.parts[0].shape = FloorScene().touch.scene.parts[0].shape;
+    traits.texture.relief = nullptr;
     traits.magnet_n = -1.0;
     CHECK(validate(touch) == Status::invalid_request);
     traits.magnet_n = std::nan("");

@@ -1,0 +1,132 @@
+// Reliefs: what a repeating image of heights is between its heights, and how it is made coarser.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/shapes/relief_map.h"
+
+using namespace spidar;
+
+namespace {
+
+ShapeDescription described(int columns, int rows, std::vector<float> heights) {
+    ShapeDescription shape;
+    shape.kind = ShapeKind::relief;
+    shape.columns = columns;
+    shape.rows = rows;
+    shape.heights_m = std::move(heights);
+    return shape;
+}
+
+// Waves along u and v, this many in a tile.
+ShapeDescription waves(int columns, int rows, int along_u, int along_v) {
+    std::vector<float> heights;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double phase = 2.0 * std::numbers::pi *
+                                 (static_cast<double>(along_u * column) / columns +
+                                  static_cast<double>(along_v * row) / rows);
+            heights.push_back(static_cast<float>(0.5 + 0.5 * std::cos(phase)));
+        }
+    }
+    return described(columns, rows, std::move(heights));
+}
+
+ShapeDescription noise(int columns, int rows, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> height(0.0F, 1.0F);
+    std::vector<float> heights(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    std::ranges::generate(heights, [&] { return height(random); });
+    return described(columns, rows, std::move(heights));
+}
+
+} // namespace
+
+TEST_CASE("relief: waves are waves, lower by what a cubic B-spline smooths") {
+    const CookResult made = cook(waves(64, 32, 4, 0));
+    REQUIRE(made.shape != nullptr);
+    // Of samples of a wave: (4 + 2 cos(step)) / 6 of it, exactly, at the heights themselves.
+    const double step = 2.0 * std::numbers::pi * 4.0 / 64.0;
+    const double kept = (4.0 + 2.0 * std::cos(step)) / 6.0;
+    for (int column = 0; column < 64; ++column) {
+        const double u = column / 64.0;
+        const ReliefPoint point = relief_point(*made.shape, 0.0, u, 0.123);
+        CHECK(point.height ==
+              doctest::Approx(0.5 + 0.5 * kept * std::cos(step * column)).epsilon(1e-6));
+        CHECK(std::abs(point.slope_v) < 1e-5);
+    }
+}
+
+TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
+    const CookResult made = cook(noise(32, 16, 5));
+    REQUIRE(made.shape != nullptr);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> place(-3.0, 3.0);
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 300; ++i) {
+        const double u = place(random);
+        const double v = place(random);
+        const double level = 0.5 * std::abs(place(random));
+        const ReliefPoint here = relief_point(*made.shape, level, u, v);
+        const ReliefPoint again = relief_point(*made.shape, level, u + 2.0, v - 0.5);
+        CHECK(here.height == doctest::Approx(again.height).epsilon(1e-9));
+        CHECK(here.height >= 0.0);
+        CHECK(here.height <= 1.0);
+        const auto height = [&](double du, double dv) {
+            return relief_point(*made.shape, level, u + du, v + dv).height;
+        };
+        CHECK(here.slope_u ==
+              doctest::Approx((height(kStep, 0.0) - height(-kStep, 0.0)) / (2.0 * kStep))
+                  .epsilon(1e-4));
+        CHECK(here.slope_v ==
+              doctest::Approx((height(0.0, kStep) - height(0.0, -kStep)) / (2.0 * kStep))
+                  .epsilon(1e-4));
+    }
+}
+
+TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that are wanted") {
+    const CookResult made = cook(noise(256, 256, 7));
+    REQUIRE(made.shape != nullptr);
+    CHECK(finest_level(*made.shape).columns == 256);
+    CHECK(coarsest_level(*made.shape).columns == 8);
+    CHECK(relief_coarseness(*made.shape, 0.0, std::numeric_limits<double>::infinity()) == 0.0);
+    CHECK(relief_coarseness(*made.shape, 1.0 / 64.0, 1e12) == doctest::Approx(2.0));
+    CHECK(relief_coarseness(*made.shape, 1.0 / 4.0, 1e12) == doctest::Approx(6.0)); // there is none
+    double last = 0.0;
+    for (double part = 1.0; part > 0.002; part *= 0.7) {
+        const double wanted = part * finest_level(*made.shape).most_curvature;
+        const double coarseness = relief_coarseness(*made.shape, 0.0, wanted);
+        CHECK(coarseness >= last);
+        last = coarseness;
+        if (wanted < coarsest_level(*made.shape).most_curvature) {
+            continue;
+        }
+        constexpr double kStep = 1e-4;
+        double most = 0.0;
+        for (int i = 0; i < 2000; ++i) {
+            const double u = i / 2000.0;
+            const double bend = relief_point(*made.shape, coarseness, u + kStep, 0.3).slope_u -
+                                relief_point(*made.shape, coarseness, u - kStep, 0.3).slope_u;
+            most = std::max(most, std::abs(bend) / (2.0 * kStep));
+        }
+        CAPTURE(part);
+        CHECK(most <= wanted);
+    }
+}
+
+TEST_CASE("relief: a description without sense is refused with what is wrong") {
+    CHECK(cook(described(3, 8, std::vector<float>(24))).status == Status::invalid_shape);
+    CHECK(cook(described(8, 2000, std::vector<float>(16000))).status == Status::invalid_shape);
+    CHECK(cook(described(8, 8, std::vector<float>(63))).status == Status::invalid_shape);
+    std::vector<float> heights(64, 0.5F);
+    heights[9] = 1.5F;
+    CHECK(cook(described(8, 8, heights)).sentence == "A height of a relief must be from 0 to 1.");
+    heights[9] = std::numeric_limits<float>::quiet_NaN();
+    CHECK(cook(described(8, 8, heights)).status == Status::not_finite);
+}
