@@ -41,6 +41,7 @@ struct ProxyContact {
     double slip_m_s = 0.0;    // along the surface; 0: its friction holds
     double held_s = kHolds_s; // since its friction gave way last, up to kHolds_s
     double slips_s = -1.0;    // for so long by now; below 0: it does not slip
+    double strained_s = 0.0;  // for so long it has been pulled beyond what it holds
     bool rubs = false;        // some contact of its pair pushes: its stretch goes on
     bool sticks = false;      // its pair has touched, and was not pulled apart since (adhesion)
     Vec3 slope{0.0};          // of a texture's height where it pushes, along the surface
@@ -158,13 +159,14 @@ private:
               const Twist &velocity, double dt_s) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
-    // Of the same pair, in the last cycle, on a surface turned little; null: none. touching: that pushed, or that rubs.
+    // The nearest contact of the last cycle on the same scene part whose surface is turned little; null: none. touching: one
+    // of the same tool part that pushed; otherwise one that rubs, of the same tool part if there is one.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
-    // Goes on with `slips_s`, from `before` it, and returns the coefficient of this cycle. stretch_m: of the friction's spring;
-    // m_per_coefficient: where a coefficient of 1 lets it slip.
-    double friction_now(ProxyContact &contact, const ScenePart &other, double before_s,
+    // The friction coefficient of this cycle; sets slips_s and strained_s of the contact. last: the contact one cycle before,
+    // or null. stretch_m: of the friction's spring. m_per_coefficient: the stretch at which a coefficient of 1 slips.
+    double friction_now(ProxyContact &contact, const ScenePart &other, const ProxyContact *last,
                         double stretch_m, double m_per_coefficient, double slides_m_s,
                         double dt_s) const noexcept;
     // Traits of the surfaces (tool_proxy_surface.cpp). How far off they are felt.

@@ -15,6 +15,9 @@ namespace {
 constexpr double kSameSurface = 0.7;
 // A contact that begins to slip comes down from the static coefficient in this time: what is felt is a slip, not a blow.
 constexpr double kSlip_s = 0.005;
+// A contact slips once it has been pulled beyond its static limit for so long: the push of a grip at rest varies by some
+// percent from cycle to cycle, and the smallest of many pushes would end the hold too early.
+constexpr double kBreaks_s = 0.003;
 // Slower than this, a contact that slipped stands: above what the velocity of a grip at rest shows.
 constexpr double kStands_m_s = 0.003;
 
@@ -27,15 +30,22 @@ double most_friction(const ScenePart &part) noexcept {
 const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact,
                                               bool touching) const noexcept {
     const ProxyContact *nearest = nullptr;
+    const auto is_nearer = [&](const ProxyContact &other) {
+        const bool same_part = other.tool_id == contact.tool_id;
+        const bool had_same_part = nearest->tool_id == contact.tool_id;
+        return same_part != had_same_part ? same_part
+                                          : glm::distance(other.point_m, contact.point_m) <
+                                                glm::distance(nearest->point_m, contact.point_m);
+    };
     for (int i = 0; i < before_count_; ++i) {
         const ProxyContact &other = before_[static_cast<std::size_t>(i)];
-        const bool counts = touching ? other.push_n > 0.0 : other.rubs;
-        if (!counts || other.tool_id != contact.tool_id || other.scene_id != contact.scene_id ||
-            glm::dot(other.normal, contact.normal) < kSameSurface) {
-            continue;
-        }
-        if (nearest == nullptr || glm::distance(other.point_m, contact.point_m) <
-                                      glm::distance(nearest->point_m, contact.point_m)) {
+        // Two fingers that stand side by side on ribs take turns in touching: the one that comes back goes on with the
+        // other's friction.
+        const bool counts =
+            touching ? other.push_n > 0.0 && other.tool_id == contact.tool_id : other.rubs;
+        if (counts && other.scene_id == contact.scene_id &&
+            glm::dot(other.normal, contact.normal) >= kSameSurface &&
+            (nearest == nullptr || is_nearer(other))) {
             nearest = &other;
         }
     }
@@ -53,13 +63,16 @@ bool ToolProxy::pair_pushes(const ProxyContact &contact) const noexcept {
     return false;
 }
 
-double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other, double before_s,
-                               double stretch_m, double m_per_coefficient, double slides_m_s,
-                               double dt_s) const noexcept {
+double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other,
+                               const ProxyContact *last, double stretch_m, double m_per_coefficient,
+                               double slides_m_s, double dt_s) const noexcept {
     const double more = most_friction(other) - other.friction;
+    const double before_s = last != nullptr ? last->slips_s : -1.0;
     contact.slips_s = before_s;
+    contact.strained_s = 0.0;
     if (!(more > 0.0)) {
-        contact.slips_s = -1.0;
+        // A surface that begins to hold does not catch what slides on it.
+        contact.slips_s = last != nullptr && last->held_s < kHolds_s ? kSlip_s : -1.0;
     } else if (before_s >= 0.0) {
         contact.slips_s = before_s + dt_s;
         const bool stands = other.traits.catches_again || slides_m_s < kStands_m_s;
@@ -67,7 +80,8 @@ double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other, do
             contact.slips_s = -1.0;
         }
     } else if (stretch_m > most_friction(other) * m_per_coefficient) {
-        contact.slips_s = 0.0;
+        contact.strained_s = (last != nullptr ? last->strained_s : 0.0) + dt_s;
+        contact.slips_s = contact.strained_s > kBreaks_s ? 0.0 : -1.0;
     }
     const double kept =
         contact.slips_s < 0.0 ? 1.0 : std::max(0.0, 1.0 - contact.slips_s / kSlip_s);
@@ -129,9 +143,8 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
             const Vec3 slides_m_s = along_surface(
                 point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,
                 contact.normal);
-            const double coefficient =
-                friction_now(contact, other, last != nullptr ? last->slips_s : -1.0, size_m,
-                             all_n / all_n_m, glm::length(slides_m_s), dt_s);
+            const double coefficient = friction_now(contact, other, last, size_m, all_n / all_n_m,
+                                                    glm::length(slides_m_s), dt_s);
             const double most_m = coefficient * all_n / all_n_m;
             contact.held_s = std::min((last != nullptr ? last->held_s : kHolds_s) + dt_s, kHolds_s);
             if (size_m > most_m) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -95,7 +96,7 @@ std::vector<Named> changes() {
 TEST_CASE("touch feel: what a game changes while the hand slides is felt within 0.1 s, without a "
           "jolt") {
     for (const Named &one : changes()) {
-        CAPTURE(one.name);
+        CAPTURE(std::string(one.name));
         Slide slide;
         slide.frames(30);
         const std::size_t changed = slide.forces.size();
