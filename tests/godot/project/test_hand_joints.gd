@@ -28,6 +28,29 @@ func test_a_doors_spring_is_felt_as_torque_against_angle() -> void:
 		await physics_frames(2)
 
 
+func test_a_door_that_is_tied_to_the_world_moves_and_feels_as_one_on_a_post() -> void:
+	for held_is_first: bool in [false, true]:
+		# The engine takes the world for the first body, whichever of the two is empty, and counts turns the other way round.
+		var hinge: Generic6DOFJoint3D = _hinge_with_spring(0.0)
+		hinge.set_flag_y(Generic6DOFJoint3D.FLAG_ENABLE_ANGULAR_LIMIT, true)
+		hinge.set_param_y(Generic6DOFJoint3D.PARAM_ANGULAR_LOWER_LIMIT, -0.7)
+		hinge.set_param_y(Generic6DOFJoint3D.PARAM_ANGULAR_UPPER_LIMIT, 0.2)
+		await _hold(hinge, held_is_first, 0.05, LEVER, true)
+		for angle: float in [0.4, -0.15]:
+			await _swing_to(angle, 60)
+			await physics_frames(60)
+			var felt: float = await _torque_felt(30)
+			check_near(felt, -SPRING * _angle(), 0.05 * SPRING * absf(_angle()), "torque of the spring at %.1f rad" % angle)
+			check_near(_angle(), angle, 0.12, "it follows the hand")
+			_check_on_joint()
+		await _swing_to(-0.5, 60)
+		await physics_frames(60)
+		check_near(_angle(), -0.2, 0.01, "its limit")
+		_check_on_joint()
+		_free_all()
+		await physics_frames(2)
+
+
 func test_a_doors_damping_is_felt_at_speed() -> void:
 	await _hold(_hinge_with_spring(DAMPING))
 	(_joint as Generic6DOFJoint3D).set_param_y(Generic6DOFJoint3D.PARAM_ANGULAR_SPRING_STIFFNESS, 0.0)
@@ -249,7 +272,8 @@ func _hinge_with_spring(damping: float) -> Generic6DOFJoint3D:
 
 
 ## A body with a handle at the origin, tied to a post at LEVER behind it, and held.
-func _hold(joint: Joint3D, held_is_first: bool = false, mass: float = 0.05, lever: float = LEVER) -> void:
+func _hold(joint: Joint3D, held_is_first: bool = false, mass: float = 0.05, lever: float = LEVER,
+		to_the_world: bool = false) -> void:
 	at = Vector3.ZERO
 	angle = 0.0
 	_turn = Basis.IDENTITY
@@ -263,8 +287,10 @@ func _hold(joint: Joint3D, held_is_first: bool = false, mass: float = 0.05, leve
 	_joint = joint
 	joint.position = post.position
 	add(joint)
-	joint.node_a = joint.get_path_to(_body if held_is_first else post)
-	joint.node_b = joint.get_path_to(post if held_is_first else _body)
+	if not to_the_world or held_is_first:
+		joint.node_a = joint.get_path_to(_body if held_is_first else post)
+	if not to_the_world or not held_is_first:
+		joint.node_b = joint.get_path_to(post if held_is_first else _body)
 	await move_to(Vector3.ZERO, SQUEEZE_ANGLE, 40)
 	await physics_frames(40)
 	check_equal(hand.get_held_body(), _body, "the handle is held")

@@ -29,11 +29,11 @@ SceneJoints::Side side_of(const Joint3D &joint, const godot::NodePath &path) {
     return side;
 }
 
-// In the order in which the engine takes them: the only one is the first.
+// In the order in which the engine counts angles and ways: of a body that is tied to the world, the world is the first.
 std::array<SceneJoints::Side, 2> sides_of(const Joint3D &joint) {
     std::array<SceneJoints::Side, 2> sides{side_of(joint, joint.get_node_a()),
                                            side_of(joint, joint.get_node_b())};
-    if (sides[0].body == 0) {
+    if (sides[1].body == 0) {
         std::swap(sides[0], sides[1]);
     }
     return sides;

@@ -26,7 +26,7 @@ public:
         std::uint64_t joint = 0;
         Side held;
         Side other;
-        bool held_is_first = false; // Joint3D.node_a, or the only one
+        bool held_is_first = false; // Joint3D.node_a; false where the other is the world
     };
 
     // All that is there now.
