@@ -47,7 +47,6 @@ struct ExpectedPose {
 
 // Moves `pose` by one Gauss-Newton step computed from `errors` at that pose. The pivots include the
 // expected pose.
-// expected pose.
 GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErrors &errors,
                                   GripPose &pose,
                                   const ExpectedPose &expected = ExpectedPose()) noexcept;
