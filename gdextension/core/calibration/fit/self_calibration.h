@@ -89,8 +89,8 @@ struct SelfCalibrationResult {
     // equations in units of the noise, so that 1 / value = expected error of a combination over its
     // prior.
     std::vector<double> singular;
-    std::vector<WeakCombination>
-        weak; // combinations that the poses leave open by more than a tenth of the prior
+    // Combinations that the poses leave open by more than a tenth of the prior.
+    std::vector<WeakCombination> weak;
     int used = 0;
     int rejected_singular = 0;
     int rejected_outliers = 0;

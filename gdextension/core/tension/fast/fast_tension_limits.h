@@ -43,8 +43,8 @@ inline constexpr double kTableTolerance = 1e-9;
 // which cannot cycle.
 inline constexpr int kBlockPasses = 4;
 inline constexpr int kPasses = 24;
-inline constexpr int kTables =
-    4; // largest number of inversions; a warm start seldom needs a second
+// Largest number of inversions; a warm start seldom needs a second.
+inline constexpr int kTables = 4;
 inline constexpr double kOpen = 1e300;
 inline constexpr double kLargestForce_n = 1e150; // its square is still finite
 
