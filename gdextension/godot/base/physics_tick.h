@@ -1,4 +1,5 @@
-// The project's physics ticks. An engine that is told a rate of none takes its default.
+// Returns the project's physics ticks per second; the engine's default when the engine reports
+// none.
 #pragma once
 
 #include <cstdint>

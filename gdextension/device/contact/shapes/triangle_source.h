@@ -196,8 +196,8 @@ private:
     const double slack = kEdge_m * glm::length(area);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 edge = triangle[(i + 1) % 3] - triangle[i];
-        const double length =
-            std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z); // at least its length
+        // At least the length of the edge.
+        const double length = std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z);
         if (glm::dot(glm::cross(edge, point - triangle[i]), area) < -slack * length) {
             return false;
         }
