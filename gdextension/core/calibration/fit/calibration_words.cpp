@@ -11,7 +11,7 @@ namespace spidar {
 
 namespace {
 
-// Parts named in a description, and the least share worth naming.
+// Largest number of parts in a description, and the smallest share that is named.
 constexpr std::size_t kNamedParts = 4;
 constexpr double kNamedShare = 0.2;
 
