@@ -21,8 +21,8 @@ constexpr int kMaxPolishSteps = 50;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kDampingRise = 8.0;
 constexpr double kDampingFall = 0.1;
-constexpr double kNoDamping =
-    1e-8; // below this, damping is dropped, so that the last steps are undamped
+// Damping below this is dropped, so that the last steps are undamped.
+constexpr double kNoDamping = 1e-8;
 // Share of its diagonal below which a pivot is rounding: the matrix counts as not positive
 // definite.
 constexpr double kSmallestPivot = 1e-15;
