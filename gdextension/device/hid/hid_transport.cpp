@@ -22,14 +22,11 @@ namespace {
 
 constexpr auto kReplugPoll = std::chrono::milliseconds(250);
 constexpr auto kHangingWritePoll = std::chrono::milliseconds(1);
-// Largest number of reports read in a cycle. The system's queue holds 64; twice that many come from
-// a faulty device and are left for the next cycle.
+// Largest number of reports read per cycle: twice the system's queue.
 constexpr int kMostReportsAtOnce = 128;
-// Number of commands with motors off that clear faults which an earlier host left latched (its
-// watchdog).
+// Number of commands with motors off that clear faults which an earlier host left latched.
 constexpr int kClearingCommands = 20;
-// Longest wait for a report, so that a silent device cannot block the loop; the caller's own limits
-// are shorter.
+// Longest wait for a report; the caller's own limits are shorter.
 constexpr std::int64_t kLongestWait_ms = 50;
 constexpr double kMillinewtonsPerNewton = 1000.0;
 constexpr double kHalf = 0.5;
@@ -49,7 +46,7 @@ struct HidTransport::Impl {
     Impl(std::shared_ptr<HidBus> bus_in, const HidTransportSettings &settings_in)
         : bus(std::move(bus_in)), settings(settings_in), intake(statistics) {}
 
-    // Returns a handle of the present session with the session's number; null when there is none.
+    // Returns a handle of the present session with its number; null when there is none.
     struct Borrowed {
         std::shared_ptr<HidHandle> handle;
         std::uint32_t session = 0;
@@ -83,19 +80,16 @@ struct HidTransport::Impl {
 
     HidStatistics statistics;
 
-    // Used by the reader. It borrows only when the link has changed, so that the loop takes no
-    // lock.
+    // Used by the reader. It borrows only when the link has changed: the loop takes no lock.
     ReportIntake intake;
     Borrowed reader;
     std::uint32_t link_read = 0;
     std::uint32_t session_read = 0;
-    std::array<std::uint8_t, 2 * kLargestReport>
-        bytes{};     // large enough to detect a report that is too long
+    std::array<std::uint8_t, 2 * kLargestReport> bytes{}; // room to detect one that is too long
     int waiting = 0; // length of a report in `bytes` that wait_report() left for read()
     void refresh_reader() noexcept;
 
-    // From reader to writer. Upper half: epoch of the intake. Lower half: sequence number of the
-    // newest state. 0: none yet.
+    // Upper half: epoch of the intake. Lower half: number of the newest state. 0: none yet.
     std::atomic<std::uint32_t> answered{0};
     // The command that the device had accepted when that epoch began.
     std::atomic<std::uint16_t> start_after{kNoSequence};

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 constexpr int kTries = 3;
 
-// Whole answers only.
+// Accepts complete answers only.
 std::vector<std::uint8_t> ask_parameter(SerialPort &port, const BoardLayout &board,
                                         BoardParameter parameter) {
     BoardFrame frame;
@@ -57,7 +57,7 @@ void forget_input(SerialPort &port) {
 bool read_parameter(SerialPort &port, const BoardLayout &board, BoardParameter parameter,
                     std::uint32_t &value) {
     for (int i = 0; i < kTries; ++i) {
-        (void)ask_parameter(port, board, parameter); // what was asked for before
+        (void)ask_parameter(port, board, parameter); // discards the previous parameter
         const std::vector<std::uint8_t> heard = ask_parameter(port, board, parameter);
         BoardBytes data;
         if (!decode_parameter(heard, board, parameter, data)) {
