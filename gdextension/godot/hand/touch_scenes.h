@@ -1,4 +1,4 @@
-// What a hand publishes once a tick: its tool, what stands near it, and how that feels.
+// The scene that a hand publishes once per tick: its tool, the shapes near it, and their surfaces.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,12 @@ struct HandFeel {
     double damping_n_s_m = 2.0;
     double friction = 0.4;
     double squeeze_nm_rad = 0.0; // of what is between the pads, or held; 0: automatic
-    // No force reaches the hand, so none centres it on what it closes on: the pads centre themselves.
+    // No force reaches the hand, so that none centers it on what it closes on: the pads center
+    // themselves.
     bool centres_itself = false;
     std::uint64_t pinched = 0; // RID of the body between the pads: it cannot get out of their way
-    // Of what else a push moves: N/m for a kilogram, so that it does not bounce between the push and its answer a frame later.
+    // Stiffness per kilogram of other bodies that a push moves (unit: N/m/kg). It keeps a body from
+    // bouncing between a push and its answer a frame later.
     double pushed_n_m_kg = 0.0;
 };
 
@@ -34,7 +36,8 @@ struct HeldTool {
     bool is_detained = false; // its shapes touch nothing
 };
 
-// held: null while nothing is held. load: what the tool carries, about P0, device frame.
+// Makes the scene. held: null while nothing is held. load: wrench of what the tool carries, about
+// P0, device frame.
 [[nodiscard]] std::shared_ptr<TouchScene>
 make_touch_scene(const Pads &pads, const Jaws &jaws, const std::vector<NearShape> &near,
                  const HeldTool *held, const HandFeel &feel, const ServoSettings &settings,
