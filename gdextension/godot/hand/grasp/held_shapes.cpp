@@ -15,7 +15,7 @@ namespace spidar {
 
 namespace {
 
-// Of what is not convex itself.
+// Cooks the hull of a shape that is not convex.
 CookResult cook_hull(const ShapeNumbers &numbers, const Vec3 &scale) {
     ShapeDescription hull = describe(numbers, scale);
     hull.kind = ShapeKind::hull;

@@ -29,7 +29,7 @@ SceneJoints::Side side_of(const Joint3D &joint, const godot::NodePath &path) {
     return side;
 }
 
-// In the order in which the engine takes them: the only one is the first.
+// In the engine's order: a single body is the first.
 std::array<SceneJoints::Side, 2> sides_of(const Joint3D &joint) {
     std::array<SceneJoints::Side, 2> sides{side_of(joint, joint.get_node_a()),
                                            side_of(joint, joint.get_node_b())};

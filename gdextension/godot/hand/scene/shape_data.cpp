@@ -24,7 +24,8 @@ using godot::Variant;
 
 constexpr std::int64_t kMostPointsAtOnce = 1500; // 500 triangles, half a millisecond
 constexpr std::int64_t kMostHullPointsAtOnce = 300;
-// A hull of more is made of the outermost ones: what cook() takes, and the time of a hull grows with their square.
+// Largest number of hull points; of more the outermost are used. It is what cook() accepts, and the
+// time grows with its square.
 constexpr std::size_t kMostHullPoints = 4096;
 constexpr std::int64_t kMostHeightsAtOnce = 65536;
 
@@ -48,7 +49,7 @@ bool same_elements(const T *a, const T *b, std::int64_t count) {
            (count > 0 && std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0);
 }
 
-// The corners of a height map that lies mirrored: our height maps cannot.
+// Returns the corners of a mirrored height map, which a cooked height map cannot represent.
 ShapeDescription mesh_of_heights(const ShapeNumbers &map, const Vec3 &scale) {
     ShapeDescription mesh;
     mesh.kind = ShapeKind::mesh;
@@ -114,7 +115,7 @@ ShapeDescription describe_points(const ShapeNumbers &shape, const Vec3 &scale) {
     std::transform(shape.points, shape.points + shape.point_count, result.points_m.begin(),
                    [&scale](const godot::Vector3 &point) { return scale * to_core(point); });
     if (mesh) {
-        // Clockwise there, counter-clockwise here; a mirror turns it over once more.
+        // Clockwise in the engine, counter-clockwise here; a mirror reverses the order once more.
         const std::uint32_t second = scale.x < 0.0 ? 1 : 2;
         const auto corners = static_cast<std::uint32_t>(shape.point_count);
         result.indices.reserve(corners);
@@ -142,7 +143,7 @@ bool is_uneven(const ShapeNumbers &shape, const Vec3 &scale) noexcept {
     }
 }
 
-// A round shape that is no longer round.
+// Returns the hull of a round shape with uneven scale.
 ShapeDescription stretched(const ShapeNumbers &shape, const Vec3 &scale) {
     ShapeDescription hull;
     hull.kind = ShapeKind::hull;
