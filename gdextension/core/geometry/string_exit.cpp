@@ -33,7 +33,7 @@ StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
     const double along = glm::dot(line, outwards);
     const Vec3 aside = line - along * outwards;
     const double reach = glm::length(aside);
-    const double across = reach - radius_m; // from the pulley's centre
+    const double across = reach - radius_m; // from the pulley's center
     const double distance = std::hypot(along, across);
     if (!(distance > radius_m) || !(reach > 0.0)) {
         return straight(line);
@@ -42,7 +42,7 @@ StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
     // leaves.
     const double bearing = std::atan2(along, across);
     const double corner = std::acos(radius_m / distance);
-    const double leaves = bearing + corner; // of the tangent point, seen from the centre
+    const double leaves = bearing + corner; // angle of the tangent point, seen from the center
     StringPath path;
     path.length_m =
         radius_m * (kPi - leaves) + std::sqrt((distance - radius_m) * (distance + radius_m));

@@ -1,4 +1,4 @@
-// The warm tick by the general steps: rigid grips, strings that leave over pulleys, other ways of stringing.
+// Warm tick for rigid grips, exit pulleys and unusual stringing: the general Gauss-Newton steps.
 #include <cmath>
 
 #include <glm/geometric.hpp>

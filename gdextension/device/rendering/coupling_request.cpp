@@ -107,7 +107,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         clock_.receive(next.state_time_s, now_s);
     }
     coupling_ = next;
-    live_ = next.dof_mask != 0 || carries_on; // an empty one still fades the last one out
+    live_ = next.dof_mask != 0 || carries_on; // an empty coupling still fades out the last one
     return clamp;
 }
 
@@ -118,7 +118,7 @@ bool CouplingRequest::age(double dt_s) noexcept {
     clock_.advance(dt_s);
     if (coupling_.dof_mask == 0) {
         live_ = clock_.age_s() < kCrossFade_s;
-        return false; // withdrawn, not forgotten
+        return false; // withdrawn by the game, not expired
     }
     live_ = strength_.advance(clock_.age_s(), dt_s);
     return !live_;

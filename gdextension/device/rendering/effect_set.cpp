@@ -100,7 +100,7 @@ GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
             used[j] = true;
             last_[i] = given[j];
             if (before.renewal == track.effect.renewal) {
-                track = old[j]; // not renewed: as it was, or over
+                track = old[j]; // not refreshed: continues, or has ended
             } else {
                 track.from = gain_now(old[j]);
                 track.phase_rad = old[j].phase_rad;

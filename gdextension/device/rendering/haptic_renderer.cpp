@@ -140,7 +140,7 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved,
 void HapticRenderer::given(double scale, double dt_s) noexcept {
     parts_.contacts.integrate(scale, dt_s);
     parts_.touch.integrate(scale, dt_s);
-    parts_.observer.hold(Wrench()); // until it is known what the strings give
+    parts_.observer.hold(Wrench()); // until the wrench of the strings is known
 }
 
 void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {

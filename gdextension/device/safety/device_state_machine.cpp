@@ -177,7 +177,7 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
         arm_pending_s_ = kArmPatience_s;
     }
     outcome.too_warm = inputs.too_warm && may_wait && (inputs.arm || inputs.zero);
-    // What stands now; disarm() wins over an arm() of the same cycle.
+    // Requests of this cycle. disarm() overrides an arm() of the same cycle.
     if (inputs.disarm) {
         stop(StopReason::disarm_asked);
     }

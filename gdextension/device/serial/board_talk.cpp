@@ -32,7 +32,7 @@ std::string name_of(const BoardLayout &board) {
     return std::string(name_of_model(board.info.model)) + " with id " + std::to_string(board.id);
 }
 
-// Everything that comes within the time, or until there are `enough` bytes.
+// Returns all bytes that arrive within time_ms; returns earlier after `enough` bytes.
 std::vector<std::uint8_t> listen(SerialPort &port, std::size_t enough, int time_ms) {
     std::vector<std::uint8_t> heard;
     const std::int64_t end_ns = monotonic_ns() + time_ms * kNanosecondsPerMillisecond;

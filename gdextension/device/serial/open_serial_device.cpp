@@ -53,7 +53,7 @@ SerialSearch::SerialSearch(const SerialTransportSettings &settings, std::string 
     : settings_(settings), owner_(std::move(owner)) {
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error &) { // no thread left: what is plugged in later is not found
+    } catch (const std::system_error &) { // no thread: devices plugged in later are not found
         stop_.store(true);
     }
 }
@@ -96,7 +96,7 @@ void SerialSearch::run() {
         bool found = false;
         try {
             found = look();
-        } catch (const std::exception &) { // no memory: the next look may have some
+        } catch (const std::exception &) { // no memory: tried again at the next search
             found = false;
         }
         if (found) {

@@ -123,7 +123,7 @@ void SerialTransport::Impl::watch() {
             } else if (guard.is_wanted()) {
                 start_guard();
             }
-        } catch (const std::exception &) { // no memory: the next look may have some
+        } catch (const std::exception &) { // no memory: tried again at the next search
             why.clear();
         }
         lock.lock();

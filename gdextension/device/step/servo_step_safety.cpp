@@ -1,4 +1,4 @@
-// The part of a servo step that watches and decides: states, zero, faults and their events.
+// Safety part of a servo step: device states, zero, faults and their events.
 #include "device/step/servo_step.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The device of a calibration: opened, watched, its tasks.
+// SpidarGCalibrator: opens and watches the device and runs the calibration's tasks.
 #include "godot/calibration/spidar_g_calibrator.h"
 
 #include <godot_cpp/variant/utility_functions.hpp>

@@ -30,7 +30,7 @@ using godot::Color;
 constexpr double kNormal_m = 0.004;
 constexpr double kNormalRing_m = 0.002;
 constexpr double kForce_m_n = 0.015;
-constexpr double kLeastForce_n = 1e-3; // an arrow of less has no direction to show
+constexpr double kLeastForce_n = 1e-3; // smallest force that gets an arrow
 constexpr double kArrowHead = 0.25;    // of the arrow's length
 constexpr double kLongestHead_m = 0.004;
 constexpr double kBeyond_m = 0.03; // faces of meshes are drawn within this distance of the tool

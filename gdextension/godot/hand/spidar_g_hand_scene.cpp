@@ -160,8 +160,7 @@ spidar::HeldLoad::Pull SpidarGHand::load_of_held() const {
     const auto others = spidar::other_holds(hold_.body_id(), get_instance_id()).size();
     terms.gain = weight_scale_ / (1.0 + static_cast<double>(others));
     terms.max_force_n = spidar_->get_effective_config()->get_max_force();
-    terms.with_weight =
-        render_weight_ && !hold_.is_detained(); // what has snapped in is carried by its socket
+    terms.with_weight = render_weight_ && !hold_.is_detained(); // a socket carries what snapped in
     terms.with_inertia = render_inertia_ && !hold_.is_detained();
     return load_.pull(held_, terms);
 }

@@ -20,7 +20,7 @@ using spidar::Vec3;
 
 namespace {
 
-// Closing to within this of a body's width counts as touching it.
+// A grip that has closed to within this angle of a body's width counts as touching.
 constexpr double kTouchTolerance_rad = 0.01;
 // Opening beyond the held body's width that releases it: 3 degrees. A smaller angle would drop it
 // when a hand trembles.
@@ -236,7 +236,7 @@ void SpidarGHand::carry(double delta_s) {
     load_.clear();
     emit_signal("carrying", delta_s);
     if (!hold_.holds()) {
-        return; // a listener let go
+        return; // a listener released the body
     }
     const spidar::ToolPose pose = proxy_pose();
     const Transform3D proxy = now_.pose_to_world(pose.position_m, pose.rotation);

@@ -31,7 +31,7 @@ struct HandFeel {
 struct HeldTool {
     const std::vector<HeldShapes::Part> &parts;
     Placement grip;    // the proxy's
-    Placement in_grip; // of the body, device metres
+    Placement in_grip; // pose of the body in the grip, device meters
     double stop_rad = 0.0;
     bool is_detained = false; // its shapes touch nothing
 };

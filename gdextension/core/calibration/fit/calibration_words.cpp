@@ -1,4 +1,4 @@
-// The sentences of self-calibration.
+// Sentences that self-calibration shows to the user.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

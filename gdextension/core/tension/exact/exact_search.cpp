@@ -325,7 +325,7 @@ TensionSolution solve_exactly(const TensionProblem &problem, const ActiveSet *wa
     solution.largest_error_n = system.gradient(solution.tensions_n, false).largest_force_n;
     solution.status = solved ? Status::ok : Status::not_converged;
     if (!std::isfinite(system.objective(solution.tensions_n))) {
-        return refused(problem, Status::not_converged); // finite input that overflows on the way
+        return refused(problem, Status::not_converged); // overflow in the computation
     }
     return solution;
 }

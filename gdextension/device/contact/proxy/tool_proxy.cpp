@@ -312,7 +312,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     before_count_ = count_;
     count_ = 0;
     if (!known) {
-        return; // nothing pushes, and the proxy waits
+        return; // nothing pushes: the proxy stays
     }
     has_traits_ = std::any_of(scene.parts.begin(), scene.parts.begin() + scene.count,
                               [](const ScenePart &part) { return acts(part.traits); });
@@ -321,7 +321,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     if (tie_.is_tied()) {
         tie_.advance(dt_s);
     }
-    double left_s = dt_s; // of the scene's motion
+    double left_s = dt_s; // remaining time of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
         find_contacts(tool, scene, margin_m, memory);

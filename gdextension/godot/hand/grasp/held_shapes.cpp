@@ -64,7 +64,7 @@ bool HeldShapes::ready(const Waiting &one) {
         return false;
     }
     if (piece.shape == nullptr) {
-        return true; // never felt: the gatherer has told why when it stood near
+        return true; // not rendered; the gatherer reported why
     }
     if (piece.shape->convex()) {
         add(*piece.shape, one.in_body);

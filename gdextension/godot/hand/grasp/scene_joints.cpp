@@ -93,7 +93,7 @@ std::vector<SceneJoints::Found> SceneJoints::of(std::uint64_t body) {
         const std::array<Side, 2> now = sides_of(*node);
         std::array<Side, 2> &then = one->second.sides;
         if (now[0].body != then[0].body || now[1].body != then[1].body) {
-            then = now; // it was given other bodies since
+            then = now; // the joint was moved to other bodies
         }
         for (const int side : {0, 1}) {
             const auto k = static_cast<std::size_t>(side);

@@ -96,7 +96,7 @@ ShapeDescription describe_heights(const ShapeNumbers &map, const Vec3 &scale) {
     result.spacing_x_m = scale.x;
     result.spacing_z_m = scale.z;
     result.heights_m.resize(static_cast<std::size_t>(map.height_count));
-    constexpr float kHole = std::numeric_limits<float>::max(); // another way to tell one
+    constexpr float kHole = std::numeric_limits<float>::max(); // a second mark of a hole
     std::transform(map.heights, map.heights + map.height_count, result.heights_m.begin(),
                    [&scale](float height) {
                        return height == kHole
@@ -285,7 +285,7 @@ ShapeBounds bounds_of(const ShapeNumbers &shape) {
         double highest = -kInfinite;
         for (std::int64_t i = 0; i < shape.height_count; ++i) {
             const auto height = static_cast<double>(shape.heights[i]);
-            lowest = height < lowest ? height : lowest; // not where it is no number
+            lowest = height < lowest ? height : lowest; // false for NaN
             highest = height > highest ? height : highest;
         }
         box.upper = {0.5 * (shape.width - 1), highest, 0.5 * (shape.depth - 1)};

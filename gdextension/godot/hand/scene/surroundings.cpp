@@ -188,7 +188,7 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
         }
         const double bound_m =
             least_clearance(origin_m + axes * shape.middle, stretch * shape.radius, seen);
-        if (!(bound_m <= 0.0)) { // also where it is no number
+        if (!(bound_m <= 0.0)) { // true for NaN
             ++counts_.far;
         } else {
             possible_.push_back({&body, i, bound_m, seen});
