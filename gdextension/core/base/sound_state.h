@@ -21,8 +21,7 @@ template <typename... Flags>
     return (is_flag(flags) && ...);
 }
 
-// Requires an enumeration with an unsigned underlying type and values from 0 to `last` without
-// gaps.
+// Requires an enumeration of unsigned type with values from 0 to `last` without gaps.
 template <typename Enum>
 [[nodiscard]] constexpr bool is_one_of(Enum value, Enum last) noexcept {
     return value <= last;

@@ -22,8 +22,7 @@ struct LengthCorrections {
     double pulley_radius_m = 0.0;
     // Unit vector along which the strings arrive from outside and about which the pulleys swivel.
     Vec3 swivel_axis{0.0, 1.0, 0.0};
-    // Tension at which the lengths were calibrated (unit: N). Its stretch is part of the
-    // calibration.
+    // Tension during calibration (unit: N). Its stretch is part of the calibrated lengths.
     StringArray calibration_tension_n{};
 };
 
@@ -43,8 +42,7 @@ inline constexpr double kMaxStrain = 0.05;
                                              const StringArray &lengths_m,
                                              const StringArray &tensions_n) noexcept;
 
-// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
-// Allocates.
+// Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const LengthCorrections &corrections);
 
 } // namespace spidar

@@ -1,5 +1,4 @@
-// Conversion of encoder counts to string lengths: length = offset + scale * (count - zero_count),
-// per string.
+// Converts encoder counts to lengths: length = offset + scale * (count - zero_count), per string.
 #pragma once
 
 #include <string>

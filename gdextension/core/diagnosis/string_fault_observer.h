@@ -47,8 +47,7 @@ struct FaultEvidence {
     // Score of this explanation, mean over window_s: -2 log likelihood in units of parity_noise_m,
     // 0 for a perfect fit.
     double misfit = 0.0;
-    // Score of the best explanation with another string. The further above `misfit`, the surer the
-    // result.
+    // Score of the best explanation with another string. The further above `misfit`, the surer.
     double next_misfit = 0.0;
     double parity_rms_m = 0.0; // of the lengths without any correction
 };

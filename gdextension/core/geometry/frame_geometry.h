@@ -14,8 +14,7 @@ inline constexpr double kPaperHalfExtent_m = 0.24;
 inline constexpr double kMaxFrameExtent_m = 10.0;
 
 struct FrameGeometry {
-    // String exit points Q1..Q8, device frame (unit: m). For eyelets the string leaves from the
-    // point itself.
+    // String exit points Q1..Q8, device frame (unit: m). Eyelets stand at these points.
     StringVectors motors_m{};
     // Radius of swiveling exit pulleys (unit: m). 0: eyelets. See string_exit.h.
     double pulley_radius_m = 0.0;

@@ -37,8 +37,7 @@ struct GripGeometry {
     std::array<Attachment, kStringCount> attachments{
         {{0, 1.0}, {0, 1.0}, {0, -1.0}, {0, -1.0}, {1, 1.0}, {1, -1.0}, {1, 1.0}, {1, -1.0}}};
     GripKind kind = GripKind::crossed;
-    // rigid: tie point of string i relative to P0, in the grip's frame (x along r2, y along r1;
-    // unit: m).
+    // rigid: tie point of string i from P0, in the grip's frame (x along r2, y along r1; m).
     StringVectors joints_m{};
 };
 
@@ -54,8 +53,7 @@ struct GripGeometry {
 // Returns a rigid grip with its strings tied at joints_m (grip's frame, unit: m).
 [[nodiscard]] GripGeometry make_rigid_grip(const StringVectors &joints_m) noexcept;
 
-// Pose of the grip as a point of R3 x S2 x S2, device frame. Orientation and angles are derived
-// from it.
+// Pose of the grip in R3 x S2 x S2, device frame. Orientation and angles derive from it.
 struct GripPose {
     Vec3 position_m{0.0};                        // P0
     Vec3 r1_m{0.0, kPaperPoleHalfLength_m, 0.0}; // half pole 1, |r1| = d
@@ -75,8 +73,7 @@ struct GripFrame {
 // The grip at the frame's center, upright and open.
 [[nodiscard]] GripPose rest_pose(const GripGeometry &grip) noexcept;
 
-// Returns the pose with this position, rotation (orthonormal) and grasp angle. Inverse of
-// frame_of().
+// Inverse of frame_of(): the pose with this position, orthonormal rotation and grasp angle.
 [[nodiscard]] GripPose make_pose(const GripGeometry &grip, const Vec3 &position_m,
                                  const Mat3 &rotation, double grasp_angle_rad) noexcept;
 

@@ -15,8 +15,7 @@ namespace spidar {
 struct WrenchMatrix {
     // columns[i][k]: DOF k of string i.
     std::array<PaperWrench, kStringCount> columns{};
-    // True when the seventh row is zero: the poles are parallel and n is undefined, or the grip is
-    // rigid.
+    // True when row seven is zero: n is undefined at parallel poles, or the grip is rigid.
     bool grasp_row_vanishes = false;
 };
 

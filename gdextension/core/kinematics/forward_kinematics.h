@@ -27,19 +27,16 @@ inline constexpr double kImpossibleResidual_m = 0.020;
 // Smallest scaled pivot of the normal equations (about sigma7 squared) that is not flagged
 // near_singular. Below it the lengths leave a direction open to 1 %.
 inline constexpr double kNearSingularPivot = 1e-4;
-// Warm ticks between two searches for a rival pose: 8 ms at 1 kHz, in which a hand moves a few
-// millimeters.
+// Warm ticks between two searches for a rival pose: 8 ms at 1 kHz, a few mm of hand motion.
 inline constexpr int kRivalPeriod = 8;
 // Same period without a closed form, where a search costs more. Searches then run only while the
 // residual exceeds kWarmResidualGate_m.
 inline constexpr int kSlowRivalPeriod = 14;
 // Searches in a row, without a closed form, that must prefer a rival before the pose changes to it.
 inline constexpr int kSlowRivalLooks = 5;
-// Searches in a row, with a closed form, that must prefer a rival before the pose changes to it: 56
-// ms at 1 kHz.
+// Closed-form searches in a row that must prefer a rival before it is taken: 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
-// Largest change of pose in a tick that counts as standing still: a hundredth of an encoder count
-// per second.
+// Largest change of pose per tick that counts as standing still: 0.01 encoder counts per second.
 inline constexpr double kStill_m = 2.5e-10;
 // A warm tick ends when the error it leaves is below this share of the residual. Errors add by
 // squares: the pose is then worse by 0.2 %.
@@ -59,8 +56,7 @@ struct KinematicsResult {
 
 class ForwardKinematics {
 public:
-    // Keeps copies and starts cold at the rest pose. On invalid_geometry the old configuration
-    // stays.
+    // Keeps copies; starts cold at the rest pose. invalid_geometry keeps the old configuration.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
     // Takes one servo tick of measured lengths (unit: m). A warm tick takes one to three steps.
@@ -72,8 +68,7 @@ public:
     // allocation.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
-    // Like update() without memory: closed form, upright root pair first, then steps to
-    // convergence.
+    // update() without memory: closed form, upright root pair first, then steps to convergence.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
     // Sets the pose from which the next update() starts warm.

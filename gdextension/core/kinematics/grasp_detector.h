@@ -26,8 +26,7 @@ struct GraspSettings {
 class GraspDetector {
 public:
     void configure(const GraspSettings &settings) noexcept { settings_ = settings; }
-    // Returns the phase. dt_s: time since the last call. A grasp angle that is not finite changes
-    // nothing.
+    // Returns the phase. dt_s: time since the last call. A non-finite grasp angle changes nothing.
     GraspPhase update(double grasp_angle_rad, double dt_s) noexcept;
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
     // True when no change of phase waits for its dwell.

@@ -22,16 +22,14 @@ struct TensionReport {
     std::uint8_t at_min_mask = 0;
     // Strings at their upper bound in the steady solution.
     std::uint8_t at_max_mask = 0;
-    // wrench_limited when `limits`, weighted, exceeds kNoticeableLimit_n; negative: no other value
-    // is valid.
+    // wrench_limited when weighted `limits` exceeds kNoticeableLimit_n. Negative: nothing is valid.
     Status status = Status::ok;
 
     // Returns ridge + reference: the steady error of the regularizing terms.
     [[nodiscard]] PaperWrench bias() const noexcept;
 };
 
-// Smallest weighted error that counts (unit: N at the pole ends): a tenth of what a fingertip can
-// feel.
+// Smallest weighted error that counts (N at the pole ends): a tenth of what a fingertip feels.
 inline constexpr double kNoticeableLimit_n = 1e-3;
 
 // tensions_n: the tensions that were sent for `wrench` at the pose of `matrix`. DOF outside the

@@ -52,17 +52,14 @@ struct TensionResult {
     std::uint8_t at_min_mask = 0;
     // Strings at their upper bound.
     std::uint8_t at_max_mask = 0;
-    // True when nothing had changed and everything had settled: the last answer is returned, bit
-    // for bit.
+    // True when nothing had changed and all had settled: the last answer returns, bit for bit.
     bool skipped = false;
     int iterations = 0;
-    // wrench_limited: the error exceeds what the regularizing terms explain. tension_report()
-    // splits it.
+    // wrench_limited: the error exceeds what the regularizing terms explain (tension_report()).
     Status status = Status::ok;
 };
 
-// The solver of the servo loop with its settings and the memory of the last tick. It solves once
-// per tick.
+// Solver of the servo loop with its settings and the memory of the last tick; one solve per tick.
 class TensionSolver {
 public:
     TensionSolver() noexcept { prepare(); }

@@ -36,8 +36,7 @@ struct RigSettings {
     double simulated_unwatched_s = kUnwatched_s;
 };
 
-// Time between kept readings while collecting (unit: s), so that poses differ by more than a hand's
-// tremor.
+// Time between kept readings (unit: s): poses must differ by more than a hand's tremor.
 inline constexpr double kSampleInterval_s = 0.02;
 // Readings that the queue holds; more are dropped until they are fetched.
 inline constexpr std::size_t kWaitingSamples = 1024;
@@ -89,8 +88,7 @@ public:
     void start_stepped();
     // Stepped only: runs the cycles of this much simulated time, at most a minute per call.
     void advance(double seconds) noexcept;
-    // Asks the thread to switch the motors off, close the device and end; state() tells when it
-    // has.
+    // Asks the thread to switch the motors off, close the device and end. state() reports the end.
     void ask_close() noexcept;
 
     [[nodiscard]] RigState state() const noexcept;

@@ -18,8 +18,7 @@ struct ContactSurface {
     double friction = 0.0;
 };
 
-// One plane from update to update. Stops (grasp_stop, turn_stop) are extrapolated by their velocity
-// only.
+// One plane from update to update. Stops (grasp, turn) are extrapolated by velocity only.
 class SurfaceTrack {
 public:
     // Starts with the first update, or with another surface of the same id.

@@ -17,8 +17,7 @@ enum class DeviceState : std::uint8_t {
     // Forces fall, then the device is connected with its motors off.
     fading = 4,
     fault = 5, // motors off until clear_fault() and arm()
-    // zero_at_home() runs: strings are drawn taut, the zero is taken, then checked by moving the
-    // grip.
+    // zero_at_home() runs: strings are drawn taut, zeroed, then checked by moving the grip.
     taut = 6,
     // The zero is confirmed; pretension keeps the strings taut until arm().
     calibrated = 7,

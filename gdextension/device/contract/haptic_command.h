@@ -77,8 +77,7 @@ struct Coupling {
     double max_force_n = 5.0;
     double max_moment_nm = 0.2;
     double max_grasp_torque_nm = 0.2;
-    // ServoSnapshot::time_s of the pose from which the game computed the coupling. Negative: time
-    // of arrival.
+    // ServoSnapshot::time_s of the pose used to compute the coupling. Negative: time of arrival.
     double state_time_s = -1.0;
     std::uint8_t dof_mask = 0; // 0: no coupling
 };

@@ -71,8 +71,7 @@ public:
     virtual Status read(DeviceReading &reading) noexcept = 0;
     virtual Status write(const DriveCommand &command) noexcept = 0;
 
-    // True: write() waits for the device, possibly for seconds, and must not run in the loop's
-    // thread.
+    // True: write() may wait for the device for seconds and must not run in the loop's thread.
     [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
 
     // Waits for the next report and leaves it to read(). Returns true when a report waits or
@@ -89,8 +88,7 @@ public:
 
     // Advances a simulated device by this time, once per servo cycle. Real devices ignore it.
     virtual void advance(double dt_s) noexcept { (void)dt_s; }
-    // True for a simulated device, which may arm itself when forces are enabled. A real device arms
-    // only on arm().
+    // True for a simulated device, which may arm itself when forces are on. Real ones need arm().
     [[nodiscard]] virtual bool simulated() const noexcept { return false; }
 };
 

@@ -32,8 +32,7 @@ public:
     // Reads the next input report with its id. Returns its length, 0 when none arrives within
     // timeout_ms (0: no waiting), or -1 when the device is gone.
     virtual int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept = 0;
-    // Writes an output report that begins with its id. Returns its length or -1. May block for
-    // seconds.
+    // Writes an output report, id first. Returns its length or -1. May block for seconds.
     virtual int write(std::span<const std::uint8_t> bytes) noexcept = 0;
     // Reads the feature report whose id is bytes[0]. Returns its length or -1. May block.
     virtual int get_feature(std::span<std::uint8_t> bytes) noexcept = 0;

@@ -26,8 +26,7 @@ struct HidDeviceFilter {
 // Returns the serial number, or the path when there is none.
 [[nodiscard]] const std::string &name_of(const HidDeviceInfo &device) noexcept;
 
-// Returns the name under which a device is claimed and its motors' heat is stored. Empty when there
-// is no device.
+// Returns the name for the device's claim and stored motor heat. Empty without a device.
 [[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
 
 // Finds the matching devices, ordered by serial number, each path once. Returns no_device when

@@ -19,8 +19,7 @@ public:
     bool take(ReportBytes bytes, std::uint64_t now_us) noexcept;
 
     [[nodiscard]] const StateReport &newest() const noexcept { return newest_; }
-    // Counts begin() calls and restarts of the device. When it changes, zero and command numbering
-    // are void.
+    // Number of begin() calls and device restarts. A change voids zero and command numbering.
     [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
     // True when the current epoch began with a restart of the device.
     [[nodiscard]] bool restarted() const noexcept { return restarted_; }

@@ -29,16 +29,14 @@ public:
     // Longest plausible gap between two reports (unit: us).
     static constexpr std::uint32_t kLongestSilence_us = 2'000'000;
     static constexpr int kResyncReports = 20;
-    // Stale reports in a row, more than any queue holds, after which the clocks are taken to have
-    // drifted apart.
+    // Stale reports in a row (more than any queue holds) that mean the clocks have drifted apart.
     static constexpr int kStaleReports = 256;
 
     void reset() noexcept { *this = ReportMonitor(); }
     // host_us: the host's monotonic clock on arrival.
     Verdict check(const StateReport &report, std::uint64_t host_us) noexcept;
 
-    // Returns how many reports are missing before the last one when that was fresh or stale, else
-    // 0.
+    // Number of reports missing before the last one when that was fresh or stale, else 0.
     [[nodiscard]] std::uint32_t lost() const noexcept { return lost_; }
     // Device time of the last good report, unwrapped (unit: us).
     [[nodiscard]] std::uint64_t device_time_us() const noexcept { return device_us_; }

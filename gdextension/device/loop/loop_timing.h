@@ -35,8 +35,7 @@ public:
         late_of_hundred_ = 0;
     }
 
-    // Starts the measurement of a second. Called from the loop's thread, like all functions up to
-    // missed().
+    // Starts the measurement of a second. Loop's thread only, like all functions up to missed().
     void begin(std::int64_t now_ns) noexcept {
         second_began_ns_ = now_ns;
         cycles_of_second_ = 0;

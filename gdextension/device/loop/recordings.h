@@ -42,8 +42,7 @@ public:
         if (recorder == nullptr) {
             return;
         }
-        // The current cycle may use the recorder, and the next one may not have seen the change
-        // yet.
+        // The current cycle may use the recorder; the next one may not have seen the change yet.
         constexpr std::uint64_t kCyclesToLetGo = 2;
         owned_.back().free_at_cycle = cycles_.load(std::memory_order_acquire) + kCyclesToLetGo;
         recorder->close();

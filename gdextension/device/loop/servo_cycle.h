@@ -30,8 +30,7 @@ public:
     // Publishes the state before the first cycle of a source that begins in the middle of a
     // recording. Called while no cycle runs and the source is open.
     void recall() noexcept;
-    // Runs one cycle of dt_s; called from the loop's thread. Returns false when the source has no
-    // cycle left.
+    // Runs one cycle of dt_s in the loop's thread. Returns false when the source is exhausted.
     bool run(double dt_s) noexcept SPIDAR_NONBLOCKING;
     // Publishes the snapshot of a device that did not open, and an event. Called while no cycle
     // runs.
@@ -46,8 +45,7 @@ public:
     [[nodiscard]] std::uint64_t tick() const noexcept { return tick_; }
     // Events of the host, besides those of the step. Called from the loop's thread.
     [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
-    // Reads the newest snapshot; called from the controlling thread. Returns false when there is no
-    // new one.
+    // Controlling thread: reads the newest snapshot. Returns false when there is no new one.
     bool latest(ServoSnapshot &snapshot) noexcept { return snapshots_.read(snapshot); }
     // Takes the oldest event. Returns false when there is none up to until_s (snapshot time).
     bool next_event(DeviceEvent &event, double until_s) noexcept {

@@ -71,8 +71,7 @@ public:
     // Reads the newest snapshot. Returns true when it is newer than at the last call. Wait-free.
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept { return timing_.statistics(); }
-    // Lateness of the thread's wake-ups since the start: number of cycles in each bucket of
-    // LoopHistogram.
+    // Lateness of the thread's wake-ups since the start: cycles per bucket of LoopHistogram.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
     lateness_counts() const noexcept {
         return timing_.lateness().counts();

@@ -1,5 +1,4 @@
-// Converts game ticks to whole servo cycles of simulated time, exactly: no drift for ticks of 1/60
-// s.
+// Converts game ticks to whole servo cycles of simulated time, exactly: 1/60 s does not drift.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +9,7 @@ namespace spidar {
 
 class TickAccumulator {
 public:
-    // Largest result of cycles(), 17 minutes at 1 kHz. A larger number is a mistake: the rest is
-    // dropped.
+    // Largest result of cycles(), 17 minutes at 1 kHz. More is a mistake: the rest is dropped.
     static constexpr std::uint64_t kMostCyclesAtOnce = 1'000'000;
 
     void restart(double rate_hz) noexcept {

@@ -52,8 +52,7 @@ public:
     void cycle(const CycleRecord &record, const HapticCommand &command);
     void read(const GameRead &read);
     void gap(std::uint64_t cycles_lost);
-    // Passes all pending bytes to the operating system, so that they survive the end of the
-    // process.
+    // Passes all pending bytes to the operating system: they survive the end of the process.
     void flush();
     // Flushes, writes the end chunk and closes the file.
     void close();

@@ -34,8 +34,7 @@ public:
     [[nodiscard]] std::string load(const std::string &path);
     // Loads the bytes of a file; `name` appears in messages.
     [[nodiscard]] std::string load(const std::string &bytes, const std::string &name);
-    // After load(): empty when the recording plays bit for bit, else the reason why it plays as
-    // poses.
+    // After load(): empty when the recording plays bit for bit, else why it plays as poses.
     [[nodiscard]] const std::string &why_poses_only() const noexcept { return why_poses_only_; }
 
     // Settings of the recorded device, with which the loop must be started.
@@ -57,16 +56,13 @@ public:
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;
 
-    // Returns the recorded game's next read; false when there is none. Called from the controlling
-    // thread.
+    // Controlling thread: returns the recorded game's next read; false when there is none.
     [[nodiscard]] bool next_read(GameRead &read) noexcept;
 
-    // The scene of the newest command of the last cycle. Called from the loop's thread, or while no
-    // cycle runs.
+    // Scene of the last cycle's newest command. Loop's thread, or while no cycle runs.
     [[nodiscard]] const TouchScene &touch() const noexcept { return touch_; }
 
-    // The contacts that the last cycle rendered. Called from the loop's thread, or while no cycle
-    // runs.
+    // Contacts that the last cycle rendered. Loop's thread, or while no cycle runs.
     [[nodiscard]] std::uint64_t contacts_sequence() const noexcept { return contacts_sequence_; }
 
     // The last replayed cycle, as recorded. Called from the loop's thread, or while no cycle runs.
@@ -82,8 +78,7 @@ private:
     [[nodiscard]] std::string prepare();
     // Reads the next cycle. Returns false when there is none.
     bool fetch() noexcept;
-    // Restores the memory of the segment that cycle_ starts. Returns false when no usable memory
-    // exists.
+    // Restores the memory of the segment at cycle_. Returns false without usable memory.
     bool restore(ServoStep &step) noexcept;
 
     RecordedShapes shapes_; // the step may point to these

@@ -1,5 +1,4 @@
-// Effects at servo rate, on any DOF: viscous field, constant force, spring to a point, vibration,
-// detents.
+// Effects at servo rate on any DOF: viscous field, force, spring to a point, vibration, detents.
 #pragma once
 
 #include <algorithm>

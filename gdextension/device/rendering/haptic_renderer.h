@@ -36,11 +36,9 @@ public:
     // otherwise nothing that depends on speed acts.
     Wrench render(const GripState &grip, const Displacement &moved, const FingerMotion &fingers,
                   bool trusted, double dt_s) noexcept;
-    // Called after render(). scale: share of the returned wrench that the strings are requested to
-    // give.
+    // Called after render(). scale: share of the returned wrench requested from the strings.
     void given(double scale, double dt_s) noexcept;
-    // Called when the wrench of the commanded tensions is known. With the measured motion it gives
-    // the energy.
+    // Called when the wrench of the commanded tensions is known; with motion it gives energy.
     void achieved(const Wrench &wrench) noexcept { parts_.observer.hold(wrench); }
 
     // The contacts' part of the last render().

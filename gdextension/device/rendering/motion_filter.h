@@ -24,8 +24,7 @@ public:
     [[nodiscard]] Twist velocity() const noexcept;
     // Returns the prediction time less the delay of the notch filter (unit: s).
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
-    // True when the grip stood still for so long that further updates without motion change
-    // nothing.
+    // True when the grip stood still so long that updates without motion change nothing.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
@@ -38,8 +37,7 @@ private:
     OnePole velocity_filter_;
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
-    // offset = filtered - measured position: offset'' + 2 width w offset' + w^2 offset = -depth
-    // speed.
+    // offset = filtered - measured: offset'' + 2 width w offset' + w^2 offset = -depth speed.
     double w_ = 0.0; // 0: no notch
     double depth_ = 0.0;
     // Warps time so that the trapezoidal rule is exact at w.

@@ -19,8 +19,7 @@ public:
     void hold(const Wrench &wrench) noexcept;
     // True without motion, since no work is done.
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
-    // Net work on the hand in each DOF since the start (unit: J); positive: energy given to the
-    // hand.
+    // Net work on the hand per DOF since the start (unit: J); positive: given to the hand.
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
     // core/base/sound_state.h
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
@@ -38,8 +37,7 @@ class PassivityController {
 public:
     // Time constant that separates slow forces from changing ones.
     static constexpr double kSlow_s = 0.2;
-    // Largest stored energy that was taken from the hand, so that a long hold does not pay for a
-    // later jolt.
+    // Largest energy kept from the hand: a long hold must not pay for a later jolt.
     static constexpr double kStore_j = 0.005;
     // Time over which energies are forgotten, so that each tap is judged by itself.
     static constexpr double kMemory_s = 0.2;

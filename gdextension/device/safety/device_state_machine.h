@@ -75,8 +75,7 @@ public:
     [[nodiscard]] double scale() const noexcept { return tension_scale_ * wrench_scale_; }
     [[nodiscard]] bool motors_on() const noexcept;
     [[nodiscard]] bool zero_known() const noexcept { return zero_known_; }
-    // True when the next advance() without an edge, and with forces_enabled as now, changes
-    // nothing.
+    // True when the next advance() without an edge and with equal forces_enabled changes nothing.
     [[nodiscard]] bool at_rest() const noexcept;
     // True in TAUT once the zero was taken: the grip's motion is being checked.
     [[nodiscard]] bool checking_zero() const noexcept {

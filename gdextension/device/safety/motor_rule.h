@@ -37,8 +37,7 @@ enum class StopAction : std::uint8_t {
     latch = 7,  // stays CLOSED; the device opens in FAULT
 };
 
-// What lets a device that arms itself (a simulated one) arm again. A real device always waits for
-// arm().
+// What lets a self-arming (simulated) device arm again. A real device always waits for arm().
 enum class Rearm : std::uint8_t {
     by_itself = 0, // the end of the reason
     by_toggle = 1, // arm(), or forces_enabled switched off and on

@@ -32,8 +32,7 @@ struct FlashChange {
 [[nodiscard]] std::string exact_name(const FlashChange &change);
 // Returns the number that the change is about, as it was read.
 [[nodiscard]] std::uint32_t value_before(const FlashChange &change) noexcept;
-// Returns an empty string when the change may be written, else one sentence. all: the boards of the
-// bus, as read.
+// Empty when the change may be written, else one sentence. all: boards of the bus, as read.
 [[nodiscard]] std::string validate(const FlashChange &change, const std::vector<BoardFlash> &all);
 // Returns "quadrature mask 0x00 becomes 0xff".
 [[nodiscard]] std::string describe(const FlashChange &change);

@@ -10,8 +10,7 @@
 
 namespace spidar {
 
-// Time to wait for an answer (unit: ms). A board answers within 1 ms; a busy computer delivers it
-// later.
+// Timeout of an answer (unit: ms). A board answers within 1 ms; a busy computer adds more.
 inline constexpr int kAnswer_ms = 10;
 // Time limit of a write (unit: ms).
 inline constexpr int kWrite_ms = 50;

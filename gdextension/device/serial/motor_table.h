@@ -19,8 +19,7 @@ struct SerialMotor {
 };
 using SerialMotorTable = std::array<SerialMotor, kStringCount>;
 
-// Returns a table with boards in the order of their ids and motors in theirs. The signs come from
-// `signs`.
+// Returns a table with boards by id and motors in their order; `signs` gives the signs.
 [[nodiscard]] SerialMotorTable motors_in_order(std::span<const BoardLayout> boards,
                                                const SerialMotorTable &signs) noexcept;
 // Returns an empty string when every string has its own motor on these boards, else one sentence.

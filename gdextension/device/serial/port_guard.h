@@ -27,8 +27,7 @@ public:
     // The guard sets the currents to zero once more and ends.
     void end() noexcept;
 
-    // Tells the guard that this process is alive. Called once per write from the writer thread;
-    // never waits.
+    // Signals that this process is alive. Writer thread, once per write; never waits.
     void beat(std::int64_t now_ns) noexcept;
     // Called from any thread.
     [[nodiscard]] bool alive() const noexcept { return alive_.load(std::memory_order_acquire); }

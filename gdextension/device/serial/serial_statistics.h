@@ -8,8 +8,7 @@
 
 namespace spidar {
 
-// Counters over all plug-ins. Each only grows, except `lost`, which falls when a late answer
-// arrives.
+// Counters over all plug-ins. They only grow, except `lost`, which a late answer lowers.
 template <typename Count>
 struct SerialCountersOf {
     Count asked{0};         // rounds of CURRENT commands sent to all boards

@@ -22,8 +22,7 @@ namespace spidar {
 struct SerialTransportSettings {
     std::string port; // system path; empty: the only port of a USB bridge
     std::uint32_t baud = kBoardBaud;
-    // True: boards and motors in order, only the signs of `motors` are used. False: `motors` is the
-    // table.
+    // True: boards and motors in order, `motors` gives only signs. False: `motors` is the table.
     bool motors_in_order = true;
     SerialMotorTable motors{};
     double units_per_a = kUsualUnitsPerAmpere; // board units of current per ampere

@@ -21,8 +21,7 @@ namespace spidar {
 struct SerialTransport::Impl {
     explicit Impl(const SerialTransportSettings &settings_in) : settings(settings_in) {}
 
-    // Handles and boards of the present plug-in as one thread uses them; null handles without a
-    // plug-in.
+    // Handles and boards of the present plug-in for one thread; null handles without a plug-in.
     struct Borrowed {
         std::shared_ptr<SerialPort> port;
         std::uint32_t session = 0;
@@ -44,8 +43,7 @@ struct SerialTransport::Impl {
     const SerialTransportSettings settings;
     std::string problem; // used by the controlling thread
 
-    // Locked only to copy or swap. The last owner of a port's handle closes the port without the
-    // lock.
+    // Locked only to copy or swap. A port handle's last owner closes the port without the lock.
     mutable std::mutex mutex;
     BoardSession session;
     SerialMotorTable motors{};

@@ -42,8 +42,7 @@ struct GainClamp {
 
 // Largest Coulomb coefficient, whatever the settings: no hand can use more.
 inline constexpr double kMaxFriction = 10.0;
-// Largest speed of a surface, whatever the settings: a faster one is an error of the physics
-// engine.
+// Largest speed of a surface in any settings: a faster one is an error of the physics engine.
 inline constexpr double kMaxSurfaceSpeed_m_s = 10.0;
 
 // Returns `value` clamped to +-cap. Records the first clamped gain of a request in `clamp`.

@@ -1,5 +1,4 @@
-// How requests become a wrench: resonance and delay of the device, and the largest gains that these
-// allow.
+// How requests become a wrench: resonance and delay of the device, and the gain limits they set.
 #pragma once
 
 #include <string>
@@ -18,8 +17,7 @@ struct RenderSettings {
     // the link, the hold of one cycle, the motors and the filter.
     double delay_compensation_s = 0.003;
 
-    // Time from an encoder's edge to the motor's current. The caps below are lowered according to
-    // it.
+    // Time from encoder edge to motor current. The caps below are lowered according to it.
     double latency_s = 0.001;
     bool caps_from_latency = true; // false: only the caps below apply, for measuring limits
     // Largest stiffness of one contact or coupling. Latency and rate may lower it further.
@@ -30,8 +28,7 @@ struct RenderSettings {
     double max_turn_damping_nm_s_rad = 0.01;
     double max_grasp_damping_nm_s_rad = 0.003;
 
-    // Largest damping that the passivity controller of the coupling adds, relative to the damping
-    // caps. 0: off.
+    // Largest damping of the coupling's passivity controller over the damping caps. 0: off.
     double passivity_share = 2.0;
 
     // Mass of the grip whose weight the strings carry. Off by default; needs a measurement.

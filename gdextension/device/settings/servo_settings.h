@@ -42,8 +42,7 @@ struct SafetySettings {
     double hand_presence_s = 5.0;        // arming a real device needs motion within this
 };
 
-// What closes the fingers of a rigid grip (device/tracking/fingers.h). The source that closes most
-// counts.
+// Sources that close a rigid grip's fingers (device/tracking/fingers.h). The strongest counts.
 struct FingerSettings {
     std::uint8_t button_mask = 0x01; // device buttons that close: bit i is button i
     bool by_game = true;             // use HapticCommand::grasp_share
@@ -82,8 +81,7 @@ struct ServoSettings {
            is_sound(settings.fingers) && is_tally(settings.safety.max_bad_samples);
 }
 
-// Checks every part. Returns an empty string when usable, else one sentence with field, value, unit
-// and remedy.
+// Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const ServoSettings &settings);
 
 } // namespace spidar

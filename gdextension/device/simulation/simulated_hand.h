@@ -54,8 +54,7 @@ inline constexpr HandImpedance kFirmHand{0.8,    700.0,  12.0, 1.28e-3, 1.12,
 // Returns the normal hand for a value outside the enumeration.
 [[nodiscard]] const HandImpedance &impedance_of(HandFirmness firmness) noexcept;
 
-// Largest speed of a hand that follows a target, so that a target that jumps does not throw the
-// grip.
+// Largest speed of a hand that follows a target: a jump of the target must not throw the grip.
 inline constexpr double kHandMaxSpeed_m_s = 1.0;
 // Same for rotation and grasp angle.
 inline constexpr double kHandMaxTurnRate_rad_s = 6.0;

@@ -90,8 +90,7 @@ inline constexpr double kTakeUpStiffness_n_m = 2.0e4;
 // Longest time step (unit: s); longer ones are clamped.
 inline constexpr double kMaxAdvance_s = 1.0;
 
-// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
-// Allocates.
+// Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const PlantSettings &settings);
 
 // The plant. One thread owns it. Starts with the grip and hand at rest at the rest pose, and taut
@@ -124,8 +123,7 @@ public:
     [[nodiscard]] CountArray counts() const noexcept;
     [[nodiscard]] PlantTruth truth() const noexcept;
     [[nodiscard]] double time_s() const noexcept;
-    // Kinetic energy of grip, hand and rotors plus the energy stored in strings and hand springs
-    // (unit: J).
+    // Kinetic energy of grip, hand and rotors plus energy in strings and hand springs (unit: J).
     [[nodiscard]] double mechanical_energy_j() const noexcept;
     // Work of motors and take-up on the rotors since the start (unit: J). With a hand at rest the
     // mechanical energy grows by no more than this (elastic only).

@@ -31,8 +31,7 @@ inline constexpr double kShortestStep_s = 1e-6;
 // Holds all state that evolves from cycle to cycle.
 class ServoStep {
 public:
-    // On a negative status the old settings stay; otherwise all state restarts. Not for the servo
-    // loop.
+    // A negative status keeps the old settings; else all state restarts. Not for the servo loop.
     Status configure(const ServoSettings &settings) noexcept;
 
     // Sets the memory of the shapes' closest points (ProxyMemory). The loop owns it, and

@@ -34,8 +34,7 @@ public:
     // Switches the motors off in this cycle, without a ramp.
     DriveCommand let_go(ServoSnapshot &snapshot) noexcept;
 
-    // True when the tensions equal those of the last cycle bit for bit, and no rate limit changed
-    // them.
+    // True when the tensions repeat the last cycle bit for bit and no rate limit changed them.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // True when strings at a bound changed the wrench of the last pull().
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }

@@ -1,5 +1,4 @@
-// System services of the servo thread: clock, absolute deadlines, priority, and flushing of
-// denormals.
+// System services of the servo thread: clock, deadlines, priority, flushing of denormals.
 #pragma once
 
 #include <cstdint>

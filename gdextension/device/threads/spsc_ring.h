@@ -33,8 +33,7 @@ public:
         tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 
-    // Reading thread: returns the oldest element, or null when the queue is empty. pop() removes
-    // it.
+    // Reading thread: the oldest element, null when the queue is empty. pop() removes it.
     [[nodiscard]] const T *oldest() noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         if (head == known_tail_) {
@@ -49,8 +48,7 @@ public:
         head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 
-    // Writing thread: copies an element into the queue. Returns false and drops it when the queue
-    // is full.
+    // Writing thread: adds a copy of an element. Returns false and drops it when the queue is full.
     bool offer(const T &element) noexcept {
         T *const slot = free_slot();
         if (slot == nullptr) {
@@ -60,8 +58,7 @@ public:
         commit();
         return true;
     }
-    // Reading thread: copies the oldest element and removes it. Returns false when the queue is
-    // empty.
+    // Reading thread: copies and removes the oldest element. Returns false when there is none.
     bool take(T &element) noexcept {
         const T *const waiting = oldest();
         if (waiting == nullptr) {

@@ -18,8 +18,7 @@ public:
     // Publishes a value. Called from the writing thread only.
     void write(const T &value) noexcept {
         slots_[back_].value = value;
-        // Release publishes the slot's contents; acquire takes back the slot that the reader has
-        // finished with.
+        // Release publishes the slot's contents; acquire takes back the slot the reader left.
         const std::uint8_t taken =
             middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel);
         back_ = taken & kIndexMask;

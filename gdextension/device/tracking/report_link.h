@@ -77,8 +77,7 @@ public:
         scale_ = stale() ? std::max(0.0, scale_ - dt_s / kFade_s) : scale_;
     }
     [[nodiscard]] double since_report_s() const noexcept { return since_report_s_; }
-    // True when the newest report is too old to use. Half a time step of slack covers rounding of
-    // summed steps.
+    // True when the newest report is too old. Half a time step covers rounding of summed steps.
     [[nodiscard]] bool stale() const noexcept { return since_report_s_ + slack_s_ >= stale_s_; }
     // True when a device that sent reports sends no more.
     [[nodiscard]] bool lost() const noexcept {

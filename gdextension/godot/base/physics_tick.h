@@ -1,5 +1,4 @@
-// Returns the project's physics ticks per second; the engine's default when the engine reports
-// none.
+// Returns the project's physics ticks per second, or the engine's default when it reports none.
 #pragma once
 
 #include <cstdint>

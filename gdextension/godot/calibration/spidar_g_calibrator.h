@@ -93,8 +93,7 @@ protected:
     static void _bind_methods();
 
 private:
-    // The computation, in its own thread. It works on copies; the results are valid once `done` is
-    // set.
+    // The computation in its own thread, on copies. The results are valid once `done` is set.
     struct Job {
         spidar::CalibrationWorksheet sheet;
         spidar::SelfCalibrationResult result;

@@ -22,8 +22,7 @@ public:
     void note(std::shared_ptr<const TouchScene> live) { live_ = std::move(live); }
     void forget() { live_.reset(); }
 
-    // recorded: the scene of the snapshot's report. A part without counterpart gets id 0, which no
-    // shape has.
+    // recorded: the scene of the snapshot's report. A part without counterpart has id 0 (no shape).
     void renumber(const TouchScene &recorded, TouchReport &report) const noexcept {
         std::array<bool, kMaxSceneParts> used{};
         std::array<std::int32_t, kMaxSceneParts> numbers{};

@@ -25,8 +25,7 @@ public:
     // Requires finite values and a duration in range; device frame.
     void set_wrench(const std::string &owner, const Wrench &wrench, double duration_s,
                     double now_s);
-    // Writes the sum of all wrenches into `command`, at full strength for the longest remaining
-    // time.
+    // Writes the sum of all wrenches to `command`, at full strength for the longest time left.
     void write_wrench(HapticCommand &command, double now_s);
     // True while the sum changes by itself, because one of several wrenches ends or fades.
     [[nodiscard]] bool wrench_changes(double now_s) const noexcept;

@@ -19,8 +19,7 @@ public:
         double most_n = 8.0;     // the device's own limit
         double since_s = 0.0;    // device time since the last tick
         double time_scale = 1.0; // Engine.time_scale
-        // Motion of the tool in the device, device frame. node_m_s: motion of the device's node in
-        // the scene.
+        // Motion of the tool, device frame. node_m_s: motion of the device's node in the scene.
         Jaws jaws;
         ToolPose pose;
         Twist twist;

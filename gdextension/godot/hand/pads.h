@@ -1,5 +1,4 @@
-// The finger pads: two discs with rounded edges whose flat faces look at each other along the
-// grip's x axis.
+// Finger pads: two discs with rounded edges, flat faces opposed along the grip's x axis.
 #pragma once
 
 #include <memory>
@@ -29,8 +28,7 @@ public:
     // Returns the tool that consists of the pads only.
     [[nodiscard]] Tool tool(const Jaws &jaws) const noexcept;
 
-    // Returns the frame of a pad's inner face, with x outward from its center. Side 0 lies at -x of
-    // the grip.
+    // Frame of a pad's inner face, x outward from its center. Side 0 lies at -x of the grip.
     [[nodiscard]] static Placement face(int side, const Jaws &jaws, const ToolPose &pose) noexcept;
 
 private:

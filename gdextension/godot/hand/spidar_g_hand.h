@@ -137,8 +137,7 @@ private:
     void attach(godot::RigidBody3D &body);
     void carry(double delta_s);
     void push_bodies(double since_s);
-    // Returns the held body's target. mine: the target of this hand alone; other hands may hold the
-    // body too.
+    // Returns the held body's target. mine: by this hand alone; other hands may hold it too.
     [[nodiscard]] godot::Transform3D agree_on(const godot::Transform3D &mine);
     void add_joints(spidar::Tool &tool);
     void remember_place();

@@ -1,5 +1,4 @@
-// Notifies the SpidarGSurface of each body that the hand or its held body touches. Main thread
-// only.
+// Notifies SpidarGSurface of bodies that hand or held body touches. Main thread only.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,7 @@ struct HandFeel {
     double damping_n_s_m = 2.0;
     double friction = 0.4;
     double squeeze_nm_rad = 0.0; // of what is between the pads, or held; 0: automatic
-    // No force reaches the hand, so that none centers it on what it closes on: the pads center
-    // themselves.
+    // True: no force centers the hand on what it closes on; the pads center themselves.
     bool centres_itself = false;
     std::uint64_t pinched = 0; // RID of the body between the pads: it cannot get out of their way
     // Stiffness per kilogram of other bodies that a push moves (unit: N/m/kg). It keeps a body from

@@ -142,8 +142,7 @@ public:
     [[nodiscard]] double grasp_action_strength() const;
     // Puts "SpidarGConfig." before a problem that begins with the name of the setting serial_port.
     [[nodiscard]] static std::string told_of(const std::string &problem);
-    // Returns the first problem that only this resource checks. The rest is checked with the whole
-    // ServoSettings.
+    // Returns the first problem that only this resource checks; ServoSettings checks the rest.
     [[nodiscard]] std::string own_problem() const;
 
     // Returns the jaw opening (unit: device m): linear from jaw_open at angle 0 to 0 at

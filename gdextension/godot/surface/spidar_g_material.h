@@ -12,8 +12,7 @@
 #include "device/contact/proxy/surface_traits.h"
 #include "godot/base/strict.h"
 
-// A number with setter and getter. A value outside its range is refused with an error, and the old
-// value stays.
+// Number with setter and getter. A value out of range is refused; the old value stays.
 #define SPIDAR_G_MATERIAL_NUMBER(m_name, m_default, m_least, m_most, m_unit)                       \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \

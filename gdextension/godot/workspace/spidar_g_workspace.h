@@ -77,8 +77,7 @@ private:
     // Returns nothing and prints an error when the configuration or the pose is unusable.
     [[nodiscard]] std::optional<Place> place(const char *method, const godot::Transform3D &pose,
                                              double grasp_angle) const;
-    // Returns the largest multiples of the directions, as forces (first = 0) or moments (first =
-    // 3).
+    // Returns the largest multiples of the directions: forces (first = 0) or moments (first = 3).
     [[nodiscard]] godot::PackedFloat64Array capacity(const char *method, std::size_t first,
                                                      const godot::Transform3D &pose,
                                                      double grasp_angle,

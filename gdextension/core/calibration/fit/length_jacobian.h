@@ -17,8 +17,7 @@ public:
     LengthJacobian(const FrameGeometry &frame, const GripGeometry &grip,
                    const GripPose &pose) noexcept;
 
-    // nu: unit vector orthogonal to all length changes that a motion makes. The sign of nu has no
-    // meaning.
+    // nu: unit vector orthogonal to all length changes of motions. Its sign has no meaning.
     [[nodiscard]] const StringArray &null_vector() const noexcept { return null_; }
     // Unit vectors from motor to attachment: d(length)/d(attachment).
     [[nodiscard]] const StringVectors &directions() const noexcept { return directions_; }

@@ -7,13 +7,11 @@
 
 namespace spidar {
 
-// Returns `start` changed by offsets (m), relative gains, winding curvatures (1/m) and relative
-// sizes.
+// Returns `start` changed by offsets (m), relative gains, windings (1/m) and relative sizes.
 [[nodiscard]] DeviceModel changed_model(const DeviceModel &start,
                                         const CalibrationVector &change) noexcept;
 
-// Returns d(measured - computed lengths)/d(unknown) with the grip held still, at the measured
-// lengths_m.
+// Returns d(measured - computed lengths)/d(unknown) with the grip held still at lengths_m.
 [[nodiscard]] StringArray length_change(const DeviceModel &model, const LengthJacobian &jacobian,
                                         const GripPose &pose, const StringArray &lengths_m,
                                         std::size_t unknown) noexcept;

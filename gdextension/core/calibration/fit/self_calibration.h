@@ -1,8 +1,7 @@
 // Calibration without instruments: the grip is moved and turned freely by hand. Eight strings on
 // seven degrees of freedom give one redundant equation per pose,
 //   nu . (measured - computed lengths) = 0,   nu: LengthJacobian::null_vector().
-// The equations determine the errors of the strings (offsets, gains, winding) and of the frame and
-// pole sizes.
+// The equations determine errors of strings (offset, gain, winding), frame size and pole size.
 //
 // The fit runs in stages, outward from where the counts were zeroed: offsets from the most central
 // poses, then gains over more poses, then all unknowns over all poses. Each stage is Gauss-Newton
@@ -57,8 +56,7 @@ struct SelfCalibrationSettings {
     double outlier_sigmas = 5.0;
 };
 
-// First index of each kind in a CalibrationVector. Unknowns that are not fitted keep change and
-// error 0.
+// First index of each kind in a CalibrationVector. Unfitted kinds keep change and error 0.
 inline constexpr std::size_t kOffsetUnknowns = 0;
 inline constexpr std::size_t kGainUnknowns = 8;
 inline constexpr std::size_t kWindingUnknowns = 16;
@@ -80,8 +78,7 @@ struct SelfCalibrationResult {
     CalibrationVector change{};         // from the start; units: m, relative, 1/m, relative
     CalibrationVector expected_error{}; // standard error of each element of `change`
     double offset_error_rms_m = 0.0;    // expected rms error of the eight offsets
-    // Expected rms error of the grip center over the poses used, as far as the calibration causes
-    // it.
+    // Expected rms error of the grip center over the poses used, caused by the calibration.
     double grip_error_rms_m = 0.0;
     // Rms of the equations used: noise and what the model does not cover.
     double parity_rms_m = 0.0;

@@ -13,8 +13,7 @@
 
 namespace spidar {
 
-// A pose of the free motion is kept when some string length changed by this much since the last
-// kept pose.
+// A pose is kept when a length changed by this much since the last kept pose.
 inline constexpr double kPoseStep_m = 0.003;
 // Largest number of poses kept, which bounds the time of a fit.
 inline constexpr std::size_t kMostPoses = 3000;
@@ -22,19 +21,16 @@ inline constexpr std::size_t kMostPoses = 3000;
 // a sound device stay below 0.2 mm; a slipping string, a wrong frame or a wrong preset gives
 // millimeters.
 inline constexpr double kMostParity_m = 0.0005;
-// Largest expected error of the grip center that is accepted after a fit: ten times what 300 varied
-// poses leave.
+// Largest expected error of the grip center after a fit: ten times that of 300 varied poses.
 inline constexpr double kMostGripError_m = 0.0005;
 // Largest relative difference of a ruler scale from the nominal one. The paper's winding explains
 // 4.3 %; a larger difference than this limit is a misread ruler or another string.
 inline constexpr double kMostScaleError = 0.2;
-// Smallest range of lengths that gives a scale: half a millimeter of reading error is 1 % of this
-// range.
+// Smallest range of lengths for a scale: half a millimeter of reading error is 1 % of it.
 inline constexpr double kLeastLengthRange_m = 0.05;
 // Largest relative difference of a motor's gain from its data sheet.
 inline constexpr double kMostGainError = 0.5;
-// Largest standard deviation of a string's readings at the home pose; beyond it the poses were not
-// the same.
+// Largest standard deviation of readings at the home pose; above it the poses differed.
 inline constexpr double kMostHomeSpread_m = 0.005;
 
 struct WeightReading {
@@ -91,8 +87,7 @@ public:
     [[nodiscard]] const std::vector<CountLengthPair> &lengths(std::size_t string) const {
         return lengths_[string];
     }
-    // The string calibration that the home readings give. too_few_samples before the first
-    // add_zero().
+    // String calibration from the home readings. too_few_samples before the first add_zero().
     [[nodiscard]] HomeZero zero() const;
     // Returns too_few_samples until two lengths lie kLeastLengthRange_m apart.
     [[nodiscard]] StringScaleFit length_fit(std::size_t string) const;

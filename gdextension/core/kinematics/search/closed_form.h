@@ -1,8 +1,7 @@
 // Closed-form kinematics of the paper's grip in a box frame, eq. (4)-(15) with misprints corrected
 // (docs/why/paper_notes.md). x, y, x1 and y2 follow directly. y1 and x2 are each a root of a cubic,
 //   (2b y1 - k1)(y1^2 - (d^2 - x1^2)) + (E1 - y y1)^2 = 0   (and likewise for x2).
-// Two roots of each cubic can lie on the pole's circle: pole upright or flipped. That gives four
-// root pairs.
+// Two roots of each cubic can lie on the pole's circle, upright and flipped: four root pairs.
 #pragma once
 
 #include <array>
@@ -38,8 +37,7 @@ struct ClosedForm {
 [[nodiscard]] ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
                                            const StringArray &lengths_m) noexcept;
 
-// Height of P0 that each root of each pole implies, and its sensitivity. Index 0: upright, 1:
-// flipped.
+// Height of P0 that each root of each pole implies, and its sensitivity. 0: upright, 1: flipped.
 struct RootHeights {
     std::array<Lanes, 2> from_face_m{}; // |z of P0 - face|
     std::array<Lanes, 2> slope_m{};     // |d(|r|^2)/dz|
@@ -74,8 +72,7 @@ struct RootPairPose {
 // Same without misfit and last refinement of z, for a pair that is tried whatever its misfit.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
-// True when both poles are on the upright side of the fold at which the two roots of the cubic
-// meet.
+// True when both poles are on the upright side of the fold where the cubic's two roots meet.
 [[nodiscard]] bool is_upright(const Vec3 &half_extents_m, const GripPose &pose) noexcept;
 
 } // namespace spidar

@@ -200,8 +200,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
                           (s1 * s2 - s0 * s4) * per_volume,
                           minor_xy * per_volume};
 
-    // The pole's pivot is its determinant over the squared mean diagonal, which is the same in
-    // every basis.
+    // A pole's pivot: determinant over squared mean diagonal, the same in every basis.
     const Lanes mean = both(0.5) * (uu + vv);
     const Lanes pole = area / (mean * mean);
     const double pivot_x = s0 / sum_of(sum[0]);

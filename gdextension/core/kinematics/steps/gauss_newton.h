@@ -45,8 +45,7 @@ struct ExpectedPose {
     double weight = 0.0;
 };
 
-// Moves `pose` by one Gauss-Newton step computed from `errors` at that pose. The pivots include the
-// expected pose.
+// Moves `pose` by one step from `errors` at that pose. The pivots include the expected pose.
 GaussNewtonStep gauss_newton_step(const LengthProblem &problem, const LengthErrors &errors,
                                   GripPose &pose,
                                   const ExpectedPose &expected = ExpectedPose()) noexcept;

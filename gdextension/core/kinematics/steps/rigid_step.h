@@ -15,8 +15,7 @@ using RigidStep = std::array<double, kRigidDofCount>;
 // orthogonal again.
 void move_rigid(GripPose &pose, const RigidStep &step, double pole_half_length_m) noexcept;
 
-// The step for `errors` at `pose`, not applied yet, and the smallest scaled pivot of its normal
-// equations.
+// The step for `errors` at `pose`, not yet applied, and its smallest scaled pivot.
 struct RigidSolution {
     RigidStep step{};
     double min_pivot = 0.0;

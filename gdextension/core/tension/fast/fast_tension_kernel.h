@@ -306,8 +306,7 @@ private:
     Verdict judge(double d) noexcept {
         const Row mask = Row::strings(free_);
         const double noise = kNoise * Four::max(front_.absolute(), back_.absolute()).largest();
-        // A string moves by at most the noise of the gradient times the largest diagonal element of
-        // H^-1.
+        // A string moves by at most the gradient's noise times the largest diagonal of H^-1.
         if (!(noise * table_.softest(mask) <= kNoiseMove_n)) {
             return Verdict::in_doubt;
         }

@@ -80,8 +80,7 @@ public:
         const double v = kLane < 2 ? a_[kLane & 1] : b_[kLane & 1];
         return all(v);
     }
-    // Returns a copy with lanes kLane and kLane + 1 (kLane 0 or 2) replaced by the first lanes of x
-    // and y.
+    // Returns a copy with the first lanes of x and y in lanes kLane and kLane + 1 (kLane: 0 or 2).
     template <int kLane>
     [[nodiscard]] FourPlain with_pair(FourPlain x, FourPlain y) const noexcept {
         const Pair pair = {x.a_[0], y.a_[0]};

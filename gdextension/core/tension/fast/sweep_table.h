@@ -48,8 +48,7 @@ struct BoundRows {
         : lower(Row::load(problem.lower_n.data())), upper(Row::load(problem.upper_n.data())),
           target(Row::load(problem.proximal_target_n.data())) {}
 
-    // Returns false when a lower bound exceeds its upper bound or a value is not finite or above
-    // kLargest.
+    // False when a lower bound exceeds its upper bound or a value is not finite or above kLargest.
     [[nodiscard]] bool sound() const noexcept {
         const Four most = Four::all(kLargest);
         const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();

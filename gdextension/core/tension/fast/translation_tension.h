@@ -68,8 +68,7 @@ public:
             const double r0 = b0 - dot(row_[0], x) - w * z0;
             const double r1 = b1 - dot(row_[1], x) - w * z1;
             const double r2 = b2 - dot(row_[2], x) - w * z2;
-            // Computes the step times the determinant, so that only the update of x waits for the
-            // division.
+            // Computes the step times the determinant: only the update of x waits for the division.
             const double e0 = adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2;
             const double e1 = adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2;
             const double e2 = adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2;
@@ -163,8 +162,7 @@ private:
 
     bool report(const Row &x, unsigned low, unsigned high, int steps, double error_n,
                 double request_n, TensionSolution &solution) const noexcept {
-        // Rounding of the residual moves a string by at most this: s / (s^2 + w) is largest at s^2
-        // = w.
+        // Rounding of the residual moves a string by at most this: s / (s^2 + w) peaks at s^2 = w.
         const double noise = kNoise * (error_n + request_n);
         if (!(noise * noise <= 4.0 * p_.proximal_weight * kNoiseMove_n * kNoiseMove_n)) {
             return false;

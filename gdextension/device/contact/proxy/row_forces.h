@@ -1,5 +1,4 @@
-// Springs, dampers and motors along rows of one problem, solved together: computes the move that
-// they cause.
+// Springs, dampers and motors along rows of one problem: computes the move that they cause.
 #pragma once
 
 #include <array>

@@ -20,8 +20,7 @@ struct SurfaceTraits {
     // Coulomb coefficient of a sticking contact; ScenePart::friction is that of a sliding one. A
     // smaller value counts as equal to the sliding one.
     double static_friction = 0.0;
-    // True: a sliding contact sticks again at once (stick-slip). False: it slides until it stands
-    // still.
+    // True: a sliding contact may stick again (stick-slip). False: it slides until it stands still.
     bool catches_again = false;
     // Pull at which a contact that has touched the surface comes off (unit: N).
     double adhesion_n = 0.0;

@@ -1,5 +1,4 @@
-// The tool in seven degrees of freedom: parts on the grip or on one of its two jaws. Device frame,
-// SI units.
+// The tool in seven DOF: parts on the grip or on one of its two jaws. Device frame, SI units.
 #pragma once
 
 #include <algorithm>

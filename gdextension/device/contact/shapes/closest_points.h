@@ -1,8 +1,7 @@
 // Finds where a tool and a shape of the scene are closest, so that the proxy of the servo loop does
 // not pass through. All functions are servo-safe: no allocation, lock or exception.
 //
-// Errors while the cores are apart: 1e-7 m on spheres, 1e-5 m on other shapes, normals within 0.1
-// degree.
+// Errors while the cores are apart: 1e-7 m on spheres, else 1e-5 m; normals within 0.1 degree.
 #pragma once
 
 #include <array>
@@ -25,8 +24,7 @@ struct ContactPoint {
     Vec3 normal{0.0};     // unit, from the shape to the tool, device frame
     // (on_tool - on_shape) . normal. Negative when the skin penetrates the shape.
     double gap_m = 0.0;
-    // Triangle of a mesh or height map, else face of the shape. Identifies a contact from cycle to
-    // cycle.
+    // Triangle of a mesh or height map, else face of the shape: identifies a contact over cycles.
     std::uint32_t face = 0;
     // True when the tool's core is inside the shape. The gap then leads out but is not the exact
     // distance: for recovery only.
@@ -60,8 +58,7 @@ inline constexpr std::uint16_t kNoTriangle = 0xffff;
 struct PairMemory {
     // Direction of the last answer in the shape's frame, where the next search starts.
     Vec3 axis{0.0};
-    // Meshes: `triangles` holds all that can come within the margin until the tool has moved by
-    // slack_m.
+    // Meshes: `triangles` holds all that can come within the margin for slack_m of tool motion.
     Placement gathered_at; // tool in the shape's frame
     double slack_m = -1.0; // below 0: nothing is gathered
     double margin_m = 0.0;

@@ -10,8 +10,7 @@ namespace spidar {
 
 inline constexpr int kMaxCandidates = 256;
 
-// A contact point in the shape's frame. Not initialized: there are many candidates and few are
-// used.
+// A contact point in the shape's frame. Not initialized: of many candidates few are used.
 struct Candidate {
     Vec3 on_tool;
     Vec3 on_shape;
@@ -30,8 +29,7 @@ public:
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;
-    // Selects points in the device frame. spacing_m: points nearer to each other than this count as
-    // one.
+    // Selects points in the device frame. Points nearer to each other than spacing_m count as one.
     void choose(const Placement &shape_at, double spacing_m, ClosestPoints &out) noexcept;
 
 private:

@@ -97,8 +97,7 @@ inline void bounds_of(const CoreView &core, const Mat3 &rotation, Vec3 &lower_m,
     }
 }
 
-// Returns a lower bound of the distance from a point in the core's frame to the core (unit: m); 0
-// for a hull.
+// Lower bound of the distance from a point in the core's frame to the core (m); 0 for a hull.
 [[nodiscard]] inline double distance_to_core(const CoreView &core, const Vec3 &point) noexcept {
     const double above = std::fmax(std::abs(point.y) - core.half_height_m, 0.0);
     switch (core.kind) {

@@ -88,8 +88,7 @@ private:
 
 struct CookResult {
     Status status = Status::ok;
-    // The problem and its field, or a remark on dropped triangles when `shape` is set. Empty
-    // otherwise.
+    // The problem and its field, or with `shape` set a remark on dropped triangles. Else empty.
     std::string sentence;
     std::shared_ptr<const CookedShape> shape; // set if usable(status)
     // Number of mesh triangles without area that were dropped.

@@ -24,8 +24,7 @@ struct CoreFace { // NOLINT(cppcoreguidelines-pro-type-member-init)
     }
 };
 
-// Returns the face of the core that faces `way` (unit vector) most. A round side gives a line, a
-// rim a corner.
+// Returns the core's face towards `way` (unit vector): a line at a round side, a corner at a rim.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Vec3 &way) noexcept;
 // Same for a placed core.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Placement &at,

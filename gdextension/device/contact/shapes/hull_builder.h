@@ -1,5 +1,4 @@
-// Convex hulls, and hulls with all faces moved inwards, with Jolt's builder. Not for the servo
-// thread.
+// Convex hulls, also with all faces moved inwards, by Jolt's builder. Not for the servo thread.
 #pragma once
 
 #include <span>

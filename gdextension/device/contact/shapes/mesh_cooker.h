@@ -1,5 +1,4 @@
-// Preparation of a mesh: equal corners are merged, triangles without area dropped, and neighbors
-// found.
+// Prepares a mesh: merges equal corners, drops triangles without area, finds neighbors.
 #pragma once
 
 #include <array>

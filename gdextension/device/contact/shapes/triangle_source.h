@@ -188,8 +188,7 @@ private:
     bool grid_;
 };
 
-// Returns true when the foot of a point on the triangle's plane lies inside or, within rounding, on
-// an edge.
+// True when a point's foot on the triangle's plane is inside or, within rounding, on an edge.
 [[nodiscard]] inline bool over_triangle(const Vec3 &point, const Corners &triangle) noexcept {
     constexpr double kEdge_m = 1e-9; // this much outside counts as inside
     const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);

@@ -90,8 +90,7 @@ private:
         Vec3 angular_impulse_nms{0.0};
     };
 
-    // Takes the parts of a new scene. apart_s: time since the last scene on the game's clock; 0:
-    // unknown.
+    // Takes a new scene's parts. apart_s: time since the last scene, game clock; 0: unknown.
     void renew(const TouchScene &touch, double apart_s, GainClamp &clamp) noexcept;
     void drop() noexcept;
     [[nodiscard]] bool empty() const noexcept;

@@ -35,8 +35,7 @@ struct TouchScene {
 // Share of the caps (gain_caps) that contacts use as their automatic stiffness.
 inline constexpr double kAutomaticShare = 0.6;
 
-// Returns ok, or invalid_request / not_finite: the scene is then not rendered, and the last valid
-// one stays.
+// Returns ok, or invalid_request / not_finite. A bad scene is ignored; the last valid one stays.
 [[nodiscard]] Status validate(const TouchScene &touch) noexcept;
 
 } // namespace spidar

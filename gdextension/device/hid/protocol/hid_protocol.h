@@ -110,8 +110,7 @@ struct HidLimits {
     bool operator==(const HidLimits &) const = default;
 };
 
-// Sets the encoders to these counts at the present pose. Accepted only while the motors are
-// disabled.
+// Sets the encoders to these counts at the present pose. Accepted only with disabled motors.
 struct HidZero {
     CountArray counts{};
     bool operator==(const HidZero &) const = default;

@@ -50,8 +50,7 @@ template <typename Struct, typename... Members>
     }
 }
 
-// Helpers for field lists: a vector has three fields, an array one per element. `index` counts
-// within a name.
+// Helpers for field lists: a vector has three fields, an array one per element (`index`).
 template <typename Vector, typename Visit>
 void visit_vector(std::string_view name, int index, Vector &vector, Visit &&visit) {
     for (int axis = 0; axis < 3; ++axis) {

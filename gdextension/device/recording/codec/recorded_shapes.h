@@ -1,5 +1,4 @@
-// Shapes in a recording. Each shape is stored once with its number, as the description that it was
-// cooked from.
+// Shapes in a recording. Each description is stored once, with a number, and cooked on reading.
 #pragma once
 
 #include <cstdint>

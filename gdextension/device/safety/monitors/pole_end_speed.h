@@ -7,8 +7,7 @@ namespace spidar {
 
 // Lever that converts a turn rate to the speed of a pole's end: the paper's pole half length.
 inline constexpr double kRotationArm_m = 0.04;
-// Lever that converts the grasp rate to the speed of a pole's end: each pole turns by half the
-// angle.
+// Lever from grasp rate to the speed of a pole's end: each pole turns by half the angle.
 inline constexpr double kGraspArm_m = 0.02;
 
 // Returns the speeds (unit: m/s).

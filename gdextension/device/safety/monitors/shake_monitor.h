@@ -16,8 +16,7 @@ public:
     // nothing is counted.
     void update(const Twist &twist, const Wrench &push, bool rendering, double dt_s) noexcept;
 
-    // Takes shaking that another monitor found as if it had been found here. swing_m_s: its largest
-    // swing.
+    // Takes shaking found by another monitor as found here. swing_m_s: its largest swing.
     void found(double swing_m_s) noexcept;
 
     // Scale of the forces: 1, halved each time the grip is found shaking, 1 again after kCalm_s

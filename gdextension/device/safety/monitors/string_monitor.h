@@ -25,8 +25,7 @@ public:
     [[nodiscard]] bool suspicious() const noexcept { return suspicious_s_ > 0.0; }
     // True when the disagreement lasts: motors off.
     [[nodiscard]] bool faulty() const noexcept { return faulty_; }
-    // What the observer found. Its fault is none while the observer is unsure or the error is
-    // small.
+    // Finding of the observer. Its fault is none while the observer is unsure or the error small.
     [[nodiscard]] const FaultEvidence &named() const noexcept { return named_; }
     // True when there is no suspicion, and nothing changes while the counts stay.
     [[nodiscard]] bool at_rest() const noexcept;

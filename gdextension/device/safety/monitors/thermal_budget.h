@@ -24,8 +24,7 @@ public:
     [[nodiscard]] const StringArray &heat() const noexcept { return heat_; }
     void set_heat(const StringArray &heat) noexcept;
     [[nodiscard]] int warmest_string() const noexcept;
-    // Scale of the forces: 1 up to kDerateFrom of the budget, then linearly down to 0 at the whole
-    // budget.
+    // Scale of the forces: 1 up to kDerateFrom, then linearly down to 0 at the whole budget.
     [[nodiscard]] double scale() const noexcept;
 
     static constexpr double kDerateFrom = 0.7;

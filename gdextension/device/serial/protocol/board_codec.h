@@ -14,8 +14,7 @@ namespace spidar {
 using BoardBytes = std::span<const std::uint8_t>;
 using BoardCurrents = std::array<std::int16_t, kMostBoardMotors>; // in the board's unit
 
-// Bytes to send at once. Never allocates. Bytes that do not fit are dropped, and whole() becomes
-// false.
+// Bytes to send at once. Never allocates. Excess bytes are dropped and clear whole().
 class BoardFrame {
 public:
     static constexpr std::size_t kCapacity = 1024; // eight longest CURRENT commands with zeros
@@ -70,8 +69,7 @@ void append_set_parameter(BoardFrame &frame, const BoardLayout &board, BoardPara
                           BoardBytes data) noexcept;
 void append_reset(BoardFrame &frame, const BoardLayout &board, bool motors, bool forces) noexcept;
 
-// Decodes a whole reply that begins with its header. Returns false when the reply is not from this
-// board.
+// Decodes a whole INFO reply. Returns false when it is not from board `id` or not plausible.
 [[nodiscard]] bool decode_info(BoardBytes bytes, std::uint8_t id, BoardInfo &info) noexcept;
 // Decodes a parameter. data: a view into `bytes` behind the parameter's number; empty on failure.
 [[nodiscard]] bool decode_parameter(BoardBytes bytes, const BoardLayout &board,

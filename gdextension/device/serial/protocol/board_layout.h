@@ -62,8 +62,7 @@ struct BoardInfo {
 struct BoardLayout {
     std::uint8_t id = 0;
     BoardInfo info;
-    // Words that CURRENT's reply has beyond the model's table, since some firmware appends the
-    // currents.
+    // Words of CURRENT's reply beyond the model's table: some firmware appends the currents.
     std::uint8_t extra_words = 0;
 
     [[nodiscard]] std::size_t motors() const noexcept { return info.motors; }
@@ -85,8 +84,7 @@ struct BoardLayout {
 // receive buffer up to its interrupt.
 [[nodiscard]] std::size_t padding(const BoardLayout &board, BoardCommand command) noexcept;
 
-// True for a board that the host can drive: a known model, with numbers that fit the largest
-// command.
+// True for a board that the host can drive: a known model whose numbers fit the largest command.
 [[nodiscard]] bool is_plausible(const BoardInfo &info) noexcept;
 
 } // namespace spidar

@@ -1,5 +1,4 @@
-// Checks whether a string can make a step of a board's counts, and unwraps 16-bit counts to 32
-// bits.
+// Checks whether a string can make a step of counts, and unwraps 16-bit counts to 32 bits.
 #pragma once
 
 #include <algorithm>

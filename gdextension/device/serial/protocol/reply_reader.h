@@ -37,8 +37,7 @@ struct ReplyCounters {
 
 class ReplyReader {
 public:
-    // Number of consistent replies before the first is accepted, since no earlier counts exist for
-    // comparison.
+    // Consistent replies before the first is accepted: there are no earlier counts to compare.
     static constexpr int kAgreeing = 3;
     // Number of replies that agree with each other but not with earlier counts, after which the
     // board counts from a new origin.
@@ -47,8 +46,7 @@ public:
     static constexpr std::uint64_t kRest_us = 3'000;
     // Number of rounds that may be unanswered without counting as lost.
     static constexpr std::uint64_t kInFlight = 3;
-    // Number of answers that a board may still owe when the system's queue was not read for a
-    // while.
+    // Answers that a board may still owe when the system's queue was not read for a while.
     static constexpr std::uint64_t kMostOwed = 64;
 
     // Restarts for these boards (at most kMostBoards), in the order in which they are asked.
@@ -74,8 +72,7 @@ public:
     // unseen, or it counts from a new origin.
     [[nodiscard]] bool reference_lost(std::uint64_t now_us) const noexcept;
     [[nodiscard]] const ReplyCounters &counters() const noexcept { return counters_; }
-    // Returns the number of requested rounds that were not answered in full, except the last
-    // kInFlight.
+    // Returns the number of requested rounds without full answer, except the last kInFlight.
     [[nodiscard]] std::uint64_t lost(std::uint64_t asked) const noexcept {
         const std::uint64_t due = asked > kInFlight ? asked - kInFlight : 0;
         return due > counters_.rounds ? due - counters_.rounds : 0;
@@ -92,8 +89,7 @@ private:
         std::uint64_t last_us = 0;
         // Consistent replies so far; kAgreeing: accepted.
         int agreeing = 0;
-        // Replies that agree with each other and not with the earlier counts, as after a restart of
-        // the board.
+        // Replies that agree with each other, not with earlier counts, as after a board's restart.
         BoardMotion elsewhere;
         std::uint64_t elsewhere_us = 0;
         int agreeing_elsewhere = 0;

@@ -1,5 +1,4 @@
-// How often a bus of boards can be asked, from the time of one round of CURRENT commands on the
-// wire.
+// How often a bus can be asked, from the wire time of one round of CURRENT commands.
 #pragma once
 
 #include <cstddef>

@@ -19,8 +19,7 @@ namespace spidar {
 
 class HeldJoints {
 public:
-    // Takes the joints of a body that was just grasped. Returns how many exceed the servo loop's
-    // limit.
+    // Takes the joints of a newly grasped body. Returns how many exceed the servo loop's limit.
     int take(SceneJoints &joints, const godot::RigidBody3D &body);
     void drop() {
         held_.clear();

@@ -27,8 +27,7 @@ public:
     // between the pads.
     void attach(godot::Node3D &hand, godot::RigidBody3D &body, const godot::Transform3D &grip,
                 double off_centre_m);
-    // Releases the body; safe while the body leaves the tree. workspace_scale: scene meters per
-    // device meter.
+    // Releases the body; safe while it leaves the tree. workspace_scale: scene m per device m.
     void detach(double workspace_scale);
 
     [[nodiscard]] bool holds() const noexcept { return body_id_ != 0; }

@@ -26,8 +26,7 @@ public:
 private:
     // Distance from the grip at which a held body counts as stuck behind something (unit: m).
     static constexpr double kMaxStretch_m = 0.015;
-    // Time after which a hold breaks (unit: s): for a load in device time, for a stretch in physics
-    // ticks.
+    // Time until a hold breaks (unit: s), of load in device time or of stretch in physics ticks.
     static constexpr double kBreakTime_s = 0.05;
 
     double overload_s_ = 0.0;

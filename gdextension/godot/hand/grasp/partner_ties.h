@@ -1,5 +1,4 @@
-// Springs between hands that hold one body, through which each hand feels the others. Main thread
-// only.
+// Springs between hands that hold one body: each hand feels the others. Main thread only.
 #pragma once
 
 #include <cstdint>

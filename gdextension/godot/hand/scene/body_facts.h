@@ -45,8 +45,7 @@ class BodyFactsReader {
 public:
     // Reads the project's default material. Called once, when the hand enters its scene.
     void open();
-    // object: instance id of the body; 0: none. is_node: the object is the CollisionObject3D that
-    // made the body.
+    // object: instance id of the body; 0: none. is_node: object is the body's CollisionObject3D.
     [[nodiscard]] BodyFacts read(const godot::RID &body, std::uint64_t object, bool is_node);
     // Returns messages about old names that bodies still use, each once, and empties the list.
     [[nodiscard]] std::vector<std::string> take_messages();

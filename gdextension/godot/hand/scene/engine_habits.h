@@ -7,13 +7,11 @@ struct EngineHabits {
     // True: spheres, capsules and cylinders of uneven scale get the mean of their scales, as in
     // Jolt. False: they are stretched.
     bool evens_round_shapes = true;
-    // True: the engine puts a world boundary's plane on the other side of the origin (Jolt in Godot
-    // 4.4 to 4.6).
+    // True: a world boundary's plane is mirrored at the origin (Jolt in Godot 4.4 to 4.6).
     bool turns_boundaries = false;
 };
 
-// Returns the habits of the engine in use, tested at the first call. Main thread only, not while
-// physics steps.
+// Returns the engine's habits, tested at the first call. Main thread, not while physics steps.
 [[nodiscard]] const EngineHabits &engine_habits();
 
 } // namespace spidar

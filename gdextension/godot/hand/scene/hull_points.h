@@ -8,8 +8,7 @@
 
 namespace spidar {
 
-// Returns points around a sphere (half_height 0) or a capsule along Y. Their hull is within 0.5 %
-// of the radius.
+// Points around a sphere (half_height 0) or a capsule along Y; hull within 0.5 % of the radius.
 [[nodiscard]] std::vector<Vec3> round_points(double radius, double half_height);
 // Returns points on the two rims of a cylinder along Y.
 [[nodiscard]] std::vector<Vec3> rim_points(double radius, double half_height);

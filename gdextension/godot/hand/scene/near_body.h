@@ -1,5 +1,4 @@
-// One body of the physics server near the hand: its shapes, pose, motion and surface. Main thread
-// only.
+// One physics body near the hand: its shapes, pose, motion and surface. Main thread only.
 #pragma once
 
 #include <cstdint>

@@ -53,8 +53,7 @@ struct ShapeData {
 // Difference between new and old data.
 enum class DataChange : std::uint8_t {
     none,
-    // Equal, but the server made a copy to return them: reading takes a time that grows with the
-    // data.
+    // Equal, but the server copied the data to return them: reading time grows with their size.
     copied,
     changed
 };
@@ -83,8 +82,7 @@ private:
 // Computes the bounding box. Any thread.
 [[nodiscard]] ShapeBounds bounds_of(const ShapeNumbers &shape);
 
-// Returns the shape after `scale` (device meters per shape unit and axis; negative x: mirrored).
-// Any thread.
+// Returns the shape scaled (device m per shape unit and axis; negative x: mirrored). Any thread.
 [[nodiscard]] ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale);
 
 // Cooks the shape; a hull whose points lie in one plane becomes a two-sided mesh. Any thread.
