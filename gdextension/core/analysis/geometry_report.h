@@ -18,8 +18,7 @@ namespace spidar {
 struct PoseStatics {
     // Rank of the weighted wrench matrix. Equals degrees_of_freedom where no direction is lost.
     int rank = 0;
-    // True when the rank is full and some tensions, all above 0, give no net wrench: the strings
-    // can hold the grip.
+    // True when the rank is full and all-positive tensions can balance: the strings hold the grip.
     bool closed = false;
     // Smallest over largest of those tensions, 0..1. 0 where not closed.
     double margin = 0.0;

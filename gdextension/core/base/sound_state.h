@@ -9,8 +9,7 @@
 
 namespace spidar {
 
-// True when every flag holds 0 or 1. Reads the bytes, since reading a bool that holds another value
-// is undefined behavior.
+// True when every flag holds 0 or 1. Reads bytes: reading another value as bool is undefined.
 template <typename... Flags>
 [[nodiscard]] bool are_flags(const Flags &...flags) noexcept {
     const auto is_flag = [](const bool &flag) {

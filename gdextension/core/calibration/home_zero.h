@@ -16,11 +16,9 @@ struct HomeZero {
     // ok; too_few_samples (no counts); invalid_geometry; invalid_calibration (scale or
     // corrections). Negative: all values below are zero.
     Status status = Status::too_few_samples;
-    // Calibration that gives the home pose's lengths at the median of the counts. The median makes
-    // one wrong reading harmless.
+    // Calibration with the home pose's lengths at the median counts: one wrong reading is harmless.
     StringCalibration strings;
-    // Standard deviation of the repeats about their mean. A large value means that the grip was
-    // placed differently.
+    // Standard deviation of the repeats. A large value means that the grip was placed differently.
     StringArray spread_m{};
 };
 

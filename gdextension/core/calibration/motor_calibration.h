@@ -28,8 +28,7 @@ struct MotorScale {
 };
 [[nodiscard]] MotorScale motor_scale(const MotorCalibration &calibration) noexcept;
 
-// Returns currents (unit: A), never NaN, negative or above max_current_a. A tension that is NaN or
-// negative gives 0 A.
+// Returns currents (unit: A) from 0 to max_current_a. A NaN or negative tension gives 0 A.
 [[nodiscard]] StringArray currents_from_tensions(const MotorCalibration &calibration,
                                                  const StringArray &tensions_n) noexcept;
 // Same conversion with precomputed factors.

@@ -14,8 +14,7 @@ namespace spidar {
 inline constexpr double kPaperMetresPerCount = 2.513274122871834e-5;
 
 struct StringCalibration {
-    // Length at the zero count (unit: m). In the paper's frame at the home pose it is 0.3886... m
-    // for every string.
+    // Length at the zero count (unit: m). Paper's frame at the home pose: 0.3886... m.
     StringArray offset_m{};
     // Length per count (unit: m). Negative: the motor is wound the other way.
     StringArray scale_m_per_count{};

@@ -1,5 +1,4 @@
-// The grip: either two crossing poles hinged at P0, with one string tied to each pole end of the
-// table below, or one rigid body.
+// The grip: two crossing poles hinged at P0 with one string per pole end, or one rigid body.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +24,7 @@ struct Attachment {
     double sign = 1.0; // +1 or -1: which end of the pole
 };
 
-// crossed: two hinged poles, 7 DOF. rigid: one body, 6 DOF; its poses have r1 and r2 at right
-// angles and grasp angle 0.
+// crossed: two hinged poles, 7 DOF. rigid: one body, 6 DOF, r1 orthogonal to r2, grasp angle 0.
 enum class GripKind : std::uint8_t { crossed = 0, rigid = 1 };
 
 struct GripGeometry {

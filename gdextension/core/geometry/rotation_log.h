@@ -49,8 +49,7 @@ namespace spidar {
     return result;
 }
 
-// Returns the shortest rotation vector that turns one unit vector to the other (unit: rad); zero
-// when they are opposite.
+// Returns the shortest rotation vector (unit: rad) between unit vectors; zero when opposite.
 [[nodiscard]] inline Vec3 rotation_between(const Vec3 &from, const Vec3 &to) noexcept {
     const Vec3 axis = glm::cross(from, to);
     const double s = glm::length(axis);

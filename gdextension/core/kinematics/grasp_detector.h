@@ -1,5 +1,4 @@
-// Classifies the grasp angle as open, grasped or over-closed. Hysteresis and dwell keep noise from
-// toggling the phase.
+// Classifies the grasp angle: open, grasped, over-closed. Hysteresis and dwell reject noise.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ public:
     static constexpr double kMotionSigma_m = 3e-3;
     // Smallest weight that is used (a residual of 0.03 mm); below it the lengths alone decide.
     static constexpr double kLeastWeight = 1e-3;
-    // Largest weight (a residual of 3.3 mm). Larger residuals are faults and must not stop the
+    // Largest weight (a residual of 3.3 mm): larger residuals are faults and must not stop the
     // pose.
     static constexpr double kMostWeight = 10.0;
     // Share per tick by which the residual level rises: 20 ticks.

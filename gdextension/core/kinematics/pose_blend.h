@@ -1,5 +1,4 @@
-// Moves the shown pose to another answer of the kinematics without a jump, in equal steps, while
-// the hand moves on.
+// Moves the shown pose to another answer without a jump, in equal steps, as the hand moves on.
 #pragma once
 
 #include "core/base/sound_state.h"

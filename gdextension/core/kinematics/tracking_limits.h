@@ -39,8 +39,7 @@ inline constexpr double kMaxSecondStep_m = 5e-4;
 inline constexpr double kThirdStep_m = 2e-5;
 // Motion in one tick beyond which the last pose is forgotten (device restarted, samples lost).
 inline constexpr double kForgetStep_m = 0.05;
-// Smallest scaled pivot below which the pose is refused: the lengths leave a direction open to the
-// square root of rounding.
+// Smallest scaled pivot of an accepted pose: below it the lengths leave a direction open.
 inline constexpr double kRankDeficientPivot = 1e-12;
 // A warm tick ends when its error is below this or below kTrackingShare of the residual.
 inline constexpr double kTrackingFloor_m = 1e-12;
@@ -61,8 +60,7 @@ inline double squared(const CrossedPose &change) noexcept {
            sum_of(dot(change.poles_m, change.poles_m));
 }
 
-// Returns the pose after one more change. Poles return to their spheres to second order, which
-// suffices for a start.
+// Returns the pose after one more change. Poles return to their spheres to second order.
 inline CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change,
                                  double d) noexcept {
     const LaneVec poles = pose.poles_m + change.poles_m;

@@ -68,8 +68,7 @@ public:
     Status configure(const TensionSettings &settings) noexcept;
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
-    // Takes one tick. wrench: the paper's q. A wrench that is not finite counts as zero and gives
-    // status not_finite.
+    // Takes one tick. wrench: the paper's q; if not finite it counts as zero, status not_finite.
     TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
     // Sets the tensions that were actually sent, where a later stage (slew limit) changed them. The
     // change term of the next tick refers to these. Ignored when not finite.

@@ -20,8 +20,7 @@ namespace spidar {
 
 enum class RigState : std::uint8_t { closed = 0, opening = 1, open = 2, failed = 3 };
 
-// Time without a new RigOrders::beat after which the motors go off (unit: s), for an editor that
-// hangs or a window that was closed.
+// Time without a new RigOrders::beat, as in a hung editor, until the motors go off (unit: s).
 inline constexpr double kUnwatched_s = 1.0;
 
 struct RigSettings {
@@ -72,8 +71,7 @@ struct RigNews {
 
 class CalibrationRig {
 public:
-    // Called once, in the rig's thread. Returns null when the device cannot be opened, with the
-    // reason in `problem`.
+    // Called once, in the rig's thread. Returns null on failure, with the reason in `problem`.
     using MakeTransport = std::function<std::unique_ptr<Transport>(std::string &problem)>;
 
     CalibrationRig(const RigSettings &settings, MakeTransport make_transport);
@@ -81,8 +79,7 @@ public:
     CalibrationRig(const CalibrationRig &) = delete;
     CalibrationRig &operator=(const CalibrationRig &) = delete;
 
-    // Starts the rig's thread. Call one start function, once. Returns false when the system can
-    // start no thread.
+    // Starts the rig's thread. Call one start function, once. Returns false without a thread.
     bool start_threaded();
     // Starts without a thread: advance() then runs the cycles.
     void start_stepped();

@@ -40,8 +40,7 @@ public:
 
     // Returns the wrench of all contacts on the grip.
     Wrench render(const GripMotion &motion, double dt_s) noexcept;
-    // Adds the impulses of this cycle. scale: share of the rendered wrench that the strings are
-    // requested to give.
+    // Adds this cycle's impulses. scale: share of the rendered wrench requested from the strings.
     void integrate(double scale, double dt_s) noexcept;
 
     // Writes one report per contact, in the command's order. Returns their number.

@@ -14,8 +14,7 @@ inline constexpr double kMostExtrapolation_s = 0.100;
 
 class GameClock {
 public:
-    // Takes a request. state_time_s: time of the snapshot that it was computed from; negative or in
-    // the future: unknown.
+    // Takes a request. state_time_s: time of its snapshot; negative or in the future: unknown.
     void receive(double state_time_s, double now_s) noexcept {
         const bool stamped = state_time_s >= 0.0 && state_time_s <= now_s;
         late_s_ = stamped ? std::min(now_s - state_time_s, kMostExtrapolation_s) : 0.0;

@@ -16,8 +16,7 @@ namespace spidar {
 inline constexpr int kMaxContacts = 8;
 // Largest distance in a request (unit: m), beyond any frame: larger values could overflow.
 inline constexpr double kFarAway_m = 10.0;
-// Longest duration of a raw wrench (unit: s). It is bounded because no contact stops the grip when
-// the hand lets go.
+// Longest duration of a raw wrench (unit: s): no contact stops the grip when the hand lets go.
 inline constexpr double kMaxWrenchDuration_s = 60.0;
 
 // The point of the grip that a contact plane stops.
@@ -113,8 +112,7 @@ struct Effect {
     double centre_grasp_rad = 0.0;
     double frequency_hz = 0.0; // vibration
     DofGains spacing{};        // detents: m, rad
-    // Time of full strength (unit: s) from the arrival, or from a change of `renewal`. Then the
-    // effect fades like a wrench.
+    // Time of full strength (unit: s) from arrival or change of `renewal`. The effect then fades.
     double duration_s = 0.0;
     std::uint32_t renewal = 0;
 };

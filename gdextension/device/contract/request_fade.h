@@ -39,8 +39,7 @@ public:
         gone_s_ = safety.contacts_gone_s;
     }
     void set(double strength) noexcept { strength_ = strength; }
-    // Takes one cycle. age_s: age of the last update. Returns false when the request has expired
-    // and must be dropped.
+    // Takes one cycle. age_s: age of the update. Returns false when the request has expired.
     bool advance(double age_s, double dt_s) noexcept {
         const double left = std::clamp(1.0 - (age_s - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
         strength_ = std::min(left, strength_ + dt_s / kOnset_s);

@@ -26,8 +26,7 @@ struct DeviceReading {
     Status device_status = Status::ok;
     // Bit i: string i, when an encoder fault names strings.
     std::uint8_t fault_strings = 0;
-    // Other sensors of the device, such as a pressure sensor in the grip, in their own units. 0
-    // when there is none.
+    // Other sensors, such as grip pressure, in their own units. 0 when there is none.
     std::array<std::int16_t, kSensorCount> sensors{};
 };
 
@@ -62,8 +61,7 @@ public:
 
     // Opens the device. May allocate and wait: never call it from a servo step.
     virtual Status open() noexcept = 0;
-    // Switches the motors off, then closes the operating system's handle. Does nothing when not
-    // open. May wait.
+    // Switches the motors off, then closes the handle. Does nothing when not open. May wait.
     virtual void close() noexcept = 0;
 
     // Reads the newest reading. Returns read_timeout when there is no new one (reading unchanged),

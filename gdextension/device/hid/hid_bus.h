@@ -49,8 +49,7 @@ public:
 
     // Lists all HID devices. Returns hid_unavailable when the system's HID access does not start.
     virtual Status enumerate(std::vector<HidDeviceInfo> &devices) = 0;
-    // Returns null on failure, with the reason in `status`: no_permission, open_failed or
-    // hid_unavailable.
+    // Returns null on failure; `status` is no_permission, open_failed or hid_unavailable.
     virtual std::unique_ptr<HidHandle> open(const std::string &path, Status &status) = 0;
     // Monotonic clock (unit: us).
     [[nodiscard]] virtual std::uint64_t now_us() noexcept = 0;

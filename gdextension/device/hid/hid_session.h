@@ -19,8 +19,7 @@ struct HidSession {
     HidLimits limits; // as the device reports them back
 };
 
-// Opens the handles, reads the capabilities and sets the limits. On failure nothing stays open and
-// `problem` holds a sentence.
+// Opens handles, reads capabilities, sets limits. Failure leaves nothing open; see `problem`.
 [[nodiscard]] Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &limits,
                                   HidSession &session, std::string &problem);
 

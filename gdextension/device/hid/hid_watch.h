@@ -1,5 +1,4 @@
-// Looks for devices that are plugged in later. A thread does it, since listing devices may take
-// many milliseconds.
+// Looks for devices plugged in later, in a thread: listing them may take many milliseconds.
 #pragma once
 
 #include <atomic>

@@ -32,8 +32,7 @@ public:
     void recall() noexcept;
     // Runs one cycle of dt_s in the loop's thread. Returns false when the source is exhausted.
     bool run(double dt_s) noexcept SPIDAR_NONBLOCKING;
-    // Publishes the snapshot of a device that did not open, and an event. Called while no cycle
-    // runs.
+    // Publishes the snapshot of an unopened device, and an event. Called while no cycle runs.
     void show_open_failed(Status why) noexcept;
     // Publishes the snapshot of a closed device. Called while no cycle runs.
     void show_closed() noexcept;

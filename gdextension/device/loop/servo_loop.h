@@ -41,8 +41,7 @@ public:
     // clear_fault() and arm(). When no loop runs or no device is open, the device later opens in
     // FAULT.
     void panic_stop() noexcept { cycle_.source().panic(); }
-    // Time since the thread began its last cycle (unit: s); 0 when no thread runs. A game uses it
-    // to watch the loop.
+    // Time since the thread began its last cycle (unit: s), for a game to watch; 0 without thread.
     [[nodiscard]] double since_last_cycle_s() const noexcept {
         return thread_.since_last_cycle_s();
     }

@@ -47,8 +47,7 @@ public:
     Recorder(const Recorder &) = delete;
     Recorder &operator=(const Recorder &) = delete;
 
-    // Opens the file; called from the controlling thread. Returns an empty string, or one sentence
-    // with the reason.
+    // Controlling thread: opens the file. Returns an empty string or a sentence with the reason.
     [[nodiscard]] std::string open(const std::string &path);
     // Writes what the ring holds and closes the file; called from the controlling thread. The loop
     // may still call begin() and end(), which then have no effect.

@@ -41,8 +41,7 @@ inline constexpr std::size_t kMostChunkBytes = 4'000'000;
 
 class RecordingWriter {
 public:
-    // Opens the file and writes its head. Returns an empty string, or one sentence with the path
-    // and the remedy.
+    // Opens the file, writes its head. Returns an empty string or a sentence with path and remedy.
     [[nodiscard]] std::string open(const std::string &path, const RecordingInfo &info);
 
     void memory(std::span<const std::uint8_t> bytes);

@@ -34,8 +34,7 @@ struct RecordingInfo {
 // ignored, and missing fields keep their defaults.
 [[nodiscard]] std::string read_text(std::string_view text, RecordingInfo &info);
 
-// Returns an empty string when this build can replay the recording bit for bit, else one sentence
-// with the reason and the remedy.
+// Returns an empty string when this build can replay bit for bit, else a reason with remedy.
 [[nodiscard]] std::string why_no_replay(const RecordingInfo &info);
 
 } // namespace spidar

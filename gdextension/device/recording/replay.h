@@ -29,8 +29,7 @@ struct ReplayReport {
 
 class Replay final : public CycleSource {
 public:
-    // Loads a file. Returns an empty string, or one sentence: no file, damaged, or settings that
-    // this build cannot use.
+    // Loads a file. Returns an empty string or a sentence: no file, damaged, unusable settings.
     [[nodiscard]] std::string load(const std::string &path);
     // Loads the bytes of a file; `name` appears in messages.
     [[nodiscard]] std::string load(const std::string &bytes, const std::string &name);
@@ -46,8 +45,8 @@ public:
     [[nodiscard]] bool simulated() const noexcept override { return true; } // runs in its own time
     // Sets the step's memory to that before the first cycle.
     bool recall(ServoStep &step) noexcept override;
-    // At the start of a segment, sets the step's memory to the recorded one. Returns false at the
-    // end of the recording.
+    // At a segment's start, sets the step's memory as recorded. Returns false at the recording's
+    // end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
     // Returns the recorded state when playing as poses, else null.

@@ -1,5 +1,4 @@
-// The coupling at servo rate: a spring and damper in seven DOF to a proxy that is extrapolated
-// between the game's updates.
+// Coupling at servo rate: spring and damper in seven DOF to a proxy extrapolated between updates.
 #pragma once
 
 #include "core/base/sound_state.h"

@@ -1,5 +1,4 @@
-// The last stage before the motors. Its output is always finite, within [0, max], and changes no
-// faster than the slew limit.
+// The last stage before the motors. Its output is finite, within [0, max] and slew-limited.
 #pragma once
 
 #include "core/base/types.h"

@@ -16,8 +16,8 @@ class GuardLink {
 public:
     explicit GuardLink(SerialStatistics &statistics) noexcept : statistics_(statistics) {}
 
-    // Returns an empty string when the guard runs, else one sentence. May wait for half a second:
-    // not for the writer.
+    // Returns an empty string when the guard runs, else a sentence. Not for the writer: waits 0.5
+    // s.
     [[nodiscard]] std::string start(const std::string &program, int port,
                                     std::span<const BoardLayout> boards);
     void end() noexcept;

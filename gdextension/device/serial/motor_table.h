@@ -34,8 +34,7 @@ boards_of(const SerialMotorTable &motors, std::span<const BoardLayout> boards) n
 // published voltages for the X5R's motors and this project's default motor.
 inline constexpr double kUsualUnitsPerAmpere = 618.0;
 
-// Returns a current in board units, clamped to `most`, since a B5M has no limit of its own in this
-// mode. NaN gives 0.
+// Returns a current in board units, clamped to `most`. NaN gives 0.
 [[nodiscard]] std::int16_t board_units(double current_a, double units_per_a, int most,
                                        int sign) noexcept;
 

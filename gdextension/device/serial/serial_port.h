@@ -18,8 +18,7 @@ struct SerialPortInfo {
     bool usb = false;
 };
 
-// An open port; the destructor closes it. Used by one thread at a time; another thread uses a
-// handle of another().
+// An open port; the destructor closes it. Each thread uses a handle of its own (another()).
 class SerialPort {
 public:
     SerialPort() = default;

@@ -34,8 +34,7 @@ public:
     static void add(std::atomic<std::uint64_t> &counter, std::uint64_t count = 1) noexcept {
         counter.fetch_add(count, std::memory_order_relaxed);
     }
-    // Adds what the reader counted since `before`, then sets `before` to `now`. Called from the
-    // reader's thread.
+    // Adds the reader's counts since `before`, then sets `before` to `now`. Reader's thread only.
     void take(const ReplyCounters &now, ReplyCounters &before) noexcept {
         add(rounds, now.rounds - before.rounds);
         add(bytes, now.bytes - before.bytes);

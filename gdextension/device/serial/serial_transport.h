@@ -59,8 +59,7 @@ public:
 
     // Called from the controlling thread, like the functions up to guard_process().
     [[nodiscard]] std::vector<BoardLayout> boards() const;
-    // Highest rate at which the wire lets all boards be asked (unit: Hz). A faster loop drops
-    // commands and counts them.
+    // Highest rate that the wire allows (unit: Hz). A faster loop drops commands and counts them.
     [[nodiscard]] double highest_rate_hz() const;
     // Estimated time from the sampling of counts to the currents computed from them, for a loop of
     // rate_hz (unit: s). Measured whenever the boards are found; 0 while unknown.

@@ -1,5 +1,4 @@
-// State of SerialTransport: shared and private data of its threads (reader, writer, watcher,
-// controlling thread).
+// Shared and private state of SerialTransport's threads: reader, writer, watcher, controlling.
 #pragma once
 
 #include <array>

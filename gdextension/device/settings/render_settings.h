@@ -34,9 +34,8 @@ struct RenderSettings {
     // Mass of the grip whose weight the strings carry. Off by default; needs a measurement.
     double compensated_mass_kg = 0.0;
     Vec3 gravity_m_s2{0.0, -9.80665, 0.0};
-    // Motor friction that is compensated: subtracted from the tension of a string that pays out,
-    // added when it winds in. Must be below the measured friction: overcompensation moves the grip
-    // by itself.
+    // Compensated motor friction: subtracted from the tension of a string that pays out, added when
+    // it winds in. Must stay below the measured friction, or the grip moves by itself.
     double compensated_friction_n = 0.0;    // Coulomb
     double compensated_viscous_n_s_m = 0.0; // of rotor and back-EMF
 };

@@ -55,8 +55,7 @@ struct FingerSettings {
 struct ServoSettings {
     double rate_hz = 1000.0;          // 100 to 4000
     double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
-    // Threaded: interval at which the loop's thread tries again to open a device (unit: s). 0:
-    // start fails instead.
+    // Threaded: interval between attempts to open a device (unit: s). 0: start fails instead.
     double reopen_interval_s = 0.0;
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;

@@ -48,8 +48,7 @@ struct FaultInjection {
     double duration_s = 0.0;
 };
 
-// Returns false for an unknown fault, a string outside 0-7, a time that is not finite, or a
-// negative start.
+// Returns false for an unknown fault, string outside 0-7, non-finite time or negative start.
 [[nodiscard]] bool is_usable(const FaultInjection &fault) noexcept;
 
 // A fault with a unique number; 0 marks an empty place.

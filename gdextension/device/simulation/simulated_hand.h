@@ -90,8 +90,7 @@ public:
     // Advances the path.
     void advance(double dt_s) noexcept;
 
-    // Returns the wrench of the hand on the grip: spring and damper between path and grip, without
-    // the hand's mass.
+    // Returns the wrench on the grip: spring and damper between path and grip, no hand mass.
     [[nodiscard]] Wrench wrench(const Vec3 &position_m, const Quat &rotation,
                                 double grasp_angle_rad, const Twist &twist) const noexcept;
     // Returns the energy in the hand's springs (unit: J).

@@ -27,8 +27,7 @@ public:
     // Returns the currents that arrive next and removes them.
     StringArray receive() noexcept;
 
-    // Passes a report of the device on to the host, changed by the faults. Returns false when no
-    // report arrives.
+    // Passes a report on to the host, changed by the faults. Returns false when none arrives.
     bool deliver(DeviceReading &report, const ActiveFaults &faults) noexcept;
 
 private:

@@ -93,8 +93,7 @@ inline constexpr double kMaxAdvance_s = 1.0;
 // Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const PlantSettings &settings);
 
-// The plant. One thread owns it. Starts with the grip and hand at rest at the rest pose, and taut
-// strings without tension.
+// The plant, owned by one thread. Starts at rest at the rest pose, strings taut without tension.
 class SimulatedPlant {
 public:
     // Requires that validate(settings) is empty.
@@ -106,8 +105,7 @@ public:
     // An unusable target changes nothing.
     void set_hand_target(const HandTarget &target) noexcept;
     void set_hand_firmness(HandFirmness firmness) noexcept { hand_.set_firmness(firmness); }
-    // Sets currents until the next call. NaN and negative currents give 0 A; currents above
-    // max_current_a are clamped.
+    // Sets currents until the next call, clamped to max_current_a. NaN or negative gives 0 A.
     void set_currents(const StringArray &currents_a) noexcept;
     // True: the hand exerts nothing on the grip, until it holds it again.
     void set_hand_released(bool released) noexcept { hand_.set_released(released); }

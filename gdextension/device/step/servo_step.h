@@ -40,8 +40,7 @@ public:
     [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.renderer.touch(); }
     [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.renderer.touch(); }
 
-    // Takes the edges and requests of this command as already seen, so that earlier requests do not
-    // act after a start.
+    // Takes this command's edges and requests as seen: earlier requests do not act after a start.
     void acknowledge(const HapticCommand &command) noexcept;
 
     // Runs one cycle. read_status: result of Transport::read(). may_arm_itself: true for simulated
@@ -52,8 +51,7 @@ public:
     // Reports the result of a write. A failure is counted, and the device is lost.
     void report_write(Status write_status) noexcept;
 
-    // Heat of each motor as a share of its thermal budget. It outlasts the loop
-    // (safety/motor_heat.h).
+    // Heat of each motor over its thermal budget. It outlasts the loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return parts_.monitor.heat().heat(); }
     void set_heat(const StringArray &heat) noexcept {
         parts_.monitor.set_heat(heat);

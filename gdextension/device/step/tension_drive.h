@@ -1,5 +1,4 @@
-// From the requested wrench to tensions and motor currents, each cycle: solver, ramp, calibrated
-// compensation, safety gate.
+// Turns the requested wrench into tensions and currents: solver, ramp, compensation, safety gate.
 #pragma once
 
 #include "core/base/sound_state.h"

@@ -8,8 +8,7 @@ namespace spidar {
 // Monotonic clock (unit: ns).
 [[nodiscard]] std::int64_t monotonic_ns() noexcept;
 
-// Returns at or after deadline_ns on the clock of monotonic_ns(). Absolute deadlines do not
-// accumulate delays.
+// Returns at or after deadline_ns (monotonic_ns()). Absolute deadlines accumulate no delay.
 void sleep_until_ns(std::int64_t deadline_ns) noexcept;
 
 // Requests exact timers and real-time priority for the calling thread. Returns true when priority

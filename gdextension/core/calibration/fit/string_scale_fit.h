@@ -16,8 +16,7 @@ struct CountLengthPair {
 };
 
 struct StringScaleFit {
-    // ok; too_few_samples for fewer than two different counts; not_finite. Negative: all values
-    // below are zero.
+    // ok; too_few_samples below two different counts; not_finite. Negative: all values are zero.
     Status status = Status::too_few_samples;
     double offset_m = 0.0;                // length at count 0
     double scale_m_per_count = 0.0;       // negative: wound the other way

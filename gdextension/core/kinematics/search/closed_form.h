@@ -12,8 +12,7 @@
 
 namespace spidar {
 
-// Number of root pairs. In pair p, bit 0 selects the flipped root of pole 1, bit 1 that of pole 2.
-// Pair 0 is upright.
+// Number of root pairs. Bit 0 of an index flips the root of pole 1, bit 1 that of pole 2.
 inline constexpr int kRootPairCount = 4;
 
 // True when the strings are tied as in the paper, which the closed form assumes.

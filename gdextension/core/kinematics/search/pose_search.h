@@ -20,8 +20,7 @@ struct SearchTools {
     const CrossedLayout *layout = nullptr;
     // Set when the closed form applies: a box frame and the paper's attachments.
     std::optional<Vec3> closed_form_half_extents_m;
-    // Lengths for the closed form where strings leave over pulleys, converted to eyelets. Null: the
-    // problem's lengths.
+    // Lengths converted to eyelets, for the closed form over pulleys. Null: the problem's lengths.
     const StringArray *eyelet_lengths_m = nullptr;
 };
 

@@ -263,8 +263,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
     return errors;
 }
 
-// prior: weight of the expected pose, added to all diagonals (0: the lengths alone decide). The
-// pivots include it.
+// prior: weight of the expected pose, added to all diagonals and so to the pivots. 0: none.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor factorise(const CrossedErrors &errors,
                                                                  const CrossedPose &pose,
                                                                  double pole_half_length_m,

@@ -11,8 +11,7 @@ namespace spidar {
 inline constexpr int kRigidDofCount = 6;
 using RigidStep = std::array<double, kRigidDofCount>;
 
-// Displaces P0, turns both poles by the rotation vector step[3..5] / d (unit: rad) and makes them
-// orthogonal again.
+// Moves P0, turns both poles by the vector step[3..5] / d (rad) and makes them orthogonal.
 void move_rigid(GripPose &pose, const RigidStep &step, double pole_half_length_m) noexcept;
 
 // The step for `errors` at `pose`, not yet applied, and its smallest scaled pivot.

@@ -92,8 +92,7 @@ public:
             t[i].a = i < 4 ? diagonal.a & own : Four::all(0.0);
             t[i].b = i < 4 ? Four::all(0.0) : diagonal.b & own;
         }
-        // The lower left quarter is the transpose of the upper right one, and is filled in when a
-        // pivot row needs it.
+        // The lower left quarter is the transpose of the upper right one, filled in when needed.
 #pragma GCC unroll 2
         for (std::size_t i = 0; i < 4; i += 2) {
 #pragma GCC unroll 7

@@ -133,8 +133,7 @@ private:
                 Four::mul_add(row_[2].b, f2, Four::mul_add(row_[1].b, f1, row_[0].b * f0))};
     }
 
-    // Computes the inverse of R_F R_F' + w I as adjugate over determinant. Returns false where the
-    // determinant has cancelled.
+    // Inverts R_F R_F' + w I as adjugate over determinant. Returns false where the latter cancels.
     bool factor(unsigned free) noexcept {
         const Row mask = Row::strings(free);
         const Row m0{row_[0].a & mask.a, row_[0].b & mask.b};

@@ -47,8 +47,7 @@ struct ScenePart {
     return part.velocity_m_s + glm::cross(part.angular_rad_s, point_m - part.at.origin_m);
 }
 
-// Returns the velocity of the surface that rubs on the tool at point_m. Only the component along
-// the surface is used.
+// Returns the velocity of the surface at point_m. Only its component along the surface acts.
 [[nodiscard]] inline Vec3 rubbing_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
     return surface_velocity(part, point_m) + part.belt_m_s +
            glm::cross(part.belt_rad_s, point_m - part.at.origin_m);

@@ -33,8 +33,7 @@ public:
 
     // Returns the part of a move that the joints allow.
     [[nodiscard]] Move left(const Move &move) const noexcept;
-    // Projects a row of the problem in the same way. Returns false when only rounding remains, so
-    // that no move affects the row.
+    // Projects a row likewise. Returns false when no move affects the row, to within rounding.
     [[nodiscard]] bool leave(Move &row) const noexcept;
     // Returns the part of a move that the joints lock.
     [[nodiscard]] Move locked(const Move &move) const noexcept;

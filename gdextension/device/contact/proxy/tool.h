@@ -20,8 +20,7 @@ struct ToolPose {
     double grasp_rad = 0.0;
 };
 [[nodiscard]] ToolPose moved(const ToolPose &pose, const Displacement &by) noexcept;
-// Returns the displacement between two poses, for turns below half a turn: moved(from,
-// between(from, to)) equals `to`.
+// Returns the displacement between poses less than half a turn apart: moved(from, result) = to.
 [[nodiscard]] Displacement between(const ToolPose &from, const ToolPose &to) noexcept;
 
 // Where a part is mounted. grip: turns with the grip. A jaw slides along the grip's x axis with the

@@ -97,8 +97,7 @@ public:
     [[nodiscard]] const std::array<PartForce, kMaxSceneParts> &given() const noexcept {
         return given_;
     }
-    // Grasp torque of the jaws' stop (unit: N m): what the fingers press on each other or on a held
-    // body. 0 when open.
+    // Grasp torque of the jaws' stop (unit: N m), against each other or a held body. 0 when open.
     [[nodiscard]] double stop_push_nm() const noexcept { return stop_push_nm_; }
     // Number of closest-point queries in the last cycle.
     [[nodiscard]] int queries() const noexcept { return queries_; }

@@ -24,8 +24,7 @@ struct Candidate {
 
 class ContactCandidates { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
-    // Adds a candidate from points of both cores and the skins around them. A full list keeps the
-    // nearer candidates.
+    // Adds a candidate from points of both cores and their skins. A full list keeps nearer ones.
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;

@@ -1,5 +1,4 @@
-// A convex shape for closest-point searches: a core and the thickness of the skin around it. Used
-// within this folder only.
+// Convex shape for closest-point searches: a core with a skin around it. Used in this folder only.
 #pragma once
 
 #include <cmath>

@@ -77,8 +77,7 @@ public:
     // bit for bit, with another number.
     [[nodiscard]] const ShapeDescription &description() const noexcept;
 
-    // Unique among all cooked shapes and tool shapes of this process, so that remembered data is
-    // never used for another shape.
+    // Unique among all cooked and tool shapes of this process: remembered data fits no other shape.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
 
 private:

@@ -1,5 +1,4 @@
-// Distance between an edge of a triangle and a core: closed form for a point and a flat disc, GJK
-// for the others.
+// Distance of a triangle's edge and a core: closed form for points and flat discs, else GJK.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"

@@ -1,5 +1,4 @@
-// Bounding boxes of a mesh's triangles, split by Jolt's builder and stored so that a traversal
-// needs no stack.
+// Bounding boxes of a mesh's triangles, split by Jolt's builder; traversal needs no stack.
 #pragma once
 
 #include <algorithm>

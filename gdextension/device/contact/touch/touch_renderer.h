@@ -23,8 +23,7 @@ public:
     void configure(const ServoSettings &settings) noexcept;
     // Changes the caps at once.
     void retune(const ServoSettings &settings) noexcept;
-    // Sets the memory of the closest points between cycles (3 MB, owned by the loop). Without it
-    // every scene is refused.
+    // Sets the memory of closest points (3 MB, owned by the loop). Without it scenes are refused.
     void use(ProxyMemory *memory) noexcept { memory_ = memory; }
     [[nodiscard]] ProxyMemory *memory() const noexcept { return memory_; }
     // Clears that memory where a recording begins, since a recording does not contain it.
@@ -44,8 +43,7 @@ public:
 
     // Returns the wrench of all contacts and of the load on the grip.
     Wrench render(const GripMotion &motion, double dt_s) noexcept;
-    // Adds the impulses of this cycle. scale: share of the rendered wrench that the strings are
-    // requested to give.
+    // Adds this cycle's impulses. scale: share of the rendered wrench requested from the strings.
     void integrate(double scale, double dt_s) noexcept;
 
     void report(TouchReport &report) const noexcept;

@@ -1,5 +1,4 @@
-// Value that means "no sequence number". Sequence numbers have 16 bits and count from 0 to 0xFFFE,
-// then from 0 again.
+// Value of "no sequence number". Sequence numbers have 16 bits: 0 to 0xFFFE, then 0 again.
 #pragma once
 
 #include <cstdint>

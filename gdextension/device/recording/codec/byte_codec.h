@@ -31,8 +31,7 @@ public:
     // Writes 7 bits per byte: 1 byte below 128, at most 10.
     void varint(std::uint64_t value);
     void signed_varint(std::int64_t value) { varint(zigzag(value)); }
-    // Writes a 64-bit word whose bytes are mostly zero: one byte with the range of nonzero bytes,
-    // then these bytes.
+    // Writes a 64-bit word of mostly zero bytes: one byte for the nonzero range, then that range.
     void sparse_word(std::uint64_t value);
     void raw(std::span<const std::uint8_t> bytes);
 

@@ -7,8 +7,7 @@
 
 namespace spidar {
 
-// A failing assertion means that a struct has changed: add the field to the list below, then
-// correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");

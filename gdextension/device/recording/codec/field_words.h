@@ -35,8 +35,7 @@ void from_word(std::uint64_t word, T &value) noexcept {
     }
 }
 
-// Counts the members of a plain struct at compile time, so that a field list that lacks a new
-// member does not compile.
+// Counts a plain struct's members at compile time: a list that lacks one does not compile.
 struct AnyMember {
     template <typename T>
     operator T() const noexcept; // never defined: only its type is used

@@ -8,8 +8,7 @@
 
 namespace spidar {
 
-// A failing assertion means that a struct has changed: add the field to the list below, then
-// correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list its fields here");
 static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");

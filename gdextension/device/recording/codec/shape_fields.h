@@ -9,8 +9,7 @@
 
 namespace spidar {
 
-// A failing assertion means that a struct has changed: add the field to the lists below, then
-// correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<ShapeDescription>() == 14, "ShapeDescription changed: list it here");
 static_assert(count_members<ToolDescription>() == 5, "ToolDescription changed: list it here");
 

@@ -14,8 +14,7 @@ namespace spidar {
 
 class HandPresence {
 public:
-    // Movement that counts (unit: m): twenty counts at the pole ends, more than an encoder flickers
-    // and less than a hand's motion.
+    // Movement that counts (unit: m): twenty counts at the pole ends, more than encoder flicker.
     static constexpr double kMove_m = 0.0005;
 
     void configure(const SafetySettings &safety) noexcept {

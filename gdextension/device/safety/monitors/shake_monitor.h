@@ -12,15 +12,14 @@ namespace spidar {
 class ShakeMonitor {
 public:
     void configure() noexcept { *this = ShakeMonitor(); }
-    // Takes one cycle. push: wrench of all contacts on the grip. rendering: forces act; otherwise
-    // nothing is counted.
+    // Takes one cycle. push: contacts' wrench on the grip. rendering: forces act; else nothing
+    // counts.
     void update(const Twist &twist, const Wrench &push, bool rendering, double dt_s) noexcept;
 
     // Takes shaking found by another monitor as found here. swing_m_s: its largest swing.
     void found(double swing_m_s) noexcept;
 
-    // Scale of the forces: 1, halved each time the grip is found shaking, 1 again after kCalm_s
-    // without shaking.
+    // Scale of the forces: 1, halved each time the grip shakes, 1 again after kCalm_s of calm.
     [[nodiscard]] double scale() const noexcept { return scale_; }
     // True when the grip still shakes after two halvings: forces must end. Lasts until configure()
     // or calm.
