@@ -45,8 +45,7 @@ public:
     [[nodiscard]] bool simulated() const noexcept override { return true; } // runs in its own time
     // Sets the step's memory to that before the first cycle.
     bool recall(ServoStep &step) noexcept override;
-    // At a segment's start, sets the step's memory as recorded. Returns false at the recording's
-    // end.
+    // At a segment's start, sets the step's memory as recorded. Returns false at the end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
     // Returns the recorded state when playing as poses, else null.

@@ -16,8 +16,7 @@ class GuardLink {
 public:
     explicit GuardLink(SerialStatistics &statistics) noexcept : statistics_(statistics) {}
 
-    // Returns an empty string when the guard runs, else a sentence. Not for the writer: waits 0.5
-    // s.
+    // Returns an empty string when the guard runs, else a sentence. Not for the writer: may wait.
     [[nodiscard]] std::string start(const std::string &program, int port,
                                     std::span<const BoardLayout> boards);
     void end() noexcept;

@@ -318,8 +318,7 @@ private:
         if (Row::bits(inside_a, inside_b) != 0xFFU) {
             return Verdict::in_doubt;
         }
-        // rise: slope of each held string, positive when its bound is right. |H d| is at most
-        // trace(H) d.
+        // rise: slope of each held string, positive when its bound is right. |H d| <= trace(H) d.
         const double slack = noise + stiffness_ * d;
         const Row at_high = Row::strings(high_);
         const Four zero = Four::all(0.0);

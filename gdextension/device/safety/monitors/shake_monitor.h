@@ -12,8 +12,7 @@ namespace spidar {
 class ShakeMonitor {
 public:
     void configure() noexcept { *this = ShakeMonitor(); }
-    // Takes one cycle. push: contacts' wrench on the grip. rendering: forces act; else nothing
-    // counts.
+    // Takes one cycle. push: contacts' wrench on the grip. rendering: forces act, swings count.
     void update(const Twist &twist, const Wrench &push, bool rendering, double dt_s) noexcept;
 
     // Takes shaking found by another monitor as found here. swing_m_s: its largest swing.
