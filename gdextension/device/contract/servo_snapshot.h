@@ -76,7 +76,7 @@ struct ServoCounters {
     std::uint64_t cold_starts = 0;
     std::uint64_t bad_samples = 0; // count jumps and impossible lengths
     std::uint64_t read_timeouts = 0;
-    // Not finite or malformed; found in the loop.
+    // Requests that were not finite or malformed.
     std::uint64_t rejected_requests = 0;
     std::uint64_t clamped_requests = 0;
     std::uint64_t expired_requests = 0;

@@ -38,7 +38,7 @@ public:
                   bool trusted, double dt_s) noexcept;
     // Called after render(). scale: share of the returned wrench requested from the strings.
     void given(double scale, double dt_s) noexcept;
-    // Called when the wrench of the commanded tensions is known; with motion it gives energy.
+    // Takes the wrench of the commanded tensions, which with the motion gives the energy.
     void achieved(const Wrench &wrench) noexcept { parts_.observer.hold(wrench); }
 
     // The contacts' part of the last render().

@@ -15,7 +15,7 @@ namespace spidar {
 class BodyPushes {
 public:
     struct Terms {
-        WorldFrame frame;        // as the bodies stand in the scene
+        WorldFrame frame;        // of the device's node at the last physics step
         double most_n = 8.0;     // the device's own limit
         double since_s = 0.0;    // device time since the last tick
         double time_scale = 1.0; // Engine.time_scale

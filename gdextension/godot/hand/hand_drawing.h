@@ -44,7 +44,7 @@ private:
     // Look of lines.
     struct Pen {
         godot::Color color;
-        double width_px; // on a screen 720 pixels high; more on a higher one
+        double width_px; // up to a screen height of 720 pixels; proportional above
     };
 
     void prepare(godot::Node3D &hand);

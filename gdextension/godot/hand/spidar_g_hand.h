@@ -180,8 +180,8 @@ private:
     spidar::SurfaceNews news_;
 
     spidar::Pinch pinch_;
-    double pinch_age_s_ = 0.0; // since both pads last lay on it
-    double resting_s_ = 0.0;   // since the pads last closed further
+    double pinch_age_s_ = 0.0; // time since both pads lay on the body
+    double resting_s_ = 0.0;   // time for which the width has rested
     double squeeze_nm_ = 0.0;
     spidar::GraspJudge judge_;
 

@@ -18,7 +18,7 @@ struct HandFeel {
     double stiffness_n_m = 0.0; // 0: automatic
     double damping_n_s_m = 2.0;
     double friction = 0.4;
-    double squeeze_nm_rad = 0.0; // of what is between the pads, or held; 0: automatic
+    double squeeze_nm_rad = 0.0; // stiffness of the held or pinched body; 0: automatic
     // True: no force centers the hand on what it closes on; the pads center themselves.
     bool centres_itself = false;
     std::uint64_t pinched = 0; // RID of the body between the pads: it cannot get out of their way
@@ -29,10 +29,10 @@ struct HandFeel {
 
 struct HeldTool {
     const std::vector<HeldShapes::Part> &parts;
-    Placement grip;    // the proxy's
+    Placement grip;    // pose of the proxy
     Placement in_grip; // pose of the body in the grip, device meters
     double stop_rad = 0.0;
-    bool is_detained = false; // its shapes touch nothing
+    bool is_detained = false; // the body's shapes touch nothing
 };
 
 // Makes the scene. held: null while nothing is held. load: wrench of what the tool carries, about

@@ -62,5 +62,5 @@ private:
 
     godot::Ref<SpidarGMaterial> material_;
     std::uint64_t body_ = 0;
-    std::vector<ByHand> touches_; // of hands that touch it now
+    std::vector<ByHand> touches_; // one per hand that touches the surface now
 };

@@ -221,7 +221,7 @@ private:
             const Four out_a = Four::max(lower.a - x.a, x.a - upper.a);
             const Four out_b = Four::max(lower.b - x.b, x.b - upper.b);
             if (Row::bits((tolerance < out_a) & mask.a, (tolerance < out_b) & mask.b) == 0) {
-                return true; // the usual case of a warm tick
+                return true; // usual end of a warm tick
             }
             const double condition = stiffness_ * table_.softest(mask);
             contraction_ = kTableRounding * condition * condition;

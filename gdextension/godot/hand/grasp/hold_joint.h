@@ -76,11 +76,11 @@ private:
     godot::Node3D *rig_ = nullptr;
     godot::AnimatableBody3D *anchor_ = nullptr;
     godot::Generic6DOFJoint3D *joint_ = nullptr;
-    godot::Transform3D caught_; // from the anchor to the body, as it was when caught
+    godot::Transform3D caught_; // from the anchor to the body, when caught
     double off_centre_m_ = 0.0;
     godot::Transform3D seat_;
     godot::Transform3D from_seat_; // pose in the grip when last detained
-    double free_s_ = 0.0;          // since then
+    double free_s_ = 0.0;          // time since last detained
     double age_s_ = 0.0;
 };
 

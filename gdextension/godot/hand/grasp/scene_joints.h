@@ -27,7 +27,7 @@ public:
         std::uint64_t joint = 0;
         Side held;
         Side other;
-        bool held_is_first = false; // is Joint3D.node_a, or the only one
+        bool held_is_first = false; // the held body is Joint3D.node_a, or the only body
     };
 
     // Reads all joints below `root`.

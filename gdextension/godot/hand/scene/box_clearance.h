@@ -1,4 +1,4 @@
-// A lower bound of the distance of two boxes: their largest separation along the axes of either.
+// Lower bound of the distance of two boxes: largest separation along the face axes of either.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,7 @@ struct TurnedBox {
     Vec3 half_extents_m{0.0};
 };
 
-// Returns the bound (unit: m), negative when the boxes overlap along all six axes. Never above
-// their distance.
+// Returns the bound (unit: m); negative when the boxes overlap along all six axes.
 [[nodiscard]] inline double clearance(const TurnedBox &a, const TurnedBox &b) noexcept {
     const Mat3 turn = glm::transpose(a.at.rotation) * b.at.rotation;
     const Vec3 apart = b.at.origin_m - a.at.origin_m;

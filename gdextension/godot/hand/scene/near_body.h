@@ -41,9 +41,9 @@ struct BodyShape {
 
 // Device and node in the scene in this tick.
 struct Moment {
-    WorldFrame now;                   // where the node is
-    WorldFrame in_space;              // where it was at the last physics step
-    const NodeMotion *node = nullptr; // its motion through the scene, until that step
+    WorldFrame now;                   // pose of the node in this tick
+    WorldFrame in_space;              // pose of the node at the last physics step
+    const NodeMotion *node = nullptr; // motion of the node until that step
     double tick_s = 0.0;
     double time_scale = 1.0; // 0 while physics stands still
 };
@@ -137,7 +137,7 @@ private:
 struct TurnAndScale {
     Mat3 turn{1.0};
     Vec3 scale{1.0};      // x below zero: mirrored
-    bool sheared = false; // not perpendicular, or without length
+    bool sheared = false; // axes not perpendicular, or one without length
 };
 [[nodiscard]] TurnAndScale take_apart(const Mat3 &axes) noexcept;
 

@@ -26,9 +26,9 @@ struct ShapeNumbers {
     double offset = 0.0;    // of a world boundary: solid below normal . x = offset
     bool two_sided = false;
     bool evened = true; // round shapes of uneven scale take the mean of their scales
-    const godot::Vector3 *points = nullptr; // of a hull; of a mesh three a triangle, clockwise
+    const godot::Vector3 *points = nullptr; // of a hull; of a mesh, three per triangle, clockwise
     std::int64_t point_count = 0;
-    const float *heights = nullptr; // of a height map: width times depth of them
+    const float *heights = nullptr; // of a height map: width times depth values
     std::int64_t height_count = 0;
     int width = 0;
     int depth = 0;

@@ -18,9 +18,9 @@
 namespace spidar {
 
 enum class PieceState : std::uint8_t {
-    cooking, // not felt yet
+    cooking, // not rendered yet
     ready,
-    // Never felt; why_not holds the reason.
+    // Never rendered; why_not holds the reason.
     refused,
 };
 

@@ -78,8 +78,8 @@ struct SurroundingsCounts {
     int far = 0;         // shapes of those bodies that are not near
     int left_out = 0;    // near, beyond the nearest kMostNearShapes
     int cooking = 0;     // near, but not ready yet
-    int refused = 0;     // near, and never felt: take_messages() tells why
-    int soft_bodies = 0; // met so far; not felt
+    int refused = 0;     // near, never rendered: take_messages() returns why
+    int soft_bodies = 0; // found so far; not rendered
 };
 
 // Returns whether `rid` is in the list.
@@ -106,7 +106,7 @@ public:
     [[nodiscard]] const std::vector<NearShape> &shapes() const noexcept { return shapes_; }
     [[nodiscard]] const SurroundingsCounts &counts() const noexcept { return counts_; }
     [[nodiscard]] const ShapeShelf::Counts &shelf() const noexcept { return shelf_.counts(); }
-    // Returns messages about things that cannot be felt, each once, and empties the list.
+    // Returns messages about things that cannot be rendered, each once, and empties the list.
     [[nodiscard]] std::vector<std::string> take_messages();
 
 private:
