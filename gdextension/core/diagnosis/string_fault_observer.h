@@ -52,7 +52,7 @@ struct FaultEvidence {
     double parity_rms_m = 0.0; // of the lengths without any correction
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const FaultEvidence &evidence) noexcept {
     return is_one_of(evidence.fault, StringFault::reversed) && is_string_or_none(evidence.string) &&
            is_string_or_none(evidence.other);
@@ -71,7 +71,7 @@ public:
     // for these lengths. Ignores lengths that are not finite.
     const FaultEvidence &update(const CountArray &counts, const StringArray &lengths_m,
                                 const KinematicsResult &solved) noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(configured_, suspicious_, has_last_) && spidar::is_sound(grip_) &&
                kinematics_.is_sound() && next_string_ < kStringCount && next_wiring_ < kWiring &&

@@ -39,7 +39,7 @@ struct GripGeometry {
     StringVectors joints_m{};
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const GripGeometry &grip) noexcept {
     bool sound = is_one_of(grip.kind, GripKind::rigid);
     for (const Attachment &attachment : grip.attachments) {

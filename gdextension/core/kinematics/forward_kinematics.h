@@ -93,7 +93,7 @@ public:
         prior_.restart();
         forget_motion();
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(crossed_, is_box_, closed_form_, warm_, foreseeing_, still_, fresh_,
                          ambiguous_) &&

@@ -30,7 +30,7 @@ public:
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
     // True when no change of phase waits for its dwell.
     [[nodiscard]] bool at_rest() const noexcept { return candidate_ == phase_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return is_one_of(phase_, GraspPhase::over_closed) &&
                is_one_of(candidate_, GraspPhase::over_closed);

@@ -66,7 +66,7 @@ public:
     [[nodiscard]] double length_sigma_m() const noexcept { return std::sqrt(variance_m2_); }
     // The movement expected in the next tick.
     [[nodiscard]] const CrossedPose &expected_change() const noexcept { return change_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:

@@ -20,7 +20,7 @@ public:
     // Takes one tick with the newest found pose. Returns the pose to show.
     GripPose next(const GripPose &found) noexcept;
     [[nodiscard]] const GripPose &shown() const noexcept { return shown_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return left_ >= 0 && left_ <= kLongest_ticks; }
 
 private:

@@ -77,7 +77,7 @@ public:
     void forget_settled() noexcept { settled_ = false; }
     // Forgets the last tick: the next update() starts cold and has no change term.
     void reset() noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(last_result_.skipped, warm_, has_last_, settled_) &&
                supports(settings_.simd) && spidar::is_sound(last_active_) &&

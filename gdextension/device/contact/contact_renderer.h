@@ -46,7 +46,7 @@ public:
     // Writes one report per contact, in the command's order. Returns their number.
     int report(std::array<ContactReport, kMaxContacts> &reports) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return count_ == 0; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return count_ <= tracks_.size() && are_flags(caps_.from_latency) && clock_.is_sound() &&
                std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {

@@ -30,7 +30,7 @@ public:
                const Vec3 &pivot_m) noexcept;
     // Returns the surface at the present time of `clock`.
     [[nodiscard]] ContactSurface now(const GameClock &clock) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(fading_in_) && spidar::is_sound(plane_.target);
     }

@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-// The numbers are stored in recordings and used by the Godot interface: append, never reorder.
+// The values are stored in recordings and used by the Godot interface: append, never reorder.
 enum class DeviceEventKind : std::uint8_t {
     device_connected = 0,
     device_lost,
@@ -97,7 +97,7 @@ public:
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return {events_.data(), count_};
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(silent_) && count_ <= events_.size() &&
                std::all_of(memory_.begin(), memory_.end(),

@@ -36,7 +36,7 @@ public:
     }
     // True while the request may still be extrapolated.
     [[nodiscard]] bool carries() const noexcept { return late_s_ + age_s_ <= most_s(); }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(received_); }
 
 private:

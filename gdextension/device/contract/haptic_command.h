@@ -31,7 +31,7 @@ enum class ContactTarget : std::uint8_t {
     turn_stop = 6,
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(ContactTarget target) noexcept {
     return is_one_of(target, ContactTarget::turn_stop);
 }

@@ -124,7 +124,7 @@ struct ServoSnapshot {
     std::uint8_t buttons = 0;
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] inline bool is_sound(const ServoSnapshot &snapshot) noexcept {
     bool sound = is_one_of(snapshot.state, DeviceState::calibrated) &&
                  is_one_of(snapshot.grasp, GraspPhase::over_closed) &&

@@ -24,7 +24,7 @@ public:
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return !live_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(live_, caps_.from_latency) && clock_.is_sound();
     }

@@ -26,7 +26,7 @@ public:
     Wrench render(const GripMotion &motion) noexcept;
     // True when every effect has ended and removed ones have faded.
     [[nodiscard]] bool at_rest() const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return count_ <= tracks_.size() && are_flags(caps_.from_latency) &&
                std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {

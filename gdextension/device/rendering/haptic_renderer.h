@@ -55,7 +55,7 @@ public:
         return parts_.wrench.rests_through(dt_s);
     }
     void advance_at_rest(double dt_s) noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return parts_.motion.is_sound() && parts_.contacts.is_sound() && parts_.touch.is_sound() &&
                parts_.coupling.is_sound() && parts_.wrench.is_sound() &&

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
     // True when the grip stood still so long that updates without motion change nothing.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:

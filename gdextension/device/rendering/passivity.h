@@ -21,7 +21,7 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
     // Net work on the hand per DOF since the start (unit: J); positive: given to the hand.
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:
@@ -50,7 +50,7 @@ public:
                    double dt_s) noexcept;
     // True when nothing changes while nothing is requested, wherever the grip moves.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] bool rests_through(double dt_s) const noexcept {
         return !live_ || age_s_ + dt_s <= duration_s_;
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(live_); }
 
 private:

@@ -81,7 +81,7 @@ public:
     [[nodiscard]] bool checking_zero() const noexcept {
         return state_ == DeviceState::taut && zero_taken_;
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return is_one_of(state_, DeviceState::calibrated) && is_one_of(rearm_, Rearm::by_arm) &&
                is_string_or_none(fault_string_) &&

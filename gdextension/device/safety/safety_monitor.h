@@ -67,7 +67,7 @@ public:
     [[nodiscard]] const StringMonitor &strings() const noexcept { return parts_.strings; }
     [[nodiscard]] const ThermalBudget &heat() const noexcept { return parts_.heat; }
     void set_heat(const StringArray &heat) noexcept { parts_.heat.set_heat(heat); }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(fading_, named_told_) && workspace_.is_sound() &&
                parts_.speed.is_sound() && parts_.shake.is_sound() && parts_.bounce.is_sound() &&

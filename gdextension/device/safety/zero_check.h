@@ -50,7 +50,7 @@ public:
                                                               : Verdict::pending;
     }
     [[nodiscard]] double worst_m() const noexcept { return worst_m_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(running_, started_); }
 
 private:

@@ -86,7 +86,7 @@ struct DofCap {
 [[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
                                    double rate_hz);
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] inline bool is_sound(const GainClamp &clamp) noexcept {
     return are_flags(clamp.from_latency) && is_one_of(clamp.gain, GainClamp::Gain::wrench) &&
            is_one_of(clamp.request, GainClamp::Request::wrench);

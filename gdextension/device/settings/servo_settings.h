@@ -71,7 +71,7 @@ struct ServoSettings {
     RenderSettings render;
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] inline bool is_sound(const FingerSettings &fingers) noexcept {
     return are_flags(fingers.by_game) && fingers.sensor >= -1 && fingers.sensor < kSensorCount;
 }

@@ -42,7 +42,7 @@ void SimulatedLink::send(const StringArray &currents_a, double now_s, double ext
         first_ = (first_ + 1) % kMostOnTheWay;
         --count_;
     }
-    // On one wire nothing overtakes.
+    // On one wire no command overtakes another.
     const double due_s = count_ > 0 ? std::max(last_due_s_, now_s + delay_s) : now_s + delay_s;
     ring_[(first_ + count_) % kMostOnTheWay] = {due_s, currents_a};
     last_due_s_ = due_s;

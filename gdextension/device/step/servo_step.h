@@ -80,7 +80,7 @@ public:
     [[nodiscard]] Awake awake_parts() const noexcept {
         return {awake_mask(parts_), parts_.renderer.awake_parts(), parts_.monitor.awake_parts()};
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return spidar::is_sound(settings_) && parts_.events.is_sound() && parts_.drive.is_sound() &&
                parts_.machine.is_sound() && parts_.tracker.is_sound() && parts_.link.is_sound() &&

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // True when strings at a bound changed the wrench of the last pull().
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(render_.caps_from_latency, matrix_valid_, solver_warm_, at_rest_,
                          saturated_) &&

@@ -30,7 +30,7 @@ public:
     // True when take() with these arguments would change nothing.
     [[nodiscard]] bool has_seen(const DeviceReading &reading,
                                 const HapticCommand &command) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(motion_.given) && spidar::is_sound(settings_);
     }

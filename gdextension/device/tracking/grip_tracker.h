@@ -52,7 +52,7 @@ public:
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest point among P0 and the four pole ends (unit: m/s).
     [[nodiscard]] double fastest_point_m_s() const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(carried_, has_pose_, solved_, grip_.frame.rotation_held,
                          measured_frame_.rotation_held) &&

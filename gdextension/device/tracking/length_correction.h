@@ -18,7 +18,7 @@ public:
     // unchanged counts change.
     bool follow(const StringArray &tensions_n, double dt_s) noexcept;
     [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(wound_, stretched_); }
 
 private:

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] double apart_s() const noexcept { return apart_s_; }
     // Age of the newest report, 0 to kOldest_s. Valid in cycles with a report.
     [[nodiscard]] double age_s() const noexcept { return age_s_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(known_, believed_, has_before_);
     }

@@ -86,7 +86,7 @@ public:
     // Scale of the wrench, 0..1.
     [[nodiscard]] double scale() const noexcept { return scale_; }
     [[nodiscard]] bool at_rest() const noexcept { return scale_ >= 1.0; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(answered_) && order_.is_sound() && clock_.is_sound();
     }

@@ -39,7 +39,7 @@ public:
     }
     // Reports lost before the last accepted one.
     [[nodiscard]] int missed() const noexcept { return missed_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(known_) && is_tally(missed_) && is_tally(old_in_row_);
     }

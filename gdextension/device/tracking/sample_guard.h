@@ -33,7 +33,7 @@ public:
 
     // The string (0-7) that moved too fast in the last bad sample; -1 before any.
     [[nodiscard]] int bad_string() const noexcept { return bad_string_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(has_reference_) && is_tally(max_bad_samples_) && is_tally(bad_in_row_) &&
                is_string_or_none(bad_string_);

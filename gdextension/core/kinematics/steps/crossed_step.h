@@ -32,7 +32,7 @@ struct CrossedLayout {
     double pole_half_length_m = 0.0;
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const CrossedLayout &layout) noexcept {
     bool sound = true;
     for (const auto &slot : layout.strings) {

@@ -29,7 +29,7 @@ struct TensionProblem {
 enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
 using ActiveSet = std::array<StringBound, kStringCount>;
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const ActiveSet &active) noexcept {
     bool sound = true;
     for (const StringBound bound : active) {

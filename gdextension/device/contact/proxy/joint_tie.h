@@ -56,7 +56,7 @@ public:
     [[nodiscard]] double coordinate(int axis) const noexcept {
         return states_[0].at[static_cast<std::size_t>(axis)];
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
 
 private:

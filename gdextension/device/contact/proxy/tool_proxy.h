@@ -103,7 +103,7 @@ public:
     [[nodiscard]] int queries() const noexcept { return queries_; }
     // Number of solver passes in the last cycle.
     [[nodiscard]] int passes() const noexcept { return passes_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
 
 private:

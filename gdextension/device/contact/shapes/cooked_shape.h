@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-// The numbers are stored in recordings: append new kinds.
+// The values are stored in recordings: append new kinds.
 enum class ShapeKind : std::uint8_t {
     box = 0,    // half_extents_m
     sphere = 1, // radius_m

@@ -15,7 +15,7 @@ namespace spidar {
 // Default skin (unit: m): a tenth of a pad, and 40 encoder counts.
 inline constexpr double kDefaultSkin_m = 1e-3;
 
-// The numbers are stored in recordings: append new kinds.
+// The values are stored in recordings: append new kinds.
 enum class ToolKind : std::uint8_t {
     pad = 0,    // radius_m, half_thickness_m, skin_m
     sphere = 1, // radius_m

@@ -265,7 +265,7 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         load_age_s_ += dt_s;
         const double share = cross_fade(load_age_s_);
         load_now_ = blend(load_from_, load_, share);
-        // The load pulls on the proxy, up to its springs or to what carries it.
+        // The load displaces the proxy's target by load / stiffness in each DOF.
         DofLanes gives = lanes(load_now_);
         for (std::size_t dof = 0; dof < gives.size(); ++dof) {
             gives[dof] /= settings_.stiffness[dof];

@@ -51,7 +51,7 @@ public:
         return scene_.count == 0 && !loaded_ && tool_.joint_count == 0 &&
                !(proxy_.stop_push_nm() > 0.0);
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
 
     // Sets all pointers after the state was restored from a recording. shape_of, tool_of: return

@@ -18,7 +18,7 @@ public:
     [[nodiscard]] bool at_rest() const noexcept { return !touching_ && row_ == 0; }
     // Speed after the last bounce (unit: m/s at the pole ends).
     [[nodiscard]] double speed_m_s() const noexcept { return speed_m_s_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(touching_) && is_tally(row_); }
 
 private:

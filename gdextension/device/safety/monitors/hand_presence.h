@@ -49,7 +49,7 @@ public:
     [[nodiscard]] bool present() const noexcept {
         return !(limit_s_ > 0.0) || (moved_ && still_s_ <= limit_s_);
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(known_, moved_, moving_); }
 
 private:

@@ -31,7 +31,7 @@ public:
 
     // Time without shaking after which the scale returns (unit: s).
     static constexpr double kCalm_s = 2.0;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(unstable_); }
 
 private:

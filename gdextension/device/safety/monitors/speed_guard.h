@@ -38,7 +38,7 @@ public:
         return fast_s_ > 0.0 && fast_s_ + 0.5 * dt_s >= kHold_s;
     }
     [[nodiscard]] bool too_fast() const noexcept { return too_fast_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(too_fast_); }
 
 private:

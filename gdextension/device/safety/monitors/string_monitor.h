@@ -32,7 +32,7 @@ public:
     // The string (0-7) that stands still or that the observer found; -1 when unknown.
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double parity_m() const noexcept { return parity_m_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(names_, started_, faulty_) && is_string_or_none(string_) &&
                observer_.is_sound() && spidar::is_sound(named_);

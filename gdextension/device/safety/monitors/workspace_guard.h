@@ -22,7 +22,7 @@ public:
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
     // The box without wall, device frame (unit: m).
     [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(on_); }
 
 private:
