@@ -19,20 +19,21 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kTurn_rad = 30.0 * kDegree;
-// Closure is asked for with tensions of 1 to this: beyond, one string would idle while another is at its limit.
+// Largest tension of the closure test, whose smallest is 1. Beyond it one string would idle while
+// another is at its limit.
 constexpr double kTensionRange = 1000.0;
-// A net wrench per newton of tension below this is none: rounding and the ridge.
+// Largest net wrench per newton of tension that counts as zero (rounding and the ridge).
 constexpr double kNoWrench = 1e-6;
 constexpr double kRidge = 1e-12;
-constexpr double kLostPivot = 1e-9; // of the largest: the direction is lost
+constexpr double kLostPivot = 1e-9; // share of the largest pivot below which a direction is lost
 constexpr double kSamePlace_m = 1e-6;
-constexpr double kLowShare = 0.5; // of the poses tried
+constexpr double kLowShare = 0.5; // share of closed poses below which the report complains
 
 constexpr const char *kMotions[] = {"motion along x",   "motion along y",   "motion along z",
                                     "the turn about x", "the turn about y", "the turn about z",
                                     "the grasp"};
 
-// Messages to people count strings from 1.
+// Messages number strings from 1.
 std::string number(std::size_t string) {
     return std::to_string(string + 1);
 }
@@ -88,7 +89,7 @@ int rank_of(const TensionProblem &problem) noexcept {
     return rank;
 }
 
-// W (A tau - q)
+// Returns W (A tau - q).
 PaperWrench weighted_error(const TensionProblem &problem, const StringArray &tensions) noexcept {
     PaperWrench error = apply(problem.matrix, tensions);
     for (std::size_t k = 0; k < error.size(); ++k) {
@@ -97,7 +98,7 @@ PaperWrench weighted_error(const TensionProblem &problem, const StringArray &ten
     return error;
 }
 
-// What can be given of three degrees of freedom in both directions: the least of them.
+// Returns the smallest capacity of three degrees of freedom over both signs.
 double capacity_of_three(const WrenchMatrix &matrix, const TensionSettings &settings,
                          std::size_t first) noexcept {
     double least = HUGE_VAL;
@@ -106,7 +107,8 @@ double capacity_of_three(const WrenchMatrix &matrix, const TensionSettings &sett
             PaperWrench wrench{};
             wrench[k] = sign;
             const FeasibleScale scale = feasible_scale(matrix, wrench, settings);
-            // What can be given is convex: where no wrench at all cannot, the grip is not held.
+            // The feasible wrenches are convex: where zero wrench is not feasible, the grip cannot
+            // be held.
             least = std::min(least, scale.any && scale.least == 0.0 ? scale.largest : 0.0);
         }
     }
@@ -131,7 +133,8 @@ void complain_about_places(const FrameGeometry &frame, const GripGeometry &grip,
     }
 }
 
-// The exchange of two motors that would close the strings best: the sign of a slip in the numbering or in an axis.
+// Suggests the exchange of two motors that closes the strings best: a likely error in the numbering
+// or in an axis.
 void complain_about_exchange(const FrameGeometry &frame, const GripGeometry &grip,
                              std::vector<std::string> &complaints) {
     double best = 0.0;
@@ -178,7 +181,7 @@ PoseStatics pose_statics(const FrameGeometry &frame, const GripGeometry &grip,
     const double size = norm(left.values);
     const int full = grip.kind == GripKind::rigid ? 6 : kDofCount;
     const double most = *std::max_element(tensions.begin(), tensions.end());
-    // By its optimality no string works against what the strings leave over.
+    // At the optimum no string can reduce the remaining wrench.
     if (size > kNoWrench * most) {
         for (std::size_t k = 0; k < left.size(); ++k) {
             statics.unopposed[k] = left[k] / size;

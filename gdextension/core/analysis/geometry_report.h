@@ -1,5 +1,6 @@
-// Whether a frame and a grip can work together, and if not, why: for a new device before it is built, and for one whose
-// published numbers are in doubt. Takes a fraction of a second; not for the servo loop. Allocates.
+// Reports whether a frame and a grip can work together, and if not, why. Meant for a device that is
+// being designed and for one whose published numbers are in doubt. Takes a fraction of a second and
+// allocates: not for the servo loop.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,17 @@
 
 namespace spidar {
 
-// What the strings can do at one pose, moments over the grip's lever so that all rows are newtons.
+// What the strings can do at one pose. Moments and grasp torque are divided by the pole half length
+// d, so that all rows are newtons.
 struct PoseStatics {
-    int rank = 0;        // of the wrench matrix; degrees_of_freedom where nothing is lost
-    bool closed = false; // some tensions, all above 0, give no wrench: the grip can be held
-    double margin = 0.0; // smallest over largest of them, 0..1
-    // Where not closed: a motion (v, omega d, -psi_rate/2 d; length 1) that every string helps or leaves alone and no
-    // string hinders. Zero where closed.
+    // Rank of the weighted wrench matrix. Equals degrees_of_freedom where no direction is lost.
+    int rank = 0;
+    // True when the rank is full and all-positive tensions can balance: the strings hold the grip.
+    bool closed = false;
+    // Smallest over largest of those tensions, 0..1. 0 where not closed.
+    double margin = 0.0;
+    // A motion (v, omega d, -psi_rate/2 d) of length 1 that no string opposes. Zero where the
+    // strings are closed, and where only the rank is lost.
     PaperWrench unopposed{};
 };
 
@@ -26,19 +31,25 @@ struct PoseStatics {
                                        const GripPose &pose) noexcept;
 
 struct GeometryReport {
-    int degrees_of_freedom = 7; // 6 for a rigid grip
+    // 6 for a rigid grip.
+    int degrees_of_freedom = 7;
     PoseStatics at_rest;
-    double closure_share =
-        0.0; // of the poses tried: P0 within a quarter of the frame, turns within 30 degrees
+    // Share (0..1) of the `poses` random poses at which the strings are closed. The poses are drawn
+    // from the middle quarter of the motors' box along each axis, turned by up to 30 degrees about
+    // each axis, with the grip open.
+    double closure_share = 0.0;
     int poses = 0;
-    // Largest that can be given in every one of the six directions at rest (unit: N, N m), tensions within min..max.
+    // Force that can be given in every direction along the axes at rest, within the tension limits.
     double force_capacity_n = 0.0;
+    // Moment that can be given in either sense about every axis at rest, within the tension limits.
     double moment_capacity_nm = 0.0;
-    std::vector<std::string> complaints; // plain sentences; empty: nothing found
+    // One plain sentence per problem; empty when no problem was found.
+    std::vector<std::string> complaints;
     [[nodiscard]] bool sound() const noexcept { return complaints.empty(); }
 };
 
-// Precondition: validate(frame) and validate(grip, frame) are empty. Poses are seeded: the same report each time.
+// Requires that validate(frame) and validate(grip, frame) are empty. `poses` is the number of
+// random poses that are tried. The seed is fixed: equal input gives an equal report.
 [[nodiscard]] GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &grip,
                                              double min_tension_n, double max_tension_n,
                                              int poses = 500);

@@ -12,9 +12,9 @@ namespace spidar {
 
 namespace {
 
-// A pivot below this share of the largest element: the direction is lost to rounding.
+// Share of the largest element below which a pivot is rounding and its direction lost.
 constexpr double kLostPivot = 1e-12;
-// How far outside its limits a string may be at a corner of the feasible region: rounding of 10 N.
+// Tolerance of a tension limit at a corner of the feasible region: the rounding of 10 N.
 constexpr double kSlack_n = 1e-11;
 
 // All tensions with W A tau = s W q: tau = s particular + t null.
@@ -91,7 +91,7 @@ Solutions solve_all(const WrenchMatrix &matrix, const PaperWrench &wrench,
     return result;
 }
 
-// lower <= s particular + t null <= upper, for each string, with some slack.
+// True when lower <= s particular + t null <= upper for each string, within the tolerance.
 bool feasible(const Solutions &all, const TensionSettings &settings, double s, double t) noexcept {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const double tension = s * all.particular[i] + t * all.null[i];
@@ -104,14 +104,15 @@ bool feasible(const Solutions &all, const TensionSettings &settings, double s, d
     return true;
 }
 
-// Where the mask leaves DOF out there are many null vectors, and many tensions for one wrench: what can be given is then
-// asked of the solver itself. A weighted wrench nearer than this is given (unit: N at the pole ends).
+// With a DOF mask there are many null vectors, and many tensions for one wrench, so that the solver
+// itself decides what is feasible. A weighted error below this is feasible (unit: N at the pole
+// ends).
 constexpr double kGiven_n = 1e-9;
-// Stands for "no regularising term".
+// Weight of a regularizing term that has no effect except uniqueness.
 constexpr double kVanishingWeight = 1e-12;
-// Halvings of an interval of 1 until rounding.
+// Halvings that narrow an interval of 1 to rounding.
 constexpr int kHalvings = 45;
-// A margin below this is none.
+// Smallest margin that counts.
 constexpr double kNoMargin = 1e-7;
 
 TensionProblem masked_problem(const WrenchMatrix &matrix, const TensionSettings &settings,
@@ -188,7 +189,7 @@ FeasibleScale masked_scale(const WrenchMatrix &matrix, const PaperWrench &wrench
         result.largest = none.given ? std::numeric_limits<double>::infinity() : 0.0;
         return result;
     }
-    // The distance to what can be given is convex in the scale: halve towards its least.
+    // The distance to the feasible set is convex in the scale: bisection finds its minimum.
     const double most = reach_n / std::sqrt(request);
     double low = 0.0;
     double high = most;
@@ -253,7 +254,7 @@ FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wren
         scale.largest = scale.any ? std::max(scale.largest, s) : s;
         scale.any = true;
     };
-    // A zero request: any t that keeps the null tensions within the limits will do.
+    // For a zero request any t that keeps the null tensions within the limits is feasible.
     if (std::all_of(wrench.begin(), wrench.end(), [](double q) { return q == 0.0; })) {
         for (std::size_t i = 0; i < kStringCount && !scale.any; ++i) {
             for (const double limit : limits) {
@@ -264,8 +265,8 @@ FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wren
         }
         return scale;
     }
-    // The region is a polygon in (s, t): its extremes in s lie on corners, where two strings are at a limit; or on s = 0,
-    // below which the request would change its sign.
+    // The region is a polygon in (s, t). Its extremes in s lie at corners, where two strings are at
+    // a limit, or on s = 0, below which the request would change its sign.
     for (std::size_t i = 0; i < kStringCount; ++i) {
         for (const double limit : limits) {
             if (all.null[i] != 0.0 && feasible(all, settings, 0.0, limit / all.null[i])) {

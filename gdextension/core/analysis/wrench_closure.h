@@ -1,5 +1,5 @@
-// How well the strings close around the grip at a pose, and how much of a request they can give. Looked at when asked, not
-// in the servo step.
+// How well the strings close around the grip at a pose, and how much of a request they can give.
+// Diagnosis on request: not for the servo step.
 #pragma once
 
 #include "core/base/types.h"
@@ -9,24 +9,27 @@
 namespace spidar {
 
 struct WrenchClosure {
-    // Smallest over largest element of the null vector of A: 1 when all strings share alike, 0 when some wrench cannot be
-    // given by strings that only pull, or A has lost rank, or a string is broken.
+    // Smallest over largest element of the null vector of A: 1 when all strings share equally. 0
+    // when strings that only pull cannot give some wrench, when A has lost rank or, with all DOF,
+    // when a string is broken.
     double margin = 0.0;
-    // Tensions that give no wrench, largest 1; zero when A has lost rank. Signs differ when closure is lost.
+    // Tensions that give no wrench, scaled to a largest element of 1. Elements of both signs: the
+    // strings do not close. Zero when A has lost rank.
     StringArray null_tensions{};
 };
 
-// Weights of `settings` only scale the rows against each other (for the rank); broken strings count as absent. Under a
-// DOF mask: for the DOF that count, the best of many null vectors, to 1e-7 by some 45 solves.
+// `settings` supplies the DOF mask, the broken strings and the weights; the weights only scale the
+// rows for the rank decision. With a DOF mask there are many null vectors: the one with the largest
+// margin is found by 45 bisection steps, and a margin below 1e-7 counts as 0.
 [[nodiscard]] WrenchClosure wrench_closure(const WrenchMatrix &matrix,
                                            const TensionSettings &settings) noexcept;
 
-// Factors s for which some tensions within the limits of `settings` give exactly s q.
+// The interval of factors s >= 0 for which some tensions within the limits give exactly s q.
 struct FeasibleScale {
-    bool any =
-        false; // false: no multiple of q can be given (or A has lost rank, or input is not finite)
+    // False when no such factor exists, when A has lost rank, or when q is not finite.
+    bool any = false;
     double least = 0.0;
-    double largest = 0.0; // infinity for a zero q that can be given
+    double largest = 0.0; // infinity for q = 0 when zero wrench can be given
 };
 
 [[nodiscard]] FeasibleScale feasible_scale(const WrenchMatrix &matrix, const PaperWrench &wrench,

@@ -1,4 +1,4 @@
-// How validate() writes a field and a value, so that every message reads alike.
+// How validate() writes a field and a value, so that all messages have one form.
 #pragma once
 
 #include <cmath>
@@ -10,9 +10,9 @@
 
 namespace spidar {
 
-// "0.04 m", "nan m"; the number alone where the unit is "".
+// Returns "0.04 m" or "nan m"; the number alone when the unit is empty.
 [[nodiscard]] inline std::string with_unit(double value, std::string_view unit) {
-    char digits[32] = "nan"; // no sign: printf's depends on the payload
+    char digits[32] = "nan"; // without a sign, which printf would take from the NaN's payload
     if (!std::isnan(value)) {
         std::snprintf(digits, sizeof digits, "%.9g", value);
     }
@@ -23,13 +23,13 @@ namespace spidar {
     return text;
 }
 
-// "motors_m[3] (string 4)": code counts from 0, paper and hardware from 1.
+// Returns "motors_m[3] (string 4)": code counts strings from 0, paper and hardware from 1.
 [[nodiscard]] inline std::string element_name(const char *field, std::size_t string) {
     return std::string(field) + "[" + std::to_string(string) + "] (string " +
            std::to_string(string + 1) + ")";
 }
 
-// "rate_hz is 5 Hz; give 100 or more." `remedy` says what to do, as the rest of the sentence with its full stop.
+// Returns "rate_hz is 5 Hz; give 100 or more." `remedy`: rest of the sentence with full stop.
 [[nodiscard]] inline std::string range_sentence(std::string_view field, double value,
                                                 std::string_view unit, std::string_view remedy) {
     return std::string(field)
@@ -39,7 +39,7 @@ namespace spidar {
         .append(remedy);
 }
 
-// A field, and the range in which validate() accepts its value: both ends included.
+// A field, its value and the range least..most (both included) that validate() accepts.
 struct ValueRange {
     const char *field;
     double value;
@@ -48,7 +48,8 @@ struct ValueRange {
     double most;
 };
 
-// "rate_hz is 5 Hz; set it between 100 and 4000 Hz." Empty when the value lies within the range; NaN lies in none.
+// Returns "rate_hz is 5 Hz; set it between 100 and 4000 Hz.", or an empty string when the value
+// lies within the range. NaN lies in no range.
 [[nodiscard]] inline std::string range_sentence(const ValueRange &range) {
     if (range.value >= range.least && range.value <= range.most) {
         return {};
@@ -58,7 +59,7 @@ struct ValueRange {
                               with_unit(range.most, range.unit) + ".");
 }
 
-// The sentence of the first field that is out of its range; empty when there is none.
+// Returns the sentence of the first field that is out of its range, or an empty string.
 [[nodiscard]] inline std::string first_out_of_range(std::span<const ValueRange> ranges) {
     for (const ValueRange &range : ranges) {
         std::string sentence = range_sentence(range);

@@ -1,4 +1,4 @@
-// Is a value, and every number inside it, neither NaN nor infinite?
+// all_finite(): true when a value, and every number inside it, is neither NaN nor infinite.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ namespace spidar {
     return true;
 }
 
-// An array of any of these, or of such arrays.
+// Accepts arrays of the types above, and arrays of such arrays.
 template <class T, std::size_t kCount>
 [[nodiscard]] bool all_finite(const std::array<T, kCount> &values) noexcept {
     for (const T &value : values) {
@@ -47,7 +47,7 @@ template <class Meaning>
     return all_finite(row.values);
 }
 
-// Several values at once.
+// True when all arguments are finite.
 template <class First, class Second, class... Rest>
 [[nodiscard]] bool all_finite(const First &first, const Second &second,
                               const Rest &...rest) noexcept {
@@ -62,7 +62,7 @@ template <class First, class Second, class... Rest>
     return all_finite(twist.linear_m_s, twist.angular_rad_s, twist.grasp_rate_rad_s);
 }
 
-// Above zero, and neither NaN nor infinite.
+// True for a number above 0 that is not infinite.
 [[nodiscard]] inline bool positive_finite(double value) noexcept {
     return value > 0.0 && std::isfinite(value);
 }

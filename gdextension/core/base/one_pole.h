@@ -1,4 +1,5 @@
-// A first-order low-pass filter, exact at any time step: which share of the way to its input a value goes.
+// First-order low-pass filter, exact at any time step. It reports the share by which the caller
+// moves its filtered value towards the input.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,8 @@ public:
     explicit OnePole(double cutoff_hz = 0.0) noexcept
         : cutoff_rad_s_(2.0 * std::numbers::pi * cutoff_hz) {}
 
-    // In one step. The last time step's share is kept: an exponential a cycle is saved.
+    // Returns the share (0..1) for one step of dt_s seconds. The share of the last dt_s is kept,
+    // which saves an exponential per cycle.
     double share(double dt_s) noexcept {
         if (dt_s != dt_s_) {
             dt_s_ = dt_s;
@@ -23,7 +25,7 @@ public:
 private:
     double cutoff_rad_s_;
     double dt_s_ = 0.0;
-    double share_ = 0.0; // of a time step of dt_s_
+    double share_ = 0.0; // the share for dt_s_
 };
 
 } // namespace spidar

@@ -1,5 +1,5 @@
-// Which build of the vector kernels a solver runs. All builds give the exact optimum, but their last bits differ: the
-// level is a setting of each solver, and a recording stores it.
+// Which build of the vector kernels a solver runs. All builds find the exact optimum, but their
+// last bits differ. The level is therefore a setting of each solver, and a recording stores it.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ enum class SimdLevel : std::uint8_t {
     avx2 = 1,  // 32-byte vectors and fused multiply-add
 };
 
-// Can this processor, and this build, run that level?
+// True when this processor and this build can run the level.
 [[nodiscard]] bool supports(SimdLevel level) noexcept;
 
-// The fastest level that is supported. Asks the processor: not for a servo loop.
+// Returns the fastest supported level. Queries the processor: not for a servo loop.
 [[nodiscard]] SimdLevel best_simd_level() noexcept;
 
 [[nodiscard]] const char *describe(SimdLevel level) noexcept;

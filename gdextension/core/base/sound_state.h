@@ -1,6 +1,6 @@
-// A recording holds the memory of a servo step as it was. Before such a memory is used, each part says by is_sound()
-// whether everything in it that is no plain number may be used: a flag is true or false, an enumeration one of its values,
-// a count or an index in its range. Numbers may be any: a step takes whatever comes.
+// Checks for memory that was restored from a recording. Each part's is_sound() returns true when
+// its flags are 0 or 1, its enumerations hold a defined value, and its counts and indices are in
+// range. Floating-point values are not checked: a servo step accepts any.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-// A bool that was copied from a file may hold any byte, and then must not even be read as one.
+// True when every flag holds 0 or 1. Reads bytes: reading another value as bool is undefined.
 template <typename... Flags>
 [[nodiscard]] bool are_flags(const Flags &...flags) noexcept {
     const auto is_flag = [](const bool &flag) {
@@ -20,18 +20,19 @@ template <typename... Flags>
     return (is_flag(flags) && ...);
 }
 
+// Requires an enumeration of unsigned type with values from 0 to `last` without gaps.
 template <typename Enum>
 [[nodiscard]] constexpr bool is_one_of(Enum value, Enum last) noexcept {
     return value <= last;
 }
 
-// Counts ticks, and has room to go on doing so.
+// True for a tick counter within 0..1e9, which leaves room to count on.
 [[nodiscard]] constexpr bool is_tally(int value) noexcept {
     constexpr int kMost = 1'000'000'000;
     return value >= 0 && value <= kMost;
 }
 
-// 0 to 7, or -1 for none.
+// True for a string index 0..7, or -1 for none.
 [[nodiscard]] constexpr bool is_string_or_none(int string) noexcept {
     return string >= -1 && string < kStringCount;
 }

@@ -1,6 +1,6 @@
-// Strings that leave the frame over a swivelling pulley instead of through an eyelet: the point
-// where they leave moves along the pulley, which at 4 mm of radius costs millimetres of grip
-// position unless it is taken into account. Servo-safe: no allocation, noexcept.
+// Extra string length of pulley exits. A string that leaves the frame over a swiveling pulley
+// leaves from a point that moves along the pulley. At a radius of 4 mm this costs millimeters of
+// grip position unless it is corrected. Servo-safe: no allocation, noexcept.
 #pragma once
 
 #include "core/calibration/length_corrections.h"
@@ -9,14 +9,13 @@
 
 namespace spidar {
 
-// Path of each string, from its inlet motors_m[i] around the pulley to the attachment, less the
-// straight line (unit: m). The string comes in along swivel_axis, from outside; the pulley swivels
-// about it towards the attachment. Zero for an eyelet (radius 0) and where the attachment lies
-// within the pulley.
+// Returns, per string, the path from the inlet motors_m[i] around the pulley to the attachment less
+// the straight line (unit: m). Pulley radius and swivel axis come from `corrections`. Zero for an
+// eyelet (radius 0) and for an attachment within the pulley.
 //
-// Use: lengths as the kinematics want them = measured - exit_excess() at the last pose. In one tick
-// the excess changes by about 1 % of the movement; where the pose is not known yet, solve two or
-// three times in turn.
+// Use: lengths for the kinematics = measured lengths - exit_excess(last pose). Within one tick the
+// excess changes by about 1 % of the movement. Where the pose is not known yet, alternate two or
+// three times.
 [[nodiscard]] StringArray exit_excess(const FrameGeometry &frame, const GripGeometry &grip,
                                       const LengthCorrections &corrections,
                                       const GripPose &pose) noexcept;

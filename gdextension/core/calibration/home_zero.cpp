@@ -39,7 +39,8 @@ HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip, cons
         const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
         std::nth_element(counts.begin(), middle, counts.end());
         strings.zero_count[i] = *middle;
-        double mean = 0.0; // about the median: counts near the wrap of 32 bits still average
+        // Relative to the median, so that counts near the 32-bit wrap can be averaged
+        double mean = 0.0;
         double square = 0.0;
         for (const std::int32_t count : counts) {
             const double off = static_cast<double>(count) - *middle;

@@ -1,5 +1,5 @@
-// Zeroing at a known pose (home): counts read while the grip rests in its stand, several times
-// over. Allocates: not for the servo loop.
+// Zero of the strings at a known pose (home): counts are read several times while the grip rests in
+// its stand. Allocates: not for the servo loop.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,13 @@
 namespace spidar {
 
 struct HomeZero {
-    // ok; too_few_samples (no counts); invalid_geometry; invalid_calibration (scale). Negative: the
-    // rest is zero.
+    // ok; too_few_samples (no counts); invalid_geometry; invalid_calibration (scale or
+    // corrections). Negative: all values below are zero.
     Status status = Status::too_few_samples;
-    // Reads the home pose's lengths at the middle of the counts (their median: one glitch does no
-    // harm).
+    // Calibration with the home pose's lengths at the median counts: one wrong reading is harmless.
     StringCalibration strings;
-    StringArray spread_m{}; // standard deviation of the repeats about their mean; large: placed
-                            // differently each time
+    // Standard deviation of the repeats. A large value means that the grip was placed differently.
+    StringArray spread_m{};
 };
 
 [[nodiscard]] HomeZero zero_at_pose(const FrameGeometry &frame, const GripGeometry &grip,

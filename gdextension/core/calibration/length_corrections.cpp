@@ -12,7 +12,8 @@ namespace spidar {
 
 namespace {
 
-// The paper's drum changes by 4.6 % over 0.7 m: 0.07 1/m. Ten times that is no drum.
+// Largest curvature: the paper's drum changes by 4.6 % over 0.7 m (0.07 1/m); ten times that is not
+// a drum.
 constexpr double kMaxCurvature_1_m = 0.7;
 constexpr double kMaxStiffness_n = 1e9;
 constexpr double kMaxPulley_m = 0.05;

@@ -1,6 +1,6 @@
-// What a string calibration with one scale a string leaves out: the winding that changes its
-// radius, and the stretch under tension (paper, section VI.1: its two explanations of the length
-// error). Servo-safe: no allocation, noexcept, and a value that is not finite corrects nothing.
+// Length errors that one scale per string leaves out: winding, which changes the drum's radius, and
+// stretch under tension (paper, section VI.1, gives both as causes of the length error).
+// Servo-safe: no allocation, noexcept. A value that is not finite corrects nothing.
 #pragma once
 
 #include <string>
@@ -11,40 +11,38 @@
 namespace spidar {
 
 struct LengthCorrections {
-    // Length paid out since the zero count, m, becomes m + curvature m^2 (unit: 1/m). Negative: the
-    // drum is fuller, so pays out more a count, near the zero than far out. 0: none.
+    // A length m paid out since the zero count becomes m + curvature m^2 (unit: 1/m). Negative: the
+    // drum is fuller near the zero, so that a count pays out more there. 0: no correction.
     StringArray winding_curvature_1_m{};
-    // Axial stiffness EA of the string (unit: N): strain = tension / EA. 0: not known, not
-    // corrected.
+    // Axial stiffness EA of the string (unit: N): strain = tension / EA. 0: unknown, no correction.
     StringArray axial_stiffness_n{};
-    // String between the drum and the frame's exit, which stretches as well (unit: m).
+    // String length between the drum and the frame's exit, which stretches as well (unit: m).
     StringArray hidden_length_m{};
-    // Radius of the pulleys over which the strings leave the frame (unit: m), and the axis along
-    // which they come in from outside and about which the pulleys swivel (unit vector). 0: eyelets.
-    // See exit_pulley.h.
+    // Radius of the exit pulleys (unit: m). 0: eyelets. See exit_pulley.h.
     double pulley_radius_m = 0.0;
+    // Unit vector along which the strings arrive from outside and about which the pulleys swivel.
     Vec3 swivel_axis{0.0, 1.0, 0.0};
-    // Tension at which the lengths were calibrated: its stretch is in the calibration already.
+    // Tension during calibration (unit: N). Its stretch is part of the calibrated lengths.
     StringArray calibration_tension_n{};
 };
 
-// More strain than this breaks a braided string; a larger value is a wrong stiffness and is cut
-// here.
+// Largest strain that is corrected. A braided string breaks beyond it, so that a larger value comes
+// from a wrong stiffness.
 inline constexpr double kMaxStrain = 0.05;
 
-// Lengths from the counts, the winding corrected.
+// Returns the string lengths (unit: m) of these counts, with the winding corrected.
 [[nodiscard]] StringArray wound_lengths(const StringCalibration &calibration,
                                         const LengthCorrections &corrections,
                                         const CountArray &counts) noexcept;
 
-// Distance from exit to attachment of a string that unstretched (at its calibration tension) would
-// have lengths_m, under the tension commanded. The commanded tension has friction and lag in it:
-// what remains is (tension error) * length / EA.
+// Returns the lengths under tension (unit: m) of strings that have lengths_m at their calibration
+// tension. tensions_n are commanded tensions: friction and lag leave an error of (tension error) *
+// length / EA.
 [[nodiscard]] StringArray compensate_stretch(const LengthCorrections &corrections,
                                              const StringArray &lengths_m,
                                              const StringArray &tensions_n) noexcept;
 
-// Empty when usable; else one sentence naming field, value, unit and remedy. Allocates.
+// Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const LengthCorrections &corrections);
 
 } // namespace spidar

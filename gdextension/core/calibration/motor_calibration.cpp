@@ -10,14 +10,14 @@ namespace spidar {
 
 namespace {
 
-// Ranges far wider than any motor fit for a hand-held device: they catch unit mistakes.
+// Ranges far wider than any motor for a hand-held device: they detect unit errors.
 constexpr double kMaxRadius_m = 1.0;
 constexpr double kMaxTorqueConstant_nm_a = 100.0;
 constexpr double kMaxTensionGain = 100.0;
 constexpr double kMaxCurrent_a = 1000.0;
 constexpr double kSmallest = 1e-6;
 
-// Newtons of real tension an ampere gives; 0 where the calibration is no positive number.
+// Returns newtons of real tension per ampere; 0 where the calibration is not a positive number.
 double tension_per_ampere(const MotorCalibration &calibration, std::size_t i) noexcept {
     const double radius = calibration.effective_radius_m[i];
     const double torque_constant = calibration.torque_constant_nm_a[i];
@@ -66,7 +66,7 @@ StringArray currents_from_tensions(const MotorScale &scale,
         wanted_a[i] = tensions_n[i] / scale.tension_per_ampere_n_a[i];
     }
     for (std::size_t i = 0; i < kStringCount; ++i) {
-        // No tension, or no calibration: 0 A, whatever the division gave.
+        // Without tension or calibration the current is 0 A, whatever the division gave.
         const bool pulls = tensions_n[i] >= 0.0 && scale.tension_per_ampere_n_a[i] > 0.0;
         const bool within = wanted_a[i] <= scale.limit_a[i];
         currents_a[i] = !pulls ? 0.0 : within ? wanted_a[i] : scale.limit_a[i];

@@ -1,4 +1,4 @@
-// String tension -> motor torque -> current, per string.
+// Conversion of string tension to motor torque and current, per string.
 #pragma once
 
 #include <string>
@@ -8,31 +8,33 @@
 namespace spidar {
 
 struct MotorCalibration {
-    // Effective winding radius (unit: m): torque = tension * radius. The radius that a length fit finds
-    // (scale_m_per_count * counts a turn / 2 pi) corrects the tension too.
+    // Effective winding radius (unit: m): torque = tension * radius. A length fit finds it as
+    // scale_m_per_count * counts per turn / 2 pi, and corrects the tension too.
     StringArray effective_radius_m{0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008};
-    // Motor torque constant (unit: N m / A). Maxon RE 25 class.
+    // Motor torque constant (unit: N m/A). The default is that of a Maxon RE 25.
     StringArray torque_constant_nm_a{0.0438, 0.0438, 0.0438, 0.0438,
                                      0.0438, 0.0438, 0.0438, 0.0438};
-    // Gain found by hanging a known weight on the string: real tension / commanded tension.
+    // Real tension over commanded tension, measured with a known weight on the string.
     StringArray tension_gain{1, 1, 1, 1, 1, 1, 1, 1};
+    // Largest current (unit: A).
     StringArray max_current_a{4, 4, 4, 4, 4, 4, 4, 4};
 };
 
-// What currents_from_tensions() makes of a calibration, once: newtons of real tension an ampere gives (0 where the calibration
-// is no positive number) and the current's limit.
+// Factors of currents_from_tensions(), computed once per calibration. tension_per_ampere_n_a is 0
+// where the calibration is not a positive number, limit_a likewise.
 struct MotorScale {
     StringArray tension_per_ampere_n_a{};
     StringArray limit_a{};
 };
 [[nodiscard]] MotorScale motor_scale(const MotorCalibration &calibration) noexcept;
 
-// Unit: A. Never NaN, never negative, never above max_current_a: a tension that is not >= 0 gives 0 A.
+// Returns currents (unit: A) from 0 to max_current_a. A NaN or negative tension gives 0 A.
 [[nodiscard]] StringArray currents_from_tensions(const MotorCalibration &calibration,
                                                  const StringArray &tensions_n) noexcept;
+// Same conversion with precomputed factors.
 [[nodiscard]] StringArray currents_from_tensions(const MotorScale &scale,
                                                  const StringArray &tensions_n) noexcept;
-// Largest tension each motor can pull (unit: N).
+// Returns the largest tension that each motor can pull (unit: N).
 [[nodiscard]] StringArray max_tensions(const MotorCalibration &calibration) noexcept;
 
 [[nodiscard]] std::string validate(const MotorCalibration &calibration);

@@ -10,13 +10,14 @@ namespace spidar {
 
 namespace {
 
-// A metre a count, or a picometre, is a unit mistake: encoders give 1 um to 1 mm of string a count.
+// Limits of the scale: encoders give 1 um to 1 mm of string per count; a meter or a picometer is a
+// unit error.
 constexpr double kMinScale_m = 1e-9;
 constexpr double kMaxScale_m = 1e-2;
 constexpr double kMaxOffset_m = 2.0 * kMaxFrameExtent_m;
 
-// count - zero modulo 2^32, read as signed: unsigned subtraction wraps by definition, and the
-// conversion back is two's complement since C++20.
+// Returns count - zero modulo 2^32 as a signed number. Unsigned subtraction wraps by definition,
+// and the conversion is two's complement since C++20.
 std::int32_t wrapped_difference(std::int32_t count, std::int32_t zero) noexcept {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(count) -
                                      static_cast<std::uint32_t>(zero));

@@ -1,4 +1,4 @@
-// Encoder counts -> string lengths: length = offset + scale * (count - zero_count), per string.
+// Converts encoder counts to lengths: length = offset + scale * (count - zero_count), per string.
 #pragma once
 
 #include <string>
@@ -10,31 +10,32 @@
 
 namespace spidar {
 
-// 2 pi * 8 mm pulley / 2000 counts a turn (paper, section VI.1).
+// Length per count in the paper (unit: m): 2 pi * 8 mm / 2000 counts per turn (section VI.1).
 inline constexpr double kPaperMetresPerCount = 2.513274122871834e-5;
 
 struct StringCalibration {
-    // Length at the zero count (unit: m). Paper frame at the home pose: every string 0.3886... m; see
-    // calibrate_at_home(). A negative scale is a motor wound the other way.
+    // Length at the zero count (unit: m). Paper's frame at the home pose: 0.3886... m.
     StringArray offset_m{};
+    // Length per count (unit: m). Negative: the motor is wound the other way.
     StringArray scale_m_per_count{};
     CountArray zero_count{};
 };
 
-// Signed difference count - zero with int32 wrap-around, so a device that wraps reads on.
+// Returns lengths (unit: m). count - zero_count wraps modulo 2^32, so that a counter may overflow.
 [[nodiscard]] StringArray lengths_from_counts(const StringCalibration &calibration,
                                               const CountArray &counts) noexcept;
 
-// The calibration that reads `home_lengths_m` at `home_counts`, with one scale for all strings.
+// Returns the calibration that gives home_lengths_m at home_counts, with one scale for all strings.
 [[nodiscard]] StringCalibration calibrate_at_home(const StringArray &home_lengths_m,
                                                   const CountArray &home_counts,
                                                   double scale_m_per_count) noexcept;
 
-// Of an encoder on a drum of this radius; `otherwise` where the device does not say its counts a turn (0).
+// Returns the length per count of an encoder on a drum of this radius, or `otherwise` when
+// counts_per_turn is 0 (not reported by the device).
 [[nodiscard]] double metres_per_count(std::uint32_t counts_per_turn, double drum_radius_m,
                                       double otherwise) noexcept;
 
-// Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
+// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const StringCalibration &calibration);
 
 } // namespace spidar

@@ -11,40 +11,42 @@ namespace spidar {
 
 namespace {
 
-// A squared misfit counts no more than this: one wild sample is not the whole evidence.
+// Largest squared misfit that is counted, so that one wild sample is not the whole evidence.
 constexpr double kMisfitCap = 60.0;
-// Starting variance of a string's error: a slip of 30 mm is large. A guess stays within twice that: where a string hardly
-// weighs in the equation, one sample could throw it anywhere.
+// Starting standard deviation of a string's error: a slip of 30 mm is large.
 constexpr double kStartError_m = 0.03;
+// Largest error of a guess. Where a string hardly weighs in the equation, one sample could throw
+// its guess anywhere.
 constexpr double kLargestError_m = 0.06;
-// An innovation of more than five standard deviations reopens a filter to errors of this size.
+// Squared innovation, in units of its variance, that reopens a filter to errors of kRelearn_m.
 constexpr double kSurprise = 25.0;
 constexpr double kRelearn_m = 0.01;
-// A slipped string stays where it slipped to (drift: standard deviation in one second); a slack one moves by a centimetre
-// in a second. The ten times and more between them tell the two apart.
+// Drift of a string's error, standard deviation in one second. A slipped string stays where it
+// slipped to; a slack one moves by a centimeter. The large ratio separates the two.
 constexpr double kSlipDrift_m = 2e-4;
 constexpr double kSlackDrift_m = 0.008;
-// The parity weights are those of a pose that an error of the guess displaces: what the linear equation misses is this
-// times the square of that error (unit: 1/m; a pose moves by up to four times the error of a length, and a weight turns
-// over by one in the quarter metre or so of a string's length).
+// The parity weights belong to a pose that an error of the guess displaces. The linear equation
+// misses this value times the square of that error (unit: 1/m). A pose moves by up to four times
+// the error of a length, and a weight turns over within about a quarter meter of string.
 constexpr double kBend_1_m = 5.0;
-// An explanation must fit to this mean squared misfit, and others fit worse by this factor and
-// difference.
+// An explanation must fit to this mean squared misfit; others must fit worse by the factor and the
+// difference below.
 constexpr double kFits = 3.0;
 constexpr double kWorseFactor = 1.3;
 constexpr double kWorseBy = 0.3;
-// Filled part of the scores' memory before anything is said.
+// Weight of a score's mean from which it is used.
 constexpr double kEnoughWeight = 0.3;
 constexpr int kDecisionTicks = 16;
-// A count that stays within this of its anchor has not moved (encoder flicker) while the other
-// seven strings travelled this far together.
+// Largest change of a count that counts as standing still (encoder flicker).
 constexpr std::int32_t kStillCounts = 2;
+// Total travel of the other seven strings after which a still count is stuck.
 constexpr double kOthersTravel_m = 0.3;
-// Wrong wiring errs by centimetres once the grip moves; below this it need not be tried.
+// Parity error (rms) above which wrong wiring is tried: wrong wiring errs by centimeters once the
+// grip moves.
 constexpr double kWiringParity_m = 3e-3;
-// Lengths that no pose has cost a cold search. They are tried again only after this many turns.
+// Turns for which unsolvable lengths are not tried again, since each try costs a cold search.
 constexpr int kTurnsToWait = 8;
-// Parity residual given to lengths that no pose has.
+// Parity residual used for lengths that no pose has.
 constexpr double kUnsolved_m = 3.0 * kImpossibleResidual_m;
 
 constexpr auto kPairTable = [] {
@@ -93,7 +95,8 @@ Status StringFaultObserver::configure(const FrameGeometry &frame, const GripGeom
         }
     }
     if (grip.kind != GripKind::crossed) {
-        return Status::invalid_geometry; // a rigid grip has two redundant lengths; this knows one
+        return Status::
+            invalid_geometry; // a rigid grip has two redundant lengths; this observer handles one
     }
     const Status status = kinematics_.configure(frame, grip);
     if (!usable(status)) {
@@ -135,7 +138,7 @@ const FaultEvidence &StringFaultObserver::update(const CountArray &counts,
         return evidence_;
     }
     watch_counts(counts, lengths_m);
-    // At the least-squares pose all of the residual lies along the null vector.
+    // At the least-squares pose the whole residual lies along the null vector.
     const bool fits = usable(solved.status) && std::isfinite(solved.residual_rms_m);
     const double error =
         fits ? solved.residual_rms_m * std::sqrt(double{kStringCount}) : kUnsolved_m;
@@ -190,7 +193,8 @@ StringFaultObserver::Parity StringFaultObserver::parity(const StringArray &lengt
     return parity;
 }
 
-// Solved about the filter's own guess: the parity residual is then w (error - guess), and a bend.
+// Solves the pose with the filter's guess removed: the parity residual is then w (error - guess)
+// plus the bend.
 void StringFaultObserver::advance(Filter &filter, const StringArray &lengths_m, std::size_t string,
                                   double drift_m2, bool positive_only) noexcept {
     const double period = kStringCount * settings_.tick_s;
@@ -199,7 +203,8 @@ void StringFaultObserver::advance(Filter &filter, const StringArray &lengths_m, 
     lengths[string] -= filter.error_m;
     const Parity found = parity(lengths, filter.pose);
     if (!found.solved) {
-        // No pose has these lengths: the guess, or the whole suspicion, is wrong. Start again.
+        // No pose has these lengths: the guess or the whole hypothesis is wrong, so the filter
+        // restarts.
         filter.misfit.add(kMisfitCap, gain);
         filter.error_m = 0.0;
         filter.variance_m2 = kStartError_m * kStartError_m;
@@ -214,11 +219,11 @@ void StringFaultObserver::advance(Filter &filter, const StringArray &lengths_m, 
     };
     filter.variance_m2 += drift_m2 * period;
     const double expected = weight * weight * filter.variance_m2 + noise();
-    // Minus twice the logarithm of the likelihood, beside that of the sensor's noise alone: a filter
-    // that expects anything explains nothing.
+    // Minus twice the log likelihood, relative to the sensor's noise alone: a filter that expects
+    // anything explains nothing.
     filter.misfit.add(std::fmin(square / expected + std::log(expected / sensor), kMisfitCap), gain);
     if (square > kSurprise * expected) {
-        // The guess was wrong: learn again. The misfit remembers the surprise.
+        // The guess was wrong and is learned again. The misfit keeps the surprise.
         filter.variance_m2 = std::fmax(filter.variance_m2, kRelearn_m * kRelearn_m);
     }
     const double rest = noise();

@@ -1,15 +1,16 @@
-// Which string is slack, slipped, stuck, swapped or wound the other way? Eight lengths on seven
-// degrees of freedom leave one equation a pose; over a motion its weights change, so that one wrong
-// string explains all of them and the others do not.
+// Finds which string is slack, slipped, stuck, swapped or wound the other way. Eight lengths on
+// seven DOF leave one equation per pose. Its weights change over a motion, so that one wrong string
+// explains all equations and the others do not.
 //
-// Servo-safe: update() allocates nothing and does bounded work. While the lengths fit, that is one
-// comparison. Once they do not, suspicions are tried in turn, two or three a tick, each by solving
-// the pose from the lengths it would correct:
-//   eight strings: one length off by an error that stays (slipped) or is positive and varies
-//   (slack), estimated by a scalar Kalman filter each; 28 pairs swapped; 8 strings wound the other
-//   way.
-// A stuck string needs no solving: its count stands still while the others move and the lengths do
-// not fit.
+// Servo-safe: update() allocates nothing and does bounded work, one comparison while the lengths
+// fit. Once they do not, it tries two or three hypotheses per tick, each by solving the pose from
+// lengths that the hypothesis corrects:
+// - one of eight strings off by a constant error (slipped) or by a positive, varying error (slack),
+// each estimated by a scalar Kalman filter;
+// - one of 28 pairs swapped;
+// - one of eight strings wound the other way.
+// A stuck string needs no pose: its count stands still while the others move and the lengths do not
+// fit.
 #pragma once
 
 #include <algorithm>
@@ -23,33 +24,35 @@ namespace spidar {
 
 enum class StringFault : std::uint8_t { none, slipped, slack, stuck, swapped, reversed };
 
-// One word; never null.
+// Returns one word; never null.
 [[nodiscard]] const char *describe(StringFault fault) noexcept;
 
 struct FaultObserverSettings {
+    // Time between two calls of update().
     double tick_s = 1e-3;
-    // Parity residual of a healthy device (standard deviation): noise, and what calibration left.
+    // Standard deviation of the parity residual of a healthy device: noise and calibration error.
     double parity_noise_m = 2e-4;
-    // Parity residual (rms over window_s / 3) above which the suspicions are tried.
+    // Parity residual (rms over window_s / 3) above which the hypotheses are tried.
     double suspicion_m = 6e-4;
-    double window_s = 1.5; // memory of the scores
-    // Length error of a string below which nothing is reported.
+    double window_s = 1.5; // averaging time of the scores; at least 100 ticks
+    // Smallest length error of a slipped string that is reported.
     double min_error_m = 2.5e-3;
 };
 
 struct FaultEvidence {
     StringFault fault = StringFault::none;
-    int string = -1;      // 0-7
-    int other = -1;       // swapped: the second string, string < other
-    double error_m = 0.0; // slipped, slack: how much too long the string reads
-    // Of the best explanation and of the best one about another string, mean over window_s: minus twice the logarithm of
-    // the likelihood, in units of parity_noise_m, 0 where all fits exactly. Far apart = sure.
+    int string = -1;      // 0-7, or -1 for none
+    int other = -1;       // swapped: the second string, string < other; else -1
+    double error_m = 0.0; // slipped or slack: by how much the string reads too long
+    // Score of this explanation, mean over window_s: -2 log likelihood in units of parity_noise_m,
+    // 0 for a perfect fit.
     double misfit = 0.0;
+    // Score of the best explanation with another string. The further above `misfit`, the surer.
     double next_misfit = 0.0;
-    double parity_rms_m = 0.0; // of the lengths as they are
+    double parity_rms_m = 0.0; // of the lengths without any correction
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const FaultEvidence &evidence) noexcept {
     return is_one_of(evidence.fault, StringFault::reversed) && is_string_or_none(evidence.string) &&
            is_string_or_none(evidence.other);
@@ -57,17 +60,18 @@ struct FaultEvidence {
 
 class StringFaultObserver {
 public:
-    // invalid_geometry, invalid_calibration, invalid_settings: the old configuration stands.
+    // On a negative status the old configuration stays. invalid_geometry: also for a rigid grip,
+    // which has two redundant lengths.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip,
                      const StringCalibration &strings,
                      const FaultObserverSettings &settings) noexcept;
     void reset() noexcept;
 
-    // One servo tick: the counts, the lengths made of them, and what the servo's kinematics found
-    // for these. Lengths that are not finite are skipped.
+    // Takes one servo tick: the counts, the lengths computed from them, and the kinematics' result
+    // for these lengths. Ignores lengths that are not finite.
     const FaultEvidence &update(const CountArray &counts, const StringArray &lengths_m,
                                 const KinematicsResult &solved) noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(configured_, suspicious_, has_last_) && spidar::is_sound(grip_) &&
                kinematics_.is_sound() && next_string_ < kStringCount && next_wiring_ < kWiring &&
@@ -82,10 +86,10 @@ public:
 
 private:
     static constexpr std::size_t kPairs = 28;
-    static constexpr std::size_t kWiring =
-        kPairs + kStringCount; // swapped pairs, then reversed strings
+    // Wiring hypotheses: swapped pairs, then reversed strings.
+    static constexpr std::size_t kWiring = kPairs + kStringCount;
 
-    // Mean of the last values, each weighing less than the next.
+    // Exponentially weighted mean, unbiased from the first value on.
     struct Mean {
         double sum = 0.0;
         double weight = 0.0;
@@ -98,6 +102,7 @@ private:
     struct Pose {
         GripPose pose;
         bool known = false;
+        // Calls of parity() to skip after lengths that no pose had.
         int turns_to_wait = 0;
     };
     [[nodiscard]] static bool is_sound(const Pose &pose) noexcept {
@@ -119,7 +124,7 @@ private:
     };
     struct Parity {
         double error_m = 0.0;
-        StringArray weights{}; // the null vector
+        StringArray weights{}; // the null vector at the solved pose
         bool solved = false;
     };
 
@@ -149,8 +154,8 @@ private:
     std::size_t next_string_ = 0;
     std::size_t next_wiring_ = 0;
     int ticks_to_decision_ = 0;
-    CountArray anchor_counts_{}; // where each string was when its count last moved
-    StringArray travel_m_{};     // of the other strings since then
+    CountArray anchor_counts_{}; // count of each string when the string last moved
+    StringArray travel_m_{};     // sum of the other strings' motion since then
     StringArray last_lengths_m_{};
     bool has_last_ = false;
     FaultEvidence evidence_;

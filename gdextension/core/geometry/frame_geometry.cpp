@@ -15,13 +15,13 @@ constexpr StringVectors kCornerSigns{Vec3(1, 1, 1),   Vec3(-1, 1, 1),  Vec3(1, -
                                      Vec3(-1, -1, 1), Vec3(1, 1, -1),  Vec3(-1, 1, -1),
                                      Vec3(1, -1, -1), Vec3(-1, -1, -1)};
 
-// A motor this close to the corner of a box counts as on it: a hundredth of an encoder count, so that
-// a frame typed in with rounded numbers still gets the closed form, and no measurable error follows.
+// Tolerance of a motor at the corner of a box: a hundredth of an encoder count. A frame typed with
+// rounded numbers still gets the closed form, without measurable error.
 constexpr double kBoxTolerance_m = 2.5e-7;
-// Motors that lie in one plane or line leave a direction to which no string pulls. Smallest
-// thickness accepted, against the largest extent of the frame.
+// Smallest thickness of the frame relative to its largest extent. Motors in one plane or line leave
+// a direction in which no string pulls.
 constexpr double kMinRelativeThickness = 1e-3;
-// A pulley larger than this is millimetres typed as metres.
+// Largest pulley radius: a larger one is millimeters typed as meters.
 constexpr double kMaxPulleyRadius_m = 0.05;
 constexpr double kUnitTolerance = 1e-9;
 
@@ -39,7 +39,8 @@ bool is_unit(const Vec3 &v) noexcept {
     return std::fabs(glm::dot(v, v) - 1.0) <= kUnitTolerance;
 }
 
-// Thickness of the thinnest slab around all motors whose normal is one of those through three motors.
+// Returns the thickness of the thinnest slab around all motors, over the slabs parallel to three
+// motors.
 double thickness(const FrameGeometry &frame) {
     double thinnest = HUGE_VAL;
     const StringVectors &q = frame.motors_m;
@@ -50,7 +51,7 @@ double thickness(const FrameGeometry &frame) {
                 const Vec3 normal = glm::cross(q[j] - q[i], q[k] - q[i]);
                 const double area = glm::length(normal);
                 if (!(area > kMinRelativeThickness * extent * extent)) {
-                    continue; // three motors almost in line: no plane of their own
+                    continue; // three motors almost in line define no plane
                 }
                 double low = 0.0;
                 double high = 0.0;

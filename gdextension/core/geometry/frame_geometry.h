@@ -10,37 +10,37 @@ namespace spidar {
 
 // Half the paper's 48 cm frame (section VI.1): a = b = c.
 inline constexpr double kPaperHalfExtent_m = 0.24;
-// Furthest motor from the centre, along an axis, that validate() accepts; catches millimetres typed as metres.
+// Largest motor coordinate that validate() accepts; catches millimeters typed as meters.
 inline constexpr double kMaxFrameExtent_m = 10.0;
 
 struct FrameGeometry {
-    // String exit points Q1..Q8, device frame (unit: m). Eyelets: the string leaves from the point.
+    // String exit points Q1..Q8, device frame (unit: m). Eyelets stand at these points.
     StringVectors motors_m{};
-    // Above 0: the strings leave over swivelling pulleys of this radius (unit: m), which they reach at motors_m
-    // along pulley_axis (unit vector). See string_exit.h.
+    // Radius of swiveling exit pulleys (unit: m). 0: eyelets. See string_exit.h.
     double pulley_radius_m = 0.0;
+    // Unit vector along which the strings reach the pulleys at motors_m.
     Vec3 pulley_axis{0.0, 0.0, 1.0};
 };
 
-// Corners of a box of half sizes (a, b, c), in the paper's order:
+// Returns the corners of a box with half sizes (a, b, c) in the paper's order:
 // (+++)(-++)(+-+)(--+)(++-)(-+-)(+--)(---).
 [[nodiscard]] FrameGeometry make_box_frame(const Vec3 &half_extents_m) noexcept;
 
-// The smallest box around all motors, edges along the axes (unit: m).
+// The smallest axis-aligned box around all motors (unit: m).
 struct MotorBox {
     Vec3 low_m{0.0};
     Vec3 high_m{0.0};
 };
 [[nodiscard]] MotorBox box_around_motors(const FrameGeometry &frame) noexcept;
 
-// (a, b, c) when the motors are the corners of such a box (to 0.25 um), else nothing. The
-// closed-form kinematics exist for boxes only; Gauss-Newton serves every frame.
+// Returns (a, b, c) when the motors are the corners of such a box to 0.25 um, else nothing. The
+// closed-form kinematics need a box; Gauss-Newton serves every frame.
 [[nodiscard]] std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept;
 
-// The same judgement as validate() without its sentence: no allocation, for the servo side.
+// True when validate() returns an empty string. No allocation: for the servo loop.
 [[nodiscard]] bool is_usable(const FrameGeometry &frame) noexcept;
 
-// Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
+// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
 // Allocates: not for the servo loop.
 [[nodiscard]] std::string validate(const FrameGeometry &frame);
 

@@ -14,9 +14,10 @@ namespace {
 constexpr double kHalfPi = 1.5707963267948966;
 constexpr double kPi = 3.1415926535897932;
 constexpr double kInvSqrt2 = 0.70710678118654752;
-// Shortest pole that validate() accepts: a shorter one is a unit mistake.
+// Shortest pole that validate() accepts: a shorter one is a unit error.
 constexpr double kMinPoleHalfLength_m = 1e-3;
-// Joints count as on one line when the largest triangle of them is smaller than this part of its longest side squared.
+// Joints count as collinear when their largest triangle is smaller than this share of the longest
+// side squared.
 constexpr double kMinTriangle = 1e-3;
 
 // Half the longest side of the box around the motors (unit: m).
@@ -77,7 +78,8 @@ GripFrame frame_of(const GripPose &pose, const Mat3 &previous_rotation) noexcept
     }
     Vec3 p = sum / sum_length;
     Vec3 m = difference / difference_length;
-    // p and m are orthogonal up to rounding, which the shorter of the two sums magnifies: that one gives way.
+    // p and m are orthogonal up to rounding, which is larger in the shorter of the two sums: that
+    // one is corrected.
     if (difference_length < sum_length) {
         m = glm::normalize(m - p * glm::dot(p, m));
     } else {

@@ -1,6 +1,6 @@
-// Two doubles computed side by side, one for each pole of the grip: lane 0 for pole 1, lane 1 for pole 2. The compiler's
-// vector extension makes the same code run on every processor and, as no multiplication and addition are fused
-// (-ffp-contract=off), give the same bits.
+// Two doubles computed side by side: lane 0 for pole 1, lane 1 for pole 2. The compiler's vector
+// extension runs the same code on every processor. Without fusing of multiplications and additions
+// (-ffp-contract=off) the results are equal bit for bit.
 #pragma once
 
 #include <cmath>
@@ -20,14 +20,14 @@ using Lanes = double __attribute__((vector_size(16)));
 }
 
 [[nodiscard]] inline Lanes square_root(Lanes a) noexcept {
-#if __has_builtin(__builtin_ia32_sqrtpd) // by name: not every compiler joins two scalar roots
+#if __has_builtin(__builtin_ia32_sqrtpd) // by name: not every compiler merges two scalar roots
     return __builtin_ia32_sqrtpd(a);
 #else
     return Lanes{std::sqrt(a[0]), std::sqrt(a[1])};
 #endif
 }
 
-// A vector of space for each pole.
+// One 3D vector per lane.
 struct LaneVec {
     Lanes x{};
     Lanes y{};

@@ -1,5 +1,5 @@
-// Local coordinates of a grip pose on R3 x S2 x S2: displacement of P0, then two tangent displacements of
-// each pole's end, all in metres.
+// Local coordinates of a grip pose on R3 x S2 x S2: the displacement of P0, then two tangent
+// displacements of each pole's end, all in meters.
 #pragma once
 
 #include <cmath>
@@ -20,9 +20,10 @@ struct Tangents {
     Vec3 v;
 };
 
+// Returns two tangents of a pole r, which must not be zero.
 [[nodiscard]] inline Tangents tangents_of(const Vec3 &r) noexcept {
     const Vec3 size = glm::abs(r);
-    Vec3 axis(0.0, 0.0, 1.0); // any axis well away from r
+    Vec3 axis(0.0, 0.0, 1.0); // the axis along which r is shortest
     if (size.x <= size.y && size.x <= size.z) {
         axis = Vec3(1.0, 0.0, 0.0);
     } else if (size.y <= size.z) {
@@ -36,12 +37,13 @@ struct PoseTangents {
     std::array<Tangents, 2> poles;
 };
 
-// Back onto the sphere of radius d.
+// Returns r + displacement, scaled back onto the sphere of radius d.
 [[nodiscard]] inline Vec3 retract(const Vec3 &r, const Vec3 &displacement, double d) noexcept {
     const Vec3 moved = r + displacement;
     return moved * (d / glm::length(moved));
 }
 
+// Applies a step to a pose; the poles stay on their spheres of radius d.
 inline void move_pose(GripPose &pose, const PoseTangents &tangents, const PoseStep &step,
                       double d) noexcept {
     pose.position_m += Vec3(step[0], step[1], step[2]);

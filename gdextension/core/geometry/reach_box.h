@@ -1,4 +1,4 @@
-// Where the grip's centre can be: the box around the motors, less a border.
+// The box in which the grip center can be: the box around the motors less a border on each side.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ struct ReachBox {
     Vec3 high_m{0.0};
 };
 
-// A border wider than the box leaves its middle.
+// Returns the box, device frame (unit: m). A border wider than half the box leaves the middle of
+// that axis.
 [[nodiscard]] inline ReachBox reach_box(const FrameGeometry &frame, double border_m) noexcept {
     Vec3 low = frame.motors_m[0];
     Vec3 high = low;

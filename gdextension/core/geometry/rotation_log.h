@@ -1,4 +1,4 @@
-// Rotation vectors: of a rotation matrix, back to one, and between two directions.
+// Rotation vectors: from a rotation matrix, to a rotation matrix, and between two directions.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,13 @@
 
 namespace spidar {
 
-// Axis times angle (unit: rad), for turns below half a turn.
+// Returns axis times angle (unit: rad). Requires an angle below pi.
 [[nodiscard]] inline Vec3 rotation_log(const Mat3 &turn) noexcept {
     const Vec3 sine(0.5 * (turn[1][2] - turn[2][1]), 0.5 * (turn[2][0] - turn[0][2]),
                     0.5 * (turn[0][1] - turn[1][0]));
     const double s2 = glm::dot(sine, sine);
-    // From one servo cycle to the next: the series of asin(s) / s, whose next term is below the last bit.
+    // Small turns, as between two servo cycles, use the series of asin(s) / s; the next term is
+    // below the last bit.
     constexpr double kShort2 = 2.5e-3;
     if (s2 < kShort2 && turn[0][0] + turn[1][1] + turn[2][2] > 1.0) {
         const double ratio =
@@ -29,7 +30,7 @@ namespace spidar {
     return s > kSmall ? (std::atan2(s, c) / s) * sine : sine;
 }
 
-// The inverse: the rotation about `turn` by its length (unit: rad).
+// Inverse of rotation_log(): returns the rotation about `turn` by its length (unit: rad).
 [[nodiscard]] inline Mat3 rotation_exp(const Vec3 &turn) noexcept {
     const double angle = glm::length(turn);
     constexpr double kSmall = 1e-9;
@@ -48,7 +49,7 @@ namespace spidar {
     return result;
 }
 
-// The shortest turn that brings one unit vector to another (unit: rad); nothing when they are opposite.
+// Returns the shortest rotation vector (unit: rad) between unit vectors; zero when opposite.
 [[nodiscard]] inline Vec3 rotation_between(const Vec3 &from, const Vec3 &to) noexcept {
     const Vec3 axis = glm::cross(from, to);
     const double s = glm::length(axis);

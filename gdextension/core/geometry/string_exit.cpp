@@ -27,20 +27,22 @@ StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
     if (!(radius_m > 0.0)) {
         return straight(line);
     }
-    // Plane of the pulley: along the axis, outwards from the frame, and across, towards the attachment.
+    // The pulley's plane is spanned by the axis, outwards from the frame, and the direction across
+    // towards the attachment.
     const Vec3 outwards = glm::dot(inlet_m, axis) < 0.0 ? -axis : axis;
     const double along = glm::dot(line, outwards);
     const Vec3 aside = line - along * outwards;
     const double reach = glm::length(aside);
-    const double across = reach - radius_m; // from the pulley's centre
+    const double across = reach - radius_m; // from the pulley's center
     const double distance = std::hypot(along, across);
     if (!(distance > radius_m) || !(reach > 0.0)) {
         return straight(line);
     }
-    // Around the rim from the inlet to where the tangent to the attachment leaves.
+    // The string follows the rim from the inlet to the point where the tangent to the attachment
+    // leaves.
     const double bearing = std::atan2(along, across);
     const double corner = std::acos(radius_m / distance);
-    const double leaves = bearing + corner; // of the tangent point, seen from the centre
+    const double leaves = bearing + corner; // angle of the tangent point, seen from the center
     StringPath path;
     path.length_m =
         radius_m * (kPi - leaves) + std::sqrt((distance - radius_m) * (distance + radius_m));

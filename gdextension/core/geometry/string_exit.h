@@ -1,5 +1,5 @@
-// Where a string leaves the frame: an eyelet (a point), or a swivelling pulley around which it is wound before it runs
-// to the grip. Length and direction of either, for kinematics, statics and calibration alike. No allocation.
+// Path of a string from the frame to the grip: from an eyelet (a point), or around a swiveling
+// pulley. Used by kinematics, statics and calibration. No allocation.
 #pragma once
 
 #include "core/base/types.h"
@@ -7,22 +7,23 @@
 
 namespace spidar {
 
-// From the fixed point of a string to where it is tied.
+// The string from its inlet on the frame to its tie point on the grip.
 struct StringPath {
-    double length_m = 0.0; // along the string
-    Vec3 direction{0.0};   // unit, of the free part, towards the grip; zero where the ends meet
+    double length_m = 0.0; // along the string, from the inlet
+    // Unit vector of the free part, towards the grip. Zero where both ends meet.
+    Vec3 direction{0.0};
     bool on_pulley = false;
 };
 
-// `inlet_m`: where the string comes in. radius 0: an eyelet, from where it leaves straight. Else it runs there along
-// `axis` (unit vector), outwards from the frame's centre, over the outer side of a pulley that swivels about the axis
-// towards the attachment, and leaves along the tangent. The length counts from the inlet. A taut string lies as short as it
-// can, so that the length grows by exactly direction . (movement of the attachment). An attachment within
-// the pulley has no tangent: the straight line is used there.
+// radius_m = 0: an eyelet at inlet_m, from which the string runs straight. Otherwise the string
+// reaches inlet_m along `axis` (unit vector), outwards from the frame's center. It runs over the
+// outer side of a pulley that swivels about `axis` towards the attachment, and leaves along the
+// tangent. The length then grows by exactly direction . (movement of the attachment). An attachment
+// within the pulley has no tangent: the straight line is returned.
 [[nodiscard]] StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
                                      const Vec3 &attachment_m) noexcept;
 
-// The same for string i of a frame.
+// Returns the path of one string (0-7) of a frame.
 [[nodiscard]] StringPath string_path(const FrameGeometry &frame, std::size_t string,
                                      const Vec3 &attachment_m) noexcept;
 

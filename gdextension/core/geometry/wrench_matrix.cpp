@@ -9,10 +9,10 @@ namespace spidar {
 
 namespace {
 
-// A string shorter than this has no direction: its column is zero (unit: m).
+// A string shorter than this has no direction, and its column is zero (unit: m).
 constexpr double kShortestString_m = 1e-9;
 
-// Poles and eyelets, two strings at a time.
+// Fills the matrix for poles and eyelets, two strings at a time.
 void fill_crossed(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
                   const GripPose &pose, const Vec3 &normal) noexcept {
     for (std::size_t i = 0; i < matrix.columns.size(); i += 2) {
@@ -24,7 +24,8 @@ void fill_crossed(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGe
             lanes_of(frame.motors_m[i] - pose.position_m, frame.motors_m[i + 1] - pose.position_m) -
             lever;
         const Lanes length = square_root(dot(line, line));
-        // A NaN length takes the division and shows in the column: the solver refuses it by status.
+        // A NaN length passes the division and appears in the column: the solver refuses it by
+        // status.
         const Lanes over = both(1.0) / length;
         const Lanes inverse = {length[0] <= kShortestString_m ? 0.0 : over[0],
                                length[1] <= kShortestString_m ? 0.0 : over[1]};
@@ -43,7 +44,7 @@ void fill_crossed(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGe
     }
 }
 
-// Any grip, any exit.
+// Fills the matrix for any grip and any exit.
 void fill_general(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGeometry &grip,
                   const GripPose &pose, const Vec3 &normal) noexcept {
     for (int i = 0; i < kStringCount; ++i) {
@@ -51,7 +52,7 @@ void fill_general(WrenchMatrix &matrix, const FrameGeometry &frame, const GripGe
         const Attachment &tie = grip.attachments[s];
         const Vec3 lever = attachment_lever(grip, pose, s);
         const StringPath path = string_path(frame, s, pose.position_m + lever);
-        // A NaN takes the direction and shows in the column: the solver refuses it by status.
+        // A NaN passes and appears in the column: the solver refuses it by status.
         const Vec3 pull = path.length_m <= kShortestString_m ? Vec3(0.0) : -path.direction;
         const Vec3 moment = glm::cross(lever, pull);
         const double grasp = (tie.pole == 0 ? 1.0 : -1.0) * glm::dot(normal, moment);
@@ -75,7 +76,7 @@ void set_wrench_matrix(WrenchMatrix &matrix, const FrameGeometry &frame, const G
     const double area = glm::length(cross);
     const double scale = glm::length(pose.r1_m) * glm::length(pose.r2_m);
     matrix.grasp_row_vanishes = rigid || !(area > kParallelAngle_rad * scale);
-    // Nearer to parallel than the rotation is trusted, n is noise and would turn g into a noisy moment.
+    // Nearer to parallel than kParallelAngle_rad, n is noise and would turn g into a noisy moment.
     const Vec3 normal = matrix.grasp_row_vanishes ? Vec3(0.0) : cross / area;
 
     if (rigid || frame.pulley_radius_m > 0.0) {

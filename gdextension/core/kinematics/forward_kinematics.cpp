@@ -26,8 +26,9 @@ bool all_possible(const StringArray &lengths_m) noexcept {
     return true;
 }
 
-// Residual once a step is taken, by the linear model that the step comes from. The step of a prior decreases the
-// sum of both; its share is taken off again. off: from the pose of the step to the expected one.
+// Returns the residual (rms) after a step, by the linear model of the step. With a prior the step
+// decreases the sum of both objectives, and the prior's share is removed again. off: from the pose
+// of the step to the expected one.
 double rms_after(const CrossedErrors &errors, const CrossedStep &step, double prior,
                  const CrossedPose &off) noexcept {
     double left_m2 = errors.sum_of_squares_m2 - step.decrease_m2;
@@ -76,7 +77,7 @@ KinematicsResult ForwardKinematics::refuse(const StringArray &lengths_m,
     return hold(result, all_finite(lengths_m) ? Status::impossible_lengths : Status::not_finite);
 }
 
-// The gates that every new pose passes; on success it becomes the last pose.
+// Checks that every new pose must pass; a pose that passes becomes the last pose.
 KinematicsResult ForwardKinematics::accept(KinematicsResult &result) noexcept {
     if (!(result.residual_rms_m <= kImpossibleResidual_m)) {
         return hold(result, Status::impossible_lengths);
@@ -110,9 +111,9 @@ KinematicsResult ForwardKinematics::update(const StringArray &lengths_m) noexcep
     return crossed_ ? track_crossed(lengths_m) : track_any(lengths_m);
 }
 
-// No search for a residual that is usual: errors of the strings that stay are no reason to doubt the pose.
+// A usual residual causes no search: lasting errors of the strings are no reason to doubt the pose.
 bool ForwardKinematics::residual_alarms(double residual_rms_m) const noexcept {
-    // On the way to another answer its level is not known yet.
+    // During a blend to another answer the usual level is not known yet.
     if (residual_rms_m <= kWarmResidualGate_m || blend_.active()) {
         return false;
     }
@@ -145,8 +146,9 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     KinematicsResult result;
     result.steps = 1;
     result.residual_rms_m = rms_after(errors, first, prior, CrossedPose());
-    // Squares, so that the pivot needs no root. A step of size s leaves k s^2, and one more by the same
-    // factorisation (k s)^2 s. One that leaves too little to matter is not looked at again.
+    // Squares avoid the root of the pivot. A step of size s leaves an error k s^2, and another step
+    // with the same factorization (k s)^2 s. A step that leaves too little to matter is not checked
+    // again.
     const double enough_m = kTrackingFloor_m + kTrackingShare * result.residual_rms_m;
     const double allowed = enough_m * enough_m * factor.min_pivot;
     const double bend2 = kLengthCurvature * kLengthCurvature * first.size_m2;
@@ -195,7 +197,7 @@ KinematicsResult ForwardKinematics::track_crossed(const StringArray &lengths_m) 
     if (look) {
         ticks_to_rivals_ = closed_form_ ? kRivalPeriod : kSlowRivalPeriod;
     }
-    if (look || !noisy) { // the strings' own: the prior is no knowledge of the pose
+    if (look || !noisy) { // by the strings alone: a prior is no knowledge of the pose
         conditioning_ = noisy ? factorise(errors, pose, d).min_pivot : factor.min_pivot;
     }
     result.conditioning = conditioning_;
@@ -218,7 +220,7 @@ void ForwardKinematics::finish_look(bool look, const StringArray &lengths_m,
     }
 }
 
-// Changes `found` to another answer once that was better for long enough, and starts to blend from one to the other.
+// Changes `found` to a rival that was preferable for long enough, and starts the blend.
 void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
                                         KinematicsResult &found) noexcept {
     PolishResult known;
@@ -227,7 +229,8 @@ void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
     const double usual_m = prior_.length_sigma_m() * std::sqrt(1.0 / kStringCount);
     const RivalResult rival =
         find_rival({frame_, grip_, lengths_m}, search_tools(), known, usual_m);
-    ambiguous_ = rival.ambiguous && closed_form_ && crossed_; // of others cold starts alone tell
+    ambiguous_ = rival.ambiguous && closed_form_ &&
+                 crossed_; // for other grips only cold starts detect ambiguity
     better_looks_ = rival.preferable ? better_looks_ + 1 : 0;
     if (better_looks_ >= (closed_form_ && crossed_ ? kRivalLooks : kSlowRivalLooks)) {
         better_looks_ = 0;
@@ -240,8 +243,9 @@ void ForwardKinematics::look_for_rivals(const StringArray &lengths_m,
     }
 }
 
-// The next change by that order of extrapolation (none, constant speed, constant acceleration) which would have served
-// best for the change just seen. Noise makes the higher orders worse, smooth motion much better.
+// Predicts the next change by the order of extrapolation (none, constant speed, constant
+// acceleration) that would have predicted the last change best. Noise makes higher orders worse,
+// smooth motion much better.
 void ForwardKinematics::foresee(const CrossedPose &change) noexcept {
     const CrossedPose turn = minus(change, last_change_);
     const double still2 = squared(change);
@@ -290,7 +294,8 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     }
     SearchResult found = search_pose(problem, tools, remembered, content_m);
     if (found.any && !found.best.converged && found.best.residual_rms_m <= kImpossibleResidual_m) {
-        // One start in a million, far away, meets the bound just before the end: it may go on once.
+        // One distant start in a million reaches the step limit just before convergence: it may
+        // continue once.
         found.best = polish_pose(problem, found.best.pose);
         found.steps += found.best.steps;
     }
@@ -311,7 +316,7 @@ KinematicsResult ForwardKinematics::search(const StringArray &lengths_m, const G
     better_looks_ = 0;
     still_ = true;
     conditioning_ = result.conditioning;
-    blend_.stop(); // found anew: the lengths themselves jumped
+    blend_.stop(); // found by a search: the lengths themselves jumped
     if (ambiguous_) {
         result.status = Status::ambiguous_pose;
     }

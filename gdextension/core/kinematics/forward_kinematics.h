@@ -1,7 +1,9 @@
-// String lengths -> grip pose. Warm: Gauss-Newton on R3 x S2 x S2 from the pose that the last ones foresee; the second
-// step is taken only when the first one leaves an error, and reuses its factorisation. Cold, or on a bad
-// residual: the closed form (cubic in y1 / x2, from eq. (4)-(15) as corrected in docs/why/paper_notes.md). Rigid grips, exit
-// pulleys and other frames take the same way with general steps: gauss_newton.h, and seven starts without closed form.
+// Forward kinematics: string lengths to grip pose. A warm tick takes Gauss-Newton steps on R3 x S2
+// x S2 from the pose that the last poses predict. A second step is taken only when the first leaves
+// an error, and reuses its factorization where that suffices. A cold start, or a residual that is
+// too large, leads to a search from the closed form (cubic in y1 / x2, eq. (4)-(15) as corrected in
+// docs/why/paper_notes.md). Rigid grips, exit pulleys and other frames use the general steps of
+// gauss_newton.h; without a closed form the search has seven starts.
 #pragma once
 
 #include <cstdint>
@@ -19,61 +21,67 @@ namespace spidar {
 
 struct SearchTools; // core/kinematics/search/pose_search.h
 
-// Lengths no pose explains. The paper's strings err by up to 3 mm; seven times that is a fault.
+// Residual (rms) above which no pose explains the lengths. The paper's strings err by up to 3 mm;
+// seven times that is a fault.
 inline constexpr double kImpossibleResidual_m = 0.020;
-// Smallest scaled pivot of the normal equations, about sigma7 squared. Below this the lengths leave a direction open to
-// 1 %: the pose is flagged.
+// Smallest scaled pivot of the normal equations (about sigma7 squared) that is not flagged
+// near_singular. Below it the lengths leave a direction open to 1 %.
 inline constexpr double kNearSingularPivot = 1e-4;
-// Warm ticks from one look for other answers to the next: 8 ms at 1 kHz, in which a hand moves a few millimetres.
+// Warm ticks between two searches for a rival pose: 8 ms at 1 kHz, a few mm of hand motion.
 inline constexpr int kRivalPeriod = 8;
-// Without a closed form a look costs more: it is taken this often, and only while the lengths fit worse than calibrated
-// strings do.
+// Same period without a closed form, where a search costs more. Searches then run only while the
+// residual exceeds kWarmResidualGate_m.
 inline constexpr int kSlowRivalPeriod = 14;
+// Searches in a row, without a closed form, that must prefer a rival before the pose changes to it.
 inline constexpr int kSlowRivalLooks = 5;
-// Looks in a row that must find a better answer before the pose goes there: 56 ms at 1 kHz.
+// Closed-form searches in a row that must prefer a rival before it is taken: 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
-// A movement within a tick of less than this, a hundredth of an encoder count in a second, is none.
+// Largest change of pose per tick that counts as standing still: 0.01 encoder counts per second.
 inline constexpr double kStill_m = 2.5e-10;
-// A warm tick is done when the error it leaves is below this part of what the lengths themselves err by: their residual.
-// Errors add by squares, so that the pose is then worse by 0.2 %.
+// A warm tick ends when the error it leaves is below this share of the residual. Errors add by
+// squares: the pose is then worse by 0.2 %.
 inline constexpr double kTrackingShare = 0.05;
 
 struct KinematicsResult {
     GripPose pose;
-    double residual_rms_m =
-        0.0; // sqrt(mean (l - l(pose))^2) of the lengths given; noise or a fault shows here
-    double conditioning =
-        0.0; // smallest pivot of the scaled normal equations, 0..1; small = near singular. Lengths with errors:
-    // looked at every kRivalPeriod ticks
-    int steps = 0;              // Gauss-Newton steps taken
-    bool cold_start = false;    // the closed form was used
+    // sqrt(mean (l - l(pose))^2) of the lengths passed in; shows noise and faults.
+    double residual_rms_m = 0.0;
+    // Smallest pivot of the scaled normal equations, 0..1; small: near singular. For lengths with
+    // errors it is refreshed only at searches for rivals.
+    double conditioning = 0.0;
+    int steps = 0;              // Gauss-Newton or Newton steps taken
+    bool cold_start = false;    // a search ran, from the closed form or other starts
     Status status = Status::ok; // >= 0: pose is new; < 0: pose is the last good one
 };
 
 class ForwardKinematics {
 public:
-    // Keeps copies. On a negative status the old configuration stands. Resets to the rest pose, cold.
+    // Keeps copies; starts cold at the rest pose. invalid_geometry keeps the old configuration.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip) noexcept;
 
-    // One servo tick: one to three steps. Lengths with errors are weighed against where the motion leads
-    // (motion_prior.h). A search follows when a step is larger than hand and errors explain; another answer that stays better
-    // for kRivalLooks looks is gone to without a jump (pose_blend.h). Holds the last good pose (status < 0) on garbage. Never NaN, no allocation.
-    // ambiguous_pose, where there is a closed form: looked for every kRivalPeriod ticks, stands in between.
+    // Takes one servo tick of measured lengths (unit: m). A warm tick takes one to three steps.
+    // Lengths with errors are weighed against the predicted motion (motion_prior.h). A search runs
+    // when a step or residual is larger than the hand and the usual errors explain. A rival pose
+    // that stays preferable for kRivalLooks searches is approached without a jump (pose_blend.h).
+    // On bad lengths the result holds the last good pose and status < 0, never NaN. ambiguous_pose
+    // is refreshed every kRivalPeriod ticks, for eyelet frames with a closed form only. No
+    // allocation.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
-    // As update(), from no memory: closed form, upright pair first, then Gauss-Newton to convergence.
+    // update() without memory: closed form, upright root pair first, then steps to convergence.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
-    // Warm start from here at the next update().
+    // Sets the pose from which the next update() starts warm.
     void set_last_pose(const GripPose &pose) noexcept;
+    // The pose last returned by update().
     [[nodiscard]] const GripPose &last_pose() const noexcept {
         return blend_.active() ? blend_.shown() : last_pose_;
     }
-    // The same lengths again give the same pose. With errors the pose comes to it over some ticks.
+    // True when update() with the same lengths would return the same pose.
     [[nodiscard]] bool settled() const noexcept {
         return !blend_.active() && better_looks_ == 0 && (prior_.weight() == 0.0 || still_);
     }
-    // Forget the last pose: the next update() is cold.
+    // Forgets the last pose: the next update() is cold.
     void reset() noexcept {
         warm_ = false;
         ambiguous_ = false;
@@ -85,7 +93,7 @@ public:
         prior_.restart();
         forget_motion();
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(crossed_, is_box_, closed_form_, warm_, foreseeing_, still_, fresh_,
                          ambiguous_) &&
@@ -110,7 +118,7 @@ private:
         foreseeing_ = false;
         prior_.forget_motion();
     }
-    // Changes `result` in place and returns it: the tick makes no copy that it can spare.
+    // Changes `result` in place and returns it, which saves a copy per tick.
     KinematicsResult accept(KinematicsResult &result) noexcept;
     [[nodiscard]] KinematicsResult hold(const KinematicsResult &from, Status status) const noexcept;
     [[nodiscard]] KinematicsResult refuse(const StringArray &lengths_m,
@@ -119,25 +127,30 @@ private:
     FrameGeometry frame_{};
     GripGeometry grip_{};
     CrossedLayout layout_;
-    bool crossed_ =
-        false; // layout_ is valid and the strings leave from eyelets: the fast steps serve
+    // layout_ is valid and the strings leave from eyelets: the fast steps of crossed_step.h apply.
+    bool crossed_ = false;
     Vec3 half_extents_m_{0.0}; // valid when is_box_
     bool is_box_ = false;
     bool closed_form_ = false;
     bool warm_ = false;
     GripPose last_pose_{};
-    CrossedPose last_change_{}; // of the last warm tick
-    CrossedPose last_turn_{};   // change of that change
+    CrossedPose last_change_{}; // change of pose in the last warm tick
+    CrossedPose last_turn_{};   // change of last_change_
     CrossedPose foreseen_change_{};
     bool foreseeing_ = false;
     MotionPrior prior_;
     PoseBlend blend_;
-    bool still_ = false;        // the last tick moved the pose by less than kStill_m
-    bool fresh_ = true;         // no tick since the pose was set or found
-    double conditioning_ = 0.0; // by the strings alone, at the last look
-    int better_looks_ = 0;      // in a row, at which another answer was better
-    bool ambiguous_ = false;    // at the last look
-    int ticks_to_rivals_ = 0;   // warm ticks until the next one
+    bool still_ = false; // the last tick moved the pose by less than kStill_m
+    // No tick has run since the pose was set or found.
+    bool fresh_ = true;
+    // Conditioning by the lengths alone, at the last search for rivals.
+    double conditioning_ = 0.0;
+    // Searches in a row that preferred a rival.
+    int better_looks_ = 0;
+    // Result of the last search for rivals.
+    bool ambiguous_ = false;
+    // Warm ticks until the next search for rivals.
+    int ticks_to_rivals_ = 0;
 };
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// The warm tick by the general steps: rigid grips, strings that leave over pulleys, other ways of stringing.
+// Warm tick for rigid grips, exit pulleys and unusual stringing: the general Gauss-Newton steps.
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -11,7 +11,7 @@ namespace spidar {
 
 using namespace tracking;
 
-// Where the motion leads, as a pose of this grip.
+// Returns the predicted pose as a valid pose of this grip.
 GripPose ForwardKinematics::expected_pose() const noexcept {
     const double d = grip_.pole_half_length_m;
     GripPose pose = pose_of(one_change_on(lanes_of(last_pose_), prior_.expected_change(), d));
@@ -23,7 +23,7 @@ GripPose ForwardKinematics::expected_pose() const noexcept {
     return pose;
 }
 
-// Rigid grips, strings that leave over pulleys, and grips with other than two strings to a pole end.
+// Warm tick of rigid grips, exit pulleys, and grips without two strings per pole end.
 KinematicsResult ForwardKinematics::track_any(const StringArray &lengths_m) noexcept {
     const LengthProblem problem{frame_, grip_, lengths_m};
     ExpectedPose expected;

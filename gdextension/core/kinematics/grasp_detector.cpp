@@ -9,16 +9,15 @@ namespace spidar {
 namespace {
 
 constexpr double kHalfPi = 1.5707963267948966;
-// A dwell longer than this is a unit mistake (milliseconds typed as seconds).
+// Longest dwell: a longer one is a unit error (milliseconds typed as seconds).
 constexpr double kMaxDwell_s = 5.0;
 
-// The phase this angle asks for; the present one decides which side of each hysteresis band holds.
+// Returns the phase of this angle; the present phase selects the side of each hysteresis band.
 GraspPhase phase_asked(const GraspSettings &settings, GraspPhase now, double angle_rad) noexcept {
     const double over =
         now == GraspPhase::over_closed ? settings.over_closed_leave_rad : settings.over_closed_rad;
     const double grasp = now == GraspPhase::open ? settings.enter_rad : settings.leave_rad;
-    // Entering grasped from over-closed needs to be below over_closed_leave_rad, leaving it above
-    // over_closed_rad.
+    // over_closed is left below over_closed_leave_rad and entered above over_closed_rad.
     if (now == GraspPhase::over_closed ? angle_rad >= over : angle_rad > over) {
         return GraspPhase::over_closed;
     }
@@ -38,12 +37,12 @@ GraspPhase GraspDetector::update(double grasp_angle_rad, double dt_s) noexcept {
     }
     const GraspPhase asked = phase_asked(settings_, phase_, grasp_angle_rad);
     if (asked == phase_) {
-        candidate_ = phase_; // what is asked next begins its dwell
+        candidate_ = phase_; // the next requested phase starts its dwell
         return phase_;
     }
     if (asked != candidate_) {
         candidate_ = asked;
-        candidate_age_s_ = 0.0; // the time before this sample belongs to what was seen before it
+        candidate_age_s_ = 0.0; // the time before this sample belongs to the earlier phase
     } else if (dt_s > 0.0 && std::isfinite(dt_s)) {
         candidate_age_s_ += dt_s;
     }

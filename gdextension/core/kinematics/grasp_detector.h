@@ -1,4 +1,4 @@
-// Grasp angle -> open, grasped or over-closed, with hysteresis and dwell, so that noise does not chatter.
+// Classifies the grasp angle: open, grasped, over-closed. Hysteresis and dwell reject noise.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,25 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 
 enum class GraspPhase : std::uint8_t { open = 0, grasped = 1, over_closed = 2 };
 
-// Paper: grasping between 20 and 50 degrees (its zero is not stated; here grasp_angle, 0 at rest).
+// Thresholds on grasp_angle (0 at rest). The paper grasps between 20 and 50 degrees and does not
+// state its zero.
 struct GraspSettings {
     double enter_rad = 20.0 * kDegree_rad;
     double leave_rad = 15.0 * kDegree_rad;
     double over_closed_rad = 55.0 * kDegree_rad;
     double over_closed_leave_rad = 50.0 * kDegree_rad;
-    double dwell_s = 0.030; // a new phase must last this long before it counts
+    double dwell_s = 0.030; // time for which a new phase must last before it counts
 };
 
 class GraspDetector {
 public:
     void configure(const GraspSettings &settings) noexcept { settings_ = settings; }
-    // A grasp angle that is not finite changes nothing. dt_s: time since the last call.
+    // Returns the phase. dt_s: time since the last call. A non-finite grasp angle changes nothing.
     GraspPhase update(double grasp_angle_rad, double dt_s) noexcept;
     [[nodiscard]] GraspPhase phase() const noexcept { return phase_; }
-    // No change of phase is waiting for its dwell.
+    // True when no change of phase waits for its dwell.
     [[nodiscard]] bool at_rest() const noexcept { return candidate_ == phase_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return is_one_of(phase_, GraspPhase::over_closed) &&
                is_one_of(candidate_, GraspPhase::over_closed);
@@ -42,6 +43,7 @@ private:
     double candidate_age_s_ = 0.0;
 };
 
+// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const GraspSettings &settings);
 
 } // namespace spidar

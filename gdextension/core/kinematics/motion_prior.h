@@ -1,8 +1,8 @@
-// How far the measured lengths are trusted, and where the grip is expected: what a warm tick adds to its least squares,
-//   minimise sum_i (l_i - l_i(pose))^2 + weight |pose - expected pose|^2,
-// so that a direction that the strings determine badly is held by the motion, and one that they determine well follows
-// the strings. weight = (sigma of a length / sigma of the motion)^2, with the first taken from the recent residual: exact
-// lengths make it zero.
+// Weight of the predicted motion against the measured lengths. A warm tick minimizes
+//   sum_i (l_i - l_i(pose))^2 + weight |pose - expected pose|^2,
+// so that the motion holds directions that the strings determine badly, and the strings decide the
+// others. weight = (sigma of a length / sigma of the motion)^2, where the recent residual gives the
+// first sigma. Exact lengths give weight 0.
 #pragma once
 
 #include <cmath>
@@ -14,19 +14,21 @@ namespace spidar {
 
 class MotionPrior {
 public:
-    // What the expected pose may miss in a tick beyond what the lengths say. Of 1 to 20 mm this is the largest that holds
-    // the pose of strings that err by +-5 mm to less than 1 mm a tick beyond the hand's motion.
+    // Standard deviation of the prediction error per tick. Of the values tried (1 to 20 mm) it is
+    // the largest that keeps the pose within 1 mm per tick of the hand's motion for strings that
+    // err by 5 mm.
     static constexpr double kMotionSigma_m = 3e-3;
-    // Below this weight, a residual of 0.03 mm, the lengths alone decide.
+    // Smallest weight that is used (a residual of 0.03 mm); below it the lengths alone decide.
     static constexpr double kLeastWeight = 1e-3;
-    // And this is the largest weight, of a residual of 3.3 mm: more is no calibration but a fault, and the
-    // pose must not stand still for it.
+    // Largest weight (a residual of 3.3 mm): larger residuals are faults and must not stop the
+    // pose.
     static constexpr double kMostWeight = 10.0;
-    // The level rises to a larger residual in 20 ticks and falls in 1000: the one redundant length shows nothing of the
-    // other errors where its own passes through zero.
+    // Share per tick by which the residual level rises: 20 ticks.
     static constexpr double kRise = 0.05;
+    // Share per tick by which the residual level falls: 1000 ticks. It is slow because the one
+    // redundant length shows no errors while its own error passes through zero.
     static constexpr double kFall = 0.001;
-    // Of the newest movement in the mean one: 20 ticks, in which a hand keeps its speed.
+    // Share of the newest movement in the mean movement: 20 ticks, in which a hand keeps its speed.
     static constexpr double kNewest = 0.05;
 
     void restart() noexcept { *this = MotionPrior(); }
@@ -35,16 +37,17 @@ public:
         moving_ = false;
     }
 
-    // A pose was found anew, with these length errors.
+    // Restarts after a pose was found by a search, with that pose's sum of squared length errors.
     void begin(double sum_of_squares_m2) noexcept {
         restart();
         variance_m2_ = sum_of_squares_m2;
     }
-    // Once a tick. sum_of_squares_m2: of the length errors at the pose found. change: from the pose before.
+    // Learns from one tick. sum_of_squares_m2: squared length errors at the found pose. change:
+    // from the previous pose.
     void learn(double sum_of_squares_m2, const CrossedPose &change) noexcept {
         const double off_m2 = sum_of_squares_m2 - variance_m2_;
         variance_m2_ += (off_m2 > 0.0 ? kRise : kFall) * off_m2;
-        if (!moving_) { // the first difference leads from a pose of other lengths
+        if (!moving_) { // the first difference is from a pose of other lengths
             moving_ = true;
             return;
         }
@@ -53,16 +56,17 @@ public:
         change_.poles_m = change_.poles_m + share * (change.poles_m - change_.poles_m);
     }
 
-    // 0 when the lengths alone decide.
+    // Weight of the expected pose; 0 when the lengths alone decide.
     [[nodiscard]] double weight() const noexcept {
         const double weight = variance_m2_ * (1.0 / (kMotionSigma_m * kMotionSigma_m));
         return weight < kLeastWeight ? 0.0 : weight < kMostWeight ? weight : kMostWeight;
     }
-    // The recent level of the residual over all eight lengths, which is about the standard deviation of one (unit: m).
+    // Recent level of the residual over all eight lengths, about the standard deviation of one
+    // length (unit: m).
     [[nodiscard]] double length_sigma_m() const noexcept { return std::sqrt(variance_m2_); }
-    // The movement that the next tick is expected to make.
+    // The movement expected in the next tick.
     [[nodiscard]] const CrossedPose &expected_change() const noexcept { return change_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:

@@ -13,7 +13,8 @@ double angle_between(const Vec3 &a, const Vec3 &b) noexcept {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// `from` turned by that share of the angle to `to`, along the great circle; of opposite poles along any.
+// Returns `from` turned by that share of the angle to `to`, along the great circle; for opposite
+// poles along any.
 Vec3 turned_towards(const Vec3 &from, const Vec3 &to, double share) noexcept {
     const double size = glm::length(from);
     const Vec3 n = from / size;
@@ -29,7 +30,7 @@ Vec3 turned_towards(const Vec3 &from, const Vec3 &to, double share) noexcept {
     return size * (std::cos(angle) * n + std::sin(angle) * glm::normalize(way));
 }
 
-// Carried along by what the found pole does.
+// Returns the pole moved by the change of the found pole.
 Vec3 carried(const Vec3 &pole, const Vec3 &change) noexcept {
     return glm::length(pole) * glm::normalize(pole + change);
 }
@@ -43,7 +44,8 @@ void PoseBlend::start(const GripPose &shown, const GripPose &found) noexcept {
                                                             angle_between(shown.r2_m, found.r2_m));
     const double way_m = glm::distance(shown.position_m, found.position_m) + arc_m;
     const double steps = std::min(way_m / kStep_m, static_cast<double>(kLongest_ticks - 1));
-    left_ = steps >= 0.0 ? 1 + static_cast<int>(steps) : 1; // a way that is no number is none
+    left_ = steps >= 0.0 ? 1 + static_cast<int>(steps)
+                         : 1; // a distance that is not a number counts as zero
 }
 
 GripPose PoseBlend::next(const GripPose &found) noexcept {

@@ -1,5 +1,4 @@
-// From one answer of the kinematics to another without a jump: the pose shown goes there in equal parts, while the hand
-// moves on.
+// Moves the shown pose to another answer without a jump, in equal steps, as the hand moves on.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -9,24 +8,26 @@ namespace spidar {
 
 class PoseBlend {
 public:
-    // The farthest point moves by this in a tick at most, unless the whole then takes longer than kLongest.
+    // Largest movement of the farthest point per tick, unless the blend would take more than
+    // kLongest_ticks.
     static constexpr double kStep_m = 0.8e-3;
     static constexpr int kLongest_ticks = 130;
 
     void stop() noexcept { left_ = 0; }
     [[nodiscard]] bool active() const noexcept { return left_ > 0; }
-    // Shown so far, found now.
+    // Starts a blend from the pose shown so far to the pose found now.
     void start(const GripPose &shown, const GripPose &found) noexcept;
-    // Once a tick, with the newest pose found. Returns the pose to show.
+    // Takes one tick with the newest found pose. Returns the pose to show.
     GripPose next(const GripPose &found) noexcept;
     [[nodiscard]] const GripPose &shown() const noexcept { return shown_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return left_ >= 0 && left_ <= kLongest_ticks; }
 
 private:
+    // ticks until shown and found pose agree
     int left_ = 0;
     GripPose shown_{};
-    GripPose found_{}; // in the tick before
+    GripPose found_{}; // the found pose of the previous tick
 };
 
 } // namespace spidar

@@ -1,44 +1,50 @@
-// What the warm tick of both kinds of steps goes by: the limits at which a step or a residual is not believed, and the
-// arithmetic of movements.
+// Limits of a warm tick for both kinds of steps, and arithmetic of pose changes.
 #pragma once
 
 #include "core/kinematics/forward_kinematics.h"
 
 namespace spidar::tracking {
 
-// Nearer to a z face than this, a 25th of an encoder count, a pole and its mirror image have the same lengths to rounding.
+// Closest allowed distance to a z face, a 25th of an encoder count. Nearer, a pole and its mirror
+// image have equal lengths to rounding.
 inline constexpr double kFaceMargin_m = 1e-6;
-// No string is longer: the diagonal of the largest frame is 35 m.
+// Longest string that is accepted: the diagonal of the largest frame is 35 m.
 inline constexpr double kLongestString_m = 40.0;
-// After the steps of a warm tick a residual above this asks for a cold start, unless lengths have erred before. Calibrated
-// strings err by less, and the redundant eighth length shows only a third of the error of one string.
+// Residual of a warm tick above which a search runs, unless such a residual is usual for these
+// lengths. Calibrated strings err by less; the redundant eighth length shows only a third of the
+// error of one string.
 inline constexpr double kWarmResidualGate_m = 1e-3;
-// A search ends at the remembered pose where the lengths fit it to this, less than an encoder count. Else the others are
-// looked at too, and must fit 50 times better: next to it a wrong branch may fit to a millimetre.
+// Residual, less than an encoder count, at which a search accepts the remembered pose without
+// trying others. Above it the others must fit 50 times better, since next to it a wrong branch may
+// fit to a millimeter.
 inline constexpr double kContentResidual_m = 2e-5;
-// A residual this many times its recent level is no usual one.
+// A residual above this many times its recent level is unusual.
 inline constexpr double kUnusual = 3.0;
-// Lengths that err by sigma move the foreseen pose by up to this many sigma in a tick, near badly determined poses.
+// Near badly determined poses, lengths that err by sigma move the predicted pose by up to this many
+// sigma per tick.
 inline constexpr double kNoiseReach = 4.0;
-// With errors a second step of less than this share of the first still settles.
+// For lengths with errors a second step below this share of the first counts as settling.
 inline constexpr double kSettlingShare = 0.5;
-// Motion within one tick above which Gauss-Newton alone is not trusted: 5 m/s at 1 kHz.
+// Largest motion in one tick for which Gauss-Newton alone is trusted: 5 m/s at 1 kHz.
 inline constexpr double kMaxWarmStep_m = 5e-3;
-// Up to this the last pose is still trusted to lead to the right answer of several, if that fits: strings that err by
-// millimetres move the pole ends so far in a tick. Beyond, it competes with the closed form.
+// Largest motion in one tick for which the last pose is still trusted to select the right root, if
+// it fits. Strings that err by millimeters move the pole ends this far in a tick. Beyond, the last
+// pose competes with the closed form.
 inline constexpr double kTrustedStep_m = 0.02;
-// The second step of a warm tick is quadratically smaller than the first; above this it did not settle.
+// Largest second step of a warm tick. The second step is quadratically smaller than the first; a
+// larger one did not settle.
 inline constexpr double kMaxSecondStep_m = 5e-4;
-// Above this it leaves more than 10 nm, and a third is taken: movements of more than a millimetre within a tick that were
-// not foreseen, or samples lost.
+// Second step above which a third is taken, since more than 10 nm of error would remain. This
+// happens for unpredicted movements of more than a millimeter per tick, and after lost samples.
 inline constexpr double kThirdStep_m = 2e-5;
-// Motion within one tick after which the last pose says nothing (device restarted, samples lost).
+// Motion in one tick beyond which the last pose is forgotten (device restarted, samples lost).
 inline constexpr double kForgetStep_m = 0.05;
-// Below this smallest scaled pivot the lengths leave a direction open to the square root of rounding: the pose is refused.
+// Smallest scaled pivot of an accepted pose: below it the lengths leave a direction open.
 inline constexpr double kRankDeficientPivot = 1e-12;
-// A warm tick is done when the error it leaves is below this or below kTrackingShare of the residual.
+// A warm tick ends when its error is below this or below kTrackingShare of the residual.
 inline constexpr double kTrackingFloor_m = 1e-12;
-// A higher order of extrapolation is used when its squared miss was this much smaller.
+// A higher order of extrapolation is used when its squared error was below this share of the lower
+// order's.
 inline constexpr double kForeseenShare = 0.25;
 
 inline CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
@@ -54,7 +60,7 @@ inline double squared(const CrossedPose &change) noexcept {
            sum_of(dot(change.poles_m, change.poles_m));
 }
 
-// The pose one change on. Poles back on their spheres to second order: a start needs no more.
+// Returns the pose after one more change. Poles return to their spheres to second order.
 inline CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change,
                                  double d) noexcept {
     const LaneVec poles = pose.poles_m + change.poles_m;

@@ -7,7 +7,7 @@ namespace spidar {
 
 namespace {
 
-// HISpidar.cpp of Springhead (see THIRDPARTY.md): positions, length of a count, tension range.
+// Positions, length of a count and tension range: HISpidar.cpp of Springhead (THIRDPARTY.md).
 constexpr StringVectors kX3rMotors_m{Vec3(-0.08485, -0.076, 0), Vec3(0, -0.076, 0.08485),
                                      Vec3(0.08485, -0.076, 0),  Vec3(0, -0.076, -0.08485),
                                      Vec3(-0.08485, 0.076, 0),  Vec3(0, 0.076, 0.08485),
@@ -25,7 +25,7 @@ constexpr StringVectors kX3lJoints_m{Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 
                                      Vec3(0.01591, 0, -0.01591), Vec3(-0.01591, 0, 0.01591),
                                      Vec3(0, -0.0225, 0),        Vec3(0, -0.0225, 0)};
 
-// Not turned in their frames, and so with joints along the axes.
+// The joints of the X5 and X4 grips lie on the axes of the frame.
 constexpr StringVectors kX5rMotors_m{
     Vec3(-0.0775, -0.0735, 0.0775),  Vec3(0.0775, -0.0735, 0.0775), Vec3(0.0775, -0.0735, -0.0775),
     Vec3(-0.0775, -0.0735, -0.0775), Vec3(-0.0775, 0.0735, 0.0775), Vec3(0.0775, 0.0735, 0.0775),
@@ -47,7 +47,7 @@ constexpr StringVectors kX4Motors_m{Vec3(0.069, -0.095, -0.069), Vec3(0.069, -0.
 constexpr StringVectors kX4Joints_m{Vec3(0, -0.0225, 0), Vec3(0.0225, 0, 0), Vec3(-0.0225, 0, 0),
                                     Vec3(0, -0.0225, 0), Vec3(0, 0.0225, 0), Vec3(0.0225, 0, 0),
                                     Vec3(-0.0225, 0, 0), Vec3(0, 0.0225, 0)};
-// The usual host's, for a board: it sends volts.
+// Command units of a board (12 bits for 3.3 V) per volt that the usual host sends.
 constexpr double kUnitsPerVolt = 4096.0 / 3.3;
 constexpr BoardWiring kX5rBoards{
     0.091 * kUnitsPerVolt, {-1, 1, -1, 1, -1, 1, -1, 1}, {1, -1, 1, -1, 1, -1, 1, -1}};
@@ -55,7 +55,7 @@ constexpr BoardWiring kX5lBoards{0.091 * kUnitsPerVolt};
 constexpr BoardWiring kX4Boards{
     0.08 * kUnitsPerVolt, {-1, -1, 1, 1, 1, 1, -1, -1}, {1, 1, -1, -1, -1, -1, 1, 1}};
 
-// What a device counts, and what its driver keeps the strings between.
+// Length of one encoder count (unit: m), and the tension range of the device's own driver (N).
 struct Drive {
     double metres_per_count;
     double min_tension_n;

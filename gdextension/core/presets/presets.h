@@ -1,6 +1,6 @@
-// Devices that exist, ready to use: the paper's, and the SPIDAR-G6 family as its open driver states it (Springhead,
-// see THIRDPARTY.md; positions rounded to 10 um). Only geometries that can hold the grip at rest are here;
-// geometry_report.h says of any other whether it can.
+// Devices that exist: the paper's, and the SPIDAR-G6 family as its open driver describes it
+// (Springhead, see THIRDPARTY.md; positions rounded to 10 um). Only geometries that can hold the
+// grip at rest are listed; report_geometry() checks any other.
 #pragma once
 
 #include <array>
@@ -14,16 +14,17 @@ namespace spidar {
 enum class Preset : std::uint8_t {
     paper = 0,         // 7 DOF, 48 cm frame, crossed poles
     spidar_g6_x3r = 1, // 6 DOF, rigid grip, for the right hand
-    spidar_g6_x3l = 2, // its mirror image, for the left
+    spidar_g6_x3l = 2, // mirror image of x3r, for the left hand
     spidar_g6_x5r = 3, // 6 DOF, rigid grip, printed, one B5M board; for the right hand
-    spidar_g6_x5l = 4, // its mirror image, for the left
+    spidar_g6_x5l = 4, // mirror image of x5r, for the left hand
     spidar_g6_x4 = 5,  // 6 DOF, rigid grip, two B3M boards or one B5M
 };
 inline constexpr int kPresetCount = 6;
 
-// What a device's serial motor boards (docs/reference/serial_boards.md) must be told of its motors.
+// What the serial motor boards (docs/reference/serial_boards.md) need to know of a device's motors.
 struct BoardWiring {
-    // What the usual host sends: it thinks in volts. 0: this device has no such boards.
+    // Command units per newton of tension that the usual host of the device sends: its volts per
+    // newton times 4096 / 3.3 V. 0: the device has no such boards.
     double units_per_newton = 0.0;
     std::array<std::int8_t, kStringCount> count_signs{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<std::int8_t, kStringCount> current_signs{1, 1, 1, 1, 1, 1, 1, 1};
@@ -34,12 +35,12 @@ struct DevicePreset {
     FrameGeometry frame;
     GripGeometry grip;
     double metres_per_count = 0.0;
-    double min_tension_n = 0.0; // what the driver keeps the strings between
+    double min_tension_n = 0.0; // tension range of the device's usual driver
     double max_tension_n = 0.0;
     BoardWiring boards;
 };
 
-// A value outside the enumeration gives the paper's device.
+// Returns the paper's device for a value outside the enumeration.
 [[nodiscard]] DevicePreset device_preset(Preset preset) noexcept;
 
 } // namespace spidar

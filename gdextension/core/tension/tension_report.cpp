@@ -9,7 +9,7 @@ namespace spidar {
 
 namespace {
 
-// Stands for "no regularising term": costs nothing and still leaves one answer.
+// Regularizing weight that stands for none: it changes no error, and the optimum stays unique.
 constexpr double kVanishingWeight = 1e-12;
 
 PaperWrench difference(const PaperWrench &a, const PaperWrench &b) noexcept {

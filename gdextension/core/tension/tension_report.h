@@ -1,36 +1,40 @@
-// What some tensions give of a request, and what keeps the rest back. Looked at when asked, not in the servo step:
-// four solves without haste.
+// Which part of a request some tensions achieve, and the causes of the rest. Diagnosis on request,
+// four solves: not for the servo step.
 #pragma once
 
 #include "core/tension/tension_solver.h"
 
 namespace spidar {
 
-// error = limits + ridge + reference + transient, in every DOF (unit: N, N m, order of the paper's q).
+// error = limits + ridge + reference + transient, per DOF, in the order and units (N, N m) of the
+// paper's q.
 struct TensionReport {
     PaperWrench achieved{}; // A tau
     PaperWrench error{};    // A tau - q
-    // Steady shares, strings at bounds included:
-    PaperWrench
-        limits{}; // what bounds, broken strings and lost rank leave, with no regularising term at all
-    PaperWrench ridge{};     // what the ridge adds to that
-    PaperWrench reference{}; // what the pull to the reference tension adds
-    // What would vanish if request and pose stood still: change term, slew limit.
+    // The next three are steady shares, computed with the strings at their bounds.
+    // Error left by bounds, broken strings and lost rank, without any regularizing term.
+    PaperWrench limits{};
+    PaperWrench ridge{};     // error that the ridge adds to `limits`
+    PaperWrench reference{}; // error that the pull to the reference tension adds
+    // Error that would vanish if request and pose stood still: change term and slew limit.
     PaperWrench transient{};
-    std::uint8_t at_min_mask = 0; // bit i: string i would be at its bound then
+    // Strings at their lower bound in the steady solution (bit i: string i).
+    std::uint8_t at_min_mask = 0;
+    // Strings at their upper bound in the steady solution.
     std::uint8_t at_max_mask = 0;
-    // wrench_limited when `limits` weighs more than kNoticeableLimit_n; negative: nothing above is known.
+    // wrench_limited when weighted `limits` exceeds kNoticeableLimit_n. Negative: nothing is valid.
     Status status = Status::ok;
 
-    // ridge + reference: the steady cost of the regularising terms.
+    // Returns ridge + reference: the steady error of the regularizing terms.
     [[nodiscard]] PaperWrench bias() const noexcept;
 };
 
-// Unit: N at the pole ends; a tenth of what a fingertip can tell.
+// Smallest weighted error that counts (N at the pole ends): a tenth of what a fingertip feels.
 inline constexpr double kNoticeableLimit_n = 1e-3;
 
-// `tensions_n`: what is sent to the strings for `wrench` at the pose of `matrix`. DOF that the mask leaves out are
-// reported as they are. Not finite input or settings out of range: negative status and zeros.
+// tensions_n: the tensions that were sent for `wrench` at the pose of `matrix`. DOF outside the
+// mask are reported as they result. For input that is not finite or settings out of range the
+// status is negative and all values are zero.
 [[nodiscard]] TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wrench,
                                            const StringArray &tensions_n,
                                            const TensionSettings &settings) noexcept;

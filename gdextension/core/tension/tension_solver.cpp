@@ -12,31 +12,36 @@ namespace spidar {
 
 namespace {
 
-// An error of the weighted wrench above this is reported (unit: N at the pole ends; a tenth of what a fingertip
-// can tell), when the regularising terms do not explain it.
+// Largest weighted error that is not reported, beyond what the regularizing terms explain (unit: N
+// at the pole ends): a tenth of what a fingertip can feel.
 constexpr double kWrenchLimited_n = 1e-3;
-// What they explain: R'f = -w (x - t) where no bound holds, so |f| <= sqrt(8) w |x - t| / s, and s, the smallest
-// singular value of R = W A, is 0.7 or more within 20 cm of the centre.
+// Error that a regularizing term explains, per weight and distance from its target: R'f = -w (x -
+// t) where no bound holds, so that |f| <= sqrt(8) w |x - t| / s. The smallest singular value s of R
+// = W A is 0.7 or more within 20 cm of the center.
 constexpr double kTermReach = 4.0;
 
-// Ridge and pull together: below this nothing makes the answer unique in double precision.
+// Smallest sum of ridge and reference weight: below it the answer is not unique in double
+// precision.
 constexpr double kVanishingWeight = 1e-12;
 
-// Tensions nearer to the last ones than this are the last ones: rounding of the solver is 1e-14 N, and the change
-// term lets them creep by a 200th of their distance a tick, so that they end 2e-10 N from where they were going.
+// Largest change of a tension that counts as none. The solver rounds to 1e-14 N. The change term
+// moves tensions by a 200th of their distance per tick, so that they stop 2e-10 N from their
+// target.
 constexpr double kSettled_n = 1e-12;
 
-// Above this a setting is a slip of units, and squares of it lose the digits of the rest.
+// Largest setting: a larger one is a unit error, and its square would lose the digits of the
+// others.
 constexpr double kLargestSetting = 1e6;
 
 template <class T>
 bool same_bits(const T &a, const T &b) noexcept {
-    // Bits are what is asked: -0 and NaN too.
+    // Compares bits, so that -0 and NaN count too.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-// Largest |a - b|. In four chains: one alone would wait for itself eight times.
+// Returns the largest |a - b|. Four chains run in parallel; a single one would wait for itself
+// eight times.
 double largest_distance(const StringArray &a, const StringArray &b) noexcept {
     std::array<double, 4> largest{};
     for (std::size_t i = 0; i < largest.size(); ++i) {
@@ -45,7 +50,7 @@ double largest_distance(const StringArray &a, const StringArray &b) noexcept {
     return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
 }
 
-// The first setting that is out of range; field null when none is.
+// The first setting that is out of range; `field` is null when there is none.
 struct Fault {
     const char *field = nullptr;
     double value = 0.0;
@@ -137,7 +142,7 @@ void TensionSolver::prepare() noexcept {
     aim();
 }
 
-// The proximal term of the next tick: known as soon as this one's tensions are, and then at hand.
+// Sets the proximal term of the next tick, as soon as this tick's tensions are known.
 void TensionSolver::aim() noexcept {
     problem_.proximal_weight = settings_.ridge + settings_.reference_weight;
     problem_.proximal_target_n = steady_target_n_;
@@ -156,7 +161,7 @@ TensionResult TensionSolver::update(const WrenchMatrix &matrix,
         last_result_.skipped = true;
         return last_result_;
     }
-    // The fast path certifies its answer, so it refuses whatever is not finite.
+    // The fast solver certifies its answer, and so refuses input that is not finite.
     if (solve_fast({problem_, matrix, wrench}, warm_ ? &last_active_ : nullptr, settings_.simd,
                    fast_)) {
         return remember(fast_, matrix, wrench);
@@ -169,13 +174,13 @@ void TensionSolver::keep(const WrenchMatrix &matrix, const PaperWrench &wrench) 
     problem_.wrench = wrench;
 }
 
-// What the fast path refused.
+// Solves what the fast solver refused.
 TensionResult TensionSolver::update_carefully(const WrenchMatrix &matrix,
                                               const PaperWrench &wrench) noexcept {
     TensionResult result;
     settled_ = false;
     if (!all_finite(matrix.columns)) {
-        result.tensions_n = problem_.lower_n; // the strings stay taut; memory stands
+        result.tensions_n = problem_.lower_n; // the strings stay taut; the memory is unchanged
         result.status = Status::not_finite;
         return result;
     }
@@ -228,7 +233,7 @@ TensionResult TensionSolver::remember(const TensionSolution &solution, const Wre
     }
     last_tensions_n_ = result.tensions_n;
     last_active_ = solution.active;
-    if (settled_) { // what a skipped tick gives, and how it is known
+    if (settled_) { // the result and input that a skipped tick needs
         last_result_ = result;
         keep(matrix, wrench);
     }

@@ -1,8 +1,7 @@
-// Wrench -> eight tensions that only pull, within limits:
+// Tension distribution: eight tensions that only pull, within limits, for a requested wrench q:
 //   min ||W (A tau - q)||^2 + ridge ||tau||^2 + reference_weight ||tau - tau_ref||^2
 //       + change_weight ||tau - tau_last||^2          subject to tau_min <= tau <= tau_max.
-// (research: moments and g weighted by 1/d, so that all rows are newtons at the pole ends.) The exact
-// optimum by a primal active-set method, warm from the last tick's active set.
+// W weights moments and g by 1/d, so that all rows are newtons at the pole ends.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +16,14 @@
 
 namespace spidar {
 
-// Exact optimum of `problem`, as solve_exactly() gives it: by the fast path where that can certify its answer.
-// level: one that the processor supports.
+// Returns the exact optimum of `problem`, as solve_exactly() does, by the fast solver where it can
+// certify its answer. warm (may be null): a guess of the active set. level: one that the processor
+// supports.
 [[nodiscard]] TensionSolution solve_tension_problem(const TensionProblem &problem,
                                                     const ActiveSet *warm,
                                                     SimdLevel level = best_simd_level()) noexcept;
 
+// DOF masks: bit k stands for DOF k of fx fy fz mx my mz g.
 inline constexpr std::uint8_t kAllDofs = 0x7F;
 inline constexpr std::uint8_t kTranslationOnly = 0x07;
 inline constexpr std::uint8_t kNoGrasp = 0x3F;
@@ -30,51 +31,53 @@ inline constexpr std::uint8_t kNoGrasp = 0x3F;
 struct TensionSettings {
     double min_tension_n = 0.3;
     double max_tension_n = 10.0;
-    double reference_tension_n = 0.5; // tau_ref, the pretension
+    // tau_ref, the pretension (unit: N).
+    double reference_tension_n = 0.5;
     double weight_force = 1.0;
     double weight_moment_per_m = 25.0; // 1/d
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
-    double ridge = 1e-9;               // uniqueness only
+    double ridge = 1e-9;               // makes the optimum unique
     double reference_weight = 1e-3;    // pull towards tau_ref
-    double change_weight = 0.2;        // against jumps from tick to tick
-    // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). What is left out weighs nothing: the strings give there
-    // whatever suits the rest.
+    double change_weight = 0.2;        // damps jumps from tick to tick
+    // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). A DOF that is left out has weight 0
+    // and is unconstrained: the solver chooses it to reduce the error in the other DOF.
     std::uint8_t dof_mask = kAllDofs;
-    std::uint8_t broken_mask = 0; // bit i: string i is broken, its tension is 0
+    std::uint8_t broken_mask = 0; // bit i: string i is broken and gets tension 0
     SimdLevel simd = best_simd_level();
 };
 
 struct TensionResult {
     StringArray tensions_n{};
+    // Strings at their lower bound (bit i: string i).
     std::uint8_t at_min_mask = 0;
+    // Strings at their upper bound.
     std::uint8_t at_max_mask = 0;
-    bool skipped =
-        false; // nothing had changed and everything had settled: the last answer, bit for bit
+    // True when nothing had changed and all had settled: the last answer returns, bit for bit.
+    bool skipped = false;
     int iterations = 0;
-    // wrench_limited: the wrench misses the request by more than the regularising terms explain. What each of
-    // them costs: tension_report().
+    // wrench_limited: the error exceeds what the regularizing terms explain (tension_report()).
     Status status = Status::ok;
 };
 
-// The solver of the servo loop: settings and memory of the last tick. One solve a tick, no reports.
+// Solver of the servo loop with its settings and the memory of the last tick; one solve per tick.
 class TensionSolver {
 public:
     TensionSolver() noexcept { prepare(); }
 
-    // On a negative status the old settings stand.
+    // On a negative status the old settings stay.
     Status configure(const TensionSettings &settings) noexcept;
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
-    // wrench: the paper's q. One that is not finite is taken as zero and flagged not_finite, so that no result holds NaN.
+    // Takes one tick. wrench: the paper's q; if not finite it counts as zero, status not_finite.
     TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
-    // Tells the solver the tensions that were really sent, where a later stage (slew limit) changed them. The term that
-    // weighs changes from tick to tick counts from these. Ignored when not finite.
+    // Sets the tensions that were actually sent, where a later stage (slew limit) changed them. The
+    // change term of the next tick refers to these. Ignored when not finite.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
-    // The next update() solves even when nothing has changed. It changes no answer.
+    // Makes the next update() solve even when nothing has changed. The result is the same.
     void forget_settled() noexcept { settled_ = false; }
-    // Forget the last tick: the next update() starts cold and has no change term.
+    // Forgets the last tick: the next update() starts cold and has no change term.
     void reset() noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(last_result_.skipped, warm_, has_last_, settled_) &&
                supports(settings_.simd) && spidar::is_sound(last_active_) &&
@@ -90,22 +93,28 @@ private:
                            const PaperWrench &wrench) noexcept;
 
     TensionSettings settings_{};
-    TensionProblem problem_{};      // matrix and wrench: of the last tick, when it settled
-    StringArray steady_pull_{};     // proximal target without change term
-    StringArray change_pull_{};     // share of last_tensions_n_ in it
-    StringArray steady_target_n_{}; // with it, when the last tensions are not known
+    // Matrix and wrench are those of the last tick when it settled.
+    TensionProblem problem_{};
+    StringArray steady_pull_{}; // proximal target without the change term
+    StringArray change_pull_{}; // share of last_tensions_n_ in the proximal target
+    // Proximal target when the last tensions are unknown.
+    StringArray steady_target_n_{};
     StringArray last_tensions_n_{};
     ActiveSet last_active_{};
     TensionResult last_result_{};
-    TensionSolution fast_{};           // scratch: not cleared for each solve
+    TensionSolution fast_{};           // scratch memory, not cleared for each solve
     std::uint8_t working_mask_ = 0xFF; // strings that are not broken
-    bool warm_ = false;                // last_active_ is worth starting from
-    bool has_last_ = false;            // last_tensions_n_ is known: the change term counts
-    bool settled_ = false; // the last update left last_tensions_n_ and last_active_ as they were
+    // last_active_ can start the next solve.
+    bool warm_ = false;
+    // last_tensions_n_ is known: the change term counts.
+    bool has_last_ = false;
+    // The last update left last_tensions_n_ and last_active_ unchanged.
+    bool settled_ = false;
 };
 
+// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const TensionSettings &settings);
-// Diagonal of W; 0 where the mask leaves a DOF out.
+// Returns the diagonal of W, with 0 for DOF outside the mask.
 [[nodiscard]] PaperWeights tension_weights(const TensionSettings &settings) noexcept;
 
 } // namespace spidar

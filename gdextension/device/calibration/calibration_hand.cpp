@@ -6,13 +6,14 @@ namespace spidar {
 
 namespace {
 
-// Shares of the reach: poses near its border are nearly singular and are left out of a fit anyway.
+// Share of the reach that the hand uses: poses near its border are nearly singular and are left out
+// of a fit.
 constexpr double kFreeShare = 0.85;
 constexpr double kPlaceShare = 0.5;
-// Turns of a comfortable wrist, and the grasp's half range (unit: rad).
+// Turns of a comfortable wrist and half the range of the grasp (unit: rad).
 constexpr double kFreeTurn_rad = 0.6;
 constexpr double kFreeGrasp_rad = 0.55;
-// Below the hand's own limits of speed, so that it follows.
+// Below the hand's own speed limits, so that it can follow.
 constexpr double kRates_rad_s[7] = {2.3, 1.7, 2.9, 3.1, 3.7, 2.1, 2.6};
 
 } // namespace

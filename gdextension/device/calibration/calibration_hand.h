@@ -1,4 +1,4 @@
-// Where the hand of a simulated device goes while it is calibrated: there nobody else moves the grip.
+// Targets of the simulated device's hand during calibration, where no game moves the grip.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,17 @@
 namespace spidar {
 
 enum class HandScript : std::uint8_t {
-    home = 0,        // the grip's rest pose
-    free_motion = 1, // all seven DOF at once, by incommensurate sines, within the workspace
-    place = 2,       // one of kHandPlaces fixed places, for lengths by the ruler
+    home = 0, // the grip's rest pose
+    // All seven DOF at once, by sines of incommensurate frequencies, within the workspace.
+    free_motion = 1,
+    // One of kHandPlaces fixed places, for lengths by the ruler.
+    place = 2,
 };
 
+// Number of fixed places.
 inline constexpr int kHandPlaces = 8;
 
-// place: taken modulo kHandPlaces. time_s: since the script began.
+// Returns the target. place is taken modulo kHandPlaces. time_s: time since the script began.
 [[nodiscard]] HandTarget calibration_hand(const PlantSettings &plant, HandScript script, int place,
                                           double time_s) noexcept;
 

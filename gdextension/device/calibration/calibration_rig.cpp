@@ -24,14 +24,14 @@ namespace {
 
 constexpr double kLongestAdvance_s = 60.0;
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
-// A thread that fell behind by more than this begins its time anew, and the task of a real device ends: what it saw of
-// the strings is too old to go on pulling them.
+// Delay after which a late thread restarts its time base, and the task of a real device ends: the
+// lengths it saw are too old to continue pulling.
 constexpr std::int64_t kGiveUpLag_ns = 50'000'000;
-// Measured cycles are no shorter than this part of the period: a wake-up came too early.
+// Shortest cycle, as a share of the period; a shorter one is an early wake-up.
 constexpr double kShortestCyclePart = 0.25;
-// A device that says nothing for so long cannot pull.
+// Silence after which a device cannot pull.
 constexpr double kSilent_s = 0.1;
-// How near the simulated grip comes to a place before it counts as there (unit: m), and how still (unit: m/s).
+// Distance (unit: m) and speed (unit: m/s) below which the simulated grip has arrived at a place.
 constexpr double kArrived_m = 0.002;
 constexpr double kStill_m_s = 0.001;
 
@@ -41,7 +41,7 @@ struct CalibrationRig::Impl {
     RigSettings settings;
     MakeTransport make_transport;
     std::unique_ptr<Transport> transport;
-    std::unique_ptr<WriterThread> writer;    // threaded, of a transport whose write may block
+    std::unique_ptr<WriterThread> writer; // threaded loops with a transport whose write may block
     SimulatedTransport *simulated = nullptr; // the transport, when it is one
     CalibrationTasks tasks;
     SafetyGate gate;
@@ -74,7 +74,7 @@ struct CalibrationRig::Impl {
     void keep_sample(double dt_s) noexcept;
     void stop_task(TaskVerdict verdict) noexcept;
     Status write(const DriveCommand &command) noexcept;
-    // Threaded: the device may have stopped to take commands, or this thread to give them.
+    // Threaded: stops a task when the device accepts no commands or this thread was late.
     void watch_writer() noexcept;
     bool start_writer() noexcept;
     void run() noexcept;
@@ -172,7 +172,7 @@ void CalibrationRig::Impl::take_orders(double dt_s) noexcept {
     }
 }
 
-// No slew down: off now.
+// Switches off at once, without slew limit.
 void CalibrationRig::Impl::stop_task(TaskVerdict verdict) noexcept {
     tasks.abort(verdict);
     gate.shut();
@@ -262,7 +262,7 @@ void CalibrationRig::Impl::keep_sample(double dt_s) noexcept {
     if (!orders.collecting || since_sample_s < kSampleInterval_s) {
         return;
     }
-    if (samples.offer(reading.counts)) { // full: nobody fetches, so leave it
+    if (samples.offer(reading.counts)) { // full: nobody reads it
         since_sample_s = 0.0;
     }
 }
@@ -283,7 +283,7 @@ bool CalibrationRig::Impl::start_writer() noexcept {
 
 void CalibrationRig::Impl::run() noexcept {
     name_thread("spidar_rig");
-    (void)request_real_time(); // the writer thread takes a late rig for one that stands still
+    (void)request_real_time(); // the writer thread would take a late rig for a stalled one
     if (open() && start_writer()) {
         run_cycles();
     }

@@ -1,8 +1,9 @@
-// A device on the bench: opened for calibration alone, read by a thread of its own, its motors moved by one
-// CalibrationTask at a time and never by a game. Weak and slow (kTaskMaxTension_n, kTaskSlew_n_per_ms), off unless a task
-// runs, off when the one who gave it stops looking for kUnwatched_s, and off while a motor is too warm. Time is measured, and a device whose write may
-// block is written by a WriterThread, so that a slow endpoint delays nothing. No call here waits for the device, but the
-// destructor waits for the call to the device that is under way.
+// A device on the bench, opened for calibration alone. A thread of the rig reads the device, and
+// one CalibrationTask at a time moves its motors; no game does. Tensions are limited by
+// kTaskMaxTension_n and kTaskSlew_n_per_ms. The motors are off unless a task runs, when the
+// controlling thread stops sending a new beat for kUnwatched_s, and while a motor is too warm.
+// Cycle times are measured. A WriterThread serves a device whose write may block. No call waits for
+// the device except the destructor, which waits for the device call in progress.
 #pragma once
 
 #include <functional>
@@ -19,52 +20,58 @@ namespace spidar {
 
 enum class RigState : std::uint8_t { closed = 0, opening = 1, open = 2, failed = 3 };
 
-// Motors go off when nobody gives orders for this long: an editor that hangs, a window that is gone.
+// Time without a new RigOrders::beat, as in a hung editor, until the motors go off (unit: s).
 inline constexpr double kUnwatched_s = 1.0;
 
 struct RigSettings {
     double rate_hz = 1000.0;
-    StringArray scale_m_per_count{}; // as assumed before the calibration; not zero
+    StringArray scale_m_per_count{}; // present calibration (unit: m); must not be 0
     MotorCalibration motors;
-    PlantSettings plant; // where the scripted hand of a simulated device may go
+    // Limits the targets of a simulated device's scripted hand.
+    PlantSettings plant;
     double max_tension_n = kTaskMaxTension_n;
-    // Of a simulated device, which hurts nobody: an editor on a busy machine may be slow.
+    // kUnwatched_s for a simulated device. May be longer: an editor on a busy machine can be slow
+    // and no hand is at risk.
     double simulated_unwatched_s = kUnwatched_s;
 };
 
-// Counts kept while collecting: poses further apart than a hand's tremor.
+// Time between kept readings (unit: s): poses must differ by more than a hand's tremor.
 inline constexpr double kSampleInterval_s = 0.02;
+// Readings that the queue holds; more are dropped until they are fetched.
 inline constexpr std::size_t kWaitingSamples = 1024;
 
-// Controlling thread -> rig.
+// Orders from the controlling thread to the rig.
 struct RigOrders {
     TaskOrder task;
-    std::uint32_t beat = 0; // any new value: somebody is watching
+    // Any new value shows that the controlling thread is alive.
+    std::uint32_t beat = 0;
     HandScript hand = HandScript::home;
     int hand_place = 0;
-    std::uint32_t hand_number = 0; // a new number begins the script
+    std::uint32_t hand_number = 0; // a new number starts the script
     bool collecting = false;
 };
 
-// Rig -> controlling thread.
+// Reports from the rig to the controlling thread.
 struct RigNews {
-    Status status = Status::not_open; // of the last read
+    Status status = Status::not_open; // status of the last read
     Status device_status = Status::ok;
     CountArray counts{};
     std::uint64_t readings = 0;
-    std::uint32_t losses = 0; // times the device was lost: unplugged, or as if
+    // How often the device was lost: unplugged or failed.
+    std::uint32_t losses = 0;
     double time_s = 0.0;
     bool motors_on = false;
-    StringArray tensions_n{}; // commanded
+    StringArray tensions_n{}; // commanded, per string
     TaskResult task;
     bool simulated = false;
     bool hand_has_arrived = false;
-    StringArray true_lengths_m{}; // simulated: what a ruler along each string would show
+    // Simulated devices only: what a ruler along each string would show.
+    StringArray true_lengths_m{};
 };
 
 class CalibrationRig {
 public:
-    // Called once, in the rig's thread. Null: the device cannot be opened, with the sentence that says why.
+    // Called once, in the rig's thread. Returns null on failure, with the reason in `problem`.
     using MakeTransport = std::function<std::unique_ptr<Transport>(std::string &problem)>;
 
     CalibrationRig(const RigSettings &settings, MakeTransport make_transport);
@@ -72,19 +79,23 @@ public:
     CalibrationRig(const CalibrationRig &) = delete;
     CalibrationRig &operator=(const CalibrationRig &) = delete;
 
-    // One of both, once. threaded: false when the system has no thread left.
+    // Starts the rig's thread. Call one start function, once. Returns false without a thread.
     bool start_threaded();
+    // Starts without a thread: advance() then runs the cycles.
     void start_stepped();
-    // Stepped: time moves on. At most a minute a call.
+    // Stepped only: runs the cycles of this much simulated time, at most a minute per call.
     void advance(double seconds) noexcept;
-    // The thread switches the motors off, closes the device and ends; state() tells when.
+    // Asks the thread to switch the motors off, close the device and end. state() reports the end.
     void ask_close() noexcept;
 
     [[nodiscard]] RigState state() const noexcept;
-    [[nodiscard]] std::string problem() const; // why state() is failed, or was closed by itself
-    // Controlling thread; wait-free.
+    // Why state() is failed, or why the rig closed by itself.
+    [[nodiscard]] std::string problem() const;
+    // Sends orders. Called by the controlling thread; wait-free, as are the next two.
     void give(const RigOrders &orders) noexcept;
+    // Reads the newest report. Returns false when there is none since the last call.
     bool latest(RigNews &news) noexcept;
+    // Takes the oldest collected reading. Returns false when there is none.
     bool next_sample(CountArray &counts) noexcept;
 
 private:

@@ -7,12 +7,13 @@ namespace spidar {
 
 namespace {
 
-// Until the strings are drawn in and the hand has come to rest.
+// Time for the strings to become taut and the hand to come to rest.
 constexpr double kSettle_s = 0.5;
 constexpr double kPull_s = 0.6;
 constexpr double kWeighStart = 0.6; // share of the weight at which the ramp begins
 constexpr double kWeighEnd = 0.4;
-constexpr double kPastWeight_n = 0.4; // four times a motor's friction
+// How far the tension rises beyond the lift (unit: N): four times a motor's friction.
+constexpr double kPastWeight_n = 0.4;
 constexpr double kSpeedFilter_s = 0.005;
 
 StringArray all_at(double tension_n) noexcept {
@@ -118,7 +119,7 @@ void CalibrationTasks::finish(TaskVerdict verdict) noexcept {
     task_ = CalibrationTask::idle;
 }
 
-// All strings taut; then one is pulled harder, and what its encoder says is looked at.
+// Pulls all strings taut, then one harder, and checks what its encoder reports.
 StringArray CalibrationTasks::wiring(const TaskInput &input) noexcept {
     StringArray tensions = all_at(kTaut_n);
     if (phase_ == Phase::settle) {
@@ -155,7 +156,8 @@ void CalibrationTasks::judge_wiring(const StringArray &lengths_m) noexcept {
     }
 }
 
-// Up until the weight rises, down until it sinks: friction helps once and hinders once.
+// Raises the tension until the weight rises, then lowers it until it sinks: friction helps once and
+// hinders once.
 StringArray CalibrationTasks::weighing(const TaskInput &input) noexcept {
     const auto string = static_cast<std::size_t>(result_.string);
     StringArray tensions{};
@@ -183,7 +185,7 @@ StringArray CalibrationTasks::weighing(const TaskInput &input) noexcept {
             return {};
         }
         break;
-    case Phase::pull: // a scale has to be drawn past the weight, so that friction turns round
+    case Phase::pull: // a scale must pass the weight, so that friction reverses
         tension_n_ += kWeighRate_n_per_s * input.dt_s;
         if (!(tension_n_ < result_.rise_n + kPastWeight_n)) {
             phase_ = Phase::fall;
@@ -191,7 +193,7 @@ StringArray CalibrationTasks::weighing(const TaskInput &input) noexcept {
         break;
     case Phase::fall:
         tension_n_ -= kWeighRate_n_per_s * input.dt_s;
-        // The lifted weight goes on rising for a while: it sinks from its highest point.
+        // The lifted weight continues to rise for a while: it sinks from its highest point.
         baseline_m_[string] = std::fmin(baseline_m_[string], input.lengths_m[string]);
         if (moved_in(-1.0)) {
             result_.fall_n = tension_n_;

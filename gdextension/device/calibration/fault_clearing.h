@@ -1,5 +1,5 @@
-// When a device that stopped itself is told to clear its faults: it stays off until somebody asks for a task again. That
-// task finds it not ready, the next one may pull.
+// When a device that stopped itself is told to clear its faults. It stays off until a new task is
+// requested. That task finds the device not ready; the next one may pull.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@ namespace spidar {
 
 class FaultClearing {
 public:
-    // Once a cycle. task: number of the task asked for last. True: the device is to clear its faults, with the motors off.
+    // Takes one cycle. task: number of the last requested task. Returns true when the device must
+    // clear its faults, with the motors off.
     [[nodiscard]] bool step(std::uint32_t task, bool device_is_well) noexcept {
         if (task != asked_for_) {
             asked_for_ = task;
@@ -20,7 +21,7 @@ public:
     }
 
 private:
-    // A writer that is behind leaves commands out; so many are not.
+    // Number of cycles for which the request is repeated, since a delayed writer drops commands.
     static constexpr int kCycles = 50;
 
     std::uint32_t asked_for_ = 0;

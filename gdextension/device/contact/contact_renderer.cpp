@@ -13,19 +13,19 @@ namespace spidar {
 
 namespace {
 
-// Deeper than any grip can be in a frame of half a metre: keeps absurd offsets from overflowing.
+// Largest depth, beyond any grip in a frame of half a meter: absurd offsets must not overflow.
 constexpr double kMaxDepth_m = 0.5;
 constexpr double kMaxGraspDepth_rad = 1.6;
-// Below this a contact is no contact yet, and its share of a push is not a number to divide by.
+// Smallest depth that counts as a contact: below it the share of a push is not a usable divisor.
 constexpr double kLeastDepth_m = 1e-9;
-// Keeps 1 / stiffness finite for a contact that only damps.
+// Smallest stiffness, so that 1 / stiffness is finite for a contact that only damps.
 constexpr double kSoftestContact_n_m = 1e-3;
 // 1 / sqrt of the god-object's stiffnesses.
 constexpr double kTurnSoftness = 1.0;
 constexpr double kGraspSoftness = 2.0;
 static_assert(kTurnSoftness * kTurnSoftness * kGodObjectTurnStiffness_nm_rad == 1.0);
 static_assert(kGraspSoftness * kGraspSoftness * kGodObjectGraspStiffness_nm_rad == 1.0);
-// Rotation vectors below this are their own derivative to double precision.
+// Largest rotation vector that equals its own derivative to double precision.
 constexpr double kSmallTurn_rad = 1e-6;
 
 bool is_grasp_stop(const ContactPlane &plane) noexcept {
@@ -40,7 +40,7 @@ bool is_stop(const ContactPlane &plane) noexcept {
     return is_grasp_stop(plane) || is_turn_stop(plane);
 }
 
-// A DOF of the kind that the contact acts on: caps differ between the kinds.
+// Returns a DOF of the kind on which the contact acts: caps differ between the kinds.
 std::size_t kind_of_dof(const ContactPlane &plane) noexcept {
     constexpr std::size_t kTurn = 3;
     if (is_stop(plane)) {
@@ -49,7 +49,8 @@ std::size_t kind_of_dof(const ContactPlane &plane) noexcept {
     return 0;
 }
 
-// How the component along `axis` of the rotation vector `turn` changes with an angular velocity: a covector.
+// Returns how the component of the rotation vector `turn` along `axis` changes with an angular
+// velocity (a covector).
 Vec3 turn_gradient(const Vec3 &turn, const Vec3 &axis) noexcept {
     const double angle = glm::length(turn);
     if (angle < kSmallTurn_rad) {
@@ -77,14 +78,14 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
     using Gain = GainClamp::Gain;
     GainClamp clamp;
     for (std::size_t i = 0; i < count_; ++i) {
-        place(tracks_[i], 0.0); // where the old planes are now: the cross-fade starts there
+        place(tracks_[i], 0.0); // the cross-fade starts at the present planes
     }
     const std::array<Track, kMaxContacts> old = tracks_;
     std::array<bool, kMaxContacts> used{};
     const std::size_t old_count = count_;
     count_ = static_cast<std::size_t>(std::clamp(command.contact_count, 0, kMaxContacts));
     active_mask_ = 0; // contacts may have changed places
-    // Frames of the game, by its own clock where it tells.
+    // Time between two sets on the game's clock, where the game reports it.
     const bool stamped = command.contacts_state_time_s >= 0.0 && state_time_s_ >= 0.0;
     const double apart_s = stamped ? command.contacts_state_time_s - state_time_s_ : clock_.age_s();
     state_time_s_ = command.contacts_state_time_s;
@@ -116,7 +117,8 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
             if (!used[j] && old[j].plane.id == plane.id && old[j].plane.target == plane.target) {
                 used[j] = true;
                 track = old[j];
-                // Turned by more than a right angle it is another surface: nothing lies in between.
+                // A plane that turned by more than a right angle is another surface: nothing lies
+                // in between.
                 same = glm::dot(old[j].now.normal, plane.normal) > 0.0;
                 track.anchored = track.anchored && same;
                 break;
@@ -132,7 +134,7 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
     }
     clock_.receive(command.contacts_state_time_s, now_s);
     if (count_ == 0) {
-        strength_.set(1.0); // the game goes on and touches nothing: nothing to recover from
+        strength_.set(1.0); // the game continues without contacts: no onset is needed
     }
     return clamp;
 }
@@ -140,7 +142,7 @@ GainClamp ContactRenderer::accept(const HapticCommand &command, double now_s) no
 bool ContactRenderer::age(double dt_s) noexcept {
     clock_.advance(dt_s);
     if (count_ == 0) {
-        return false; // an empty set never grows old
+        return false; // an empty set does not expire
     }
     if (strength_.advance(clock_.age_s(), dt_s)) {
         return false;
@@ -152,22 +154,23 @@ bool ContactRenderer::age(double dt_s) noexcept {
 void ContactRenderer::place(Track &track, double dt_s) const noexcept {
     track.now = track.surface.now(clock_);
     if (track.anchored) {
-        track.anchor_m += track.now.velocity_m_s * dt_s; // friction holds to the moving surface
+        track.anchor_m += track.now.velocity_m_s * dt_s; // friction sticks to the moving surface
     }
 }
 
-// Where the contact's point, as last rendered, stands on this plane.
+// Returns where the last rendered contact point lies on this plane.
 Vec3 ContactRenderer::foot(const ContactPlane &plane) const noexcept {
     const Vec3 point_m = grip_point(pose_, plane.target);
     return point_m + (plane.offset_m - glm::dot(plane.normal, point_m)) * plane.normal;
 }
 
-// Depth, and how the contact moves with the grip. `track` is placed.
+// Returns the depth and the direction in which the contact moves with the grip. Requires a placed
+// track.
 ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) const noexcept {
     const ContactSurface &surface = track.now;
     const GripState &grip = motion.grip;
     double place = 0.0;
-    Vec3 along(0.0); // per unit of linear, angular and grasp motion
+    Vec3 along(0.0); // motion per unit of linear, angular and grasp motion
     Vec3 turn(0.0);
     double grasp = 0.0;
     double most_m = kMaxDepth_m;
@@ -194,7 +197,8 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
     const double surface_m_s = glm::dot(surface.normal, surface.velocity_m_s);
     const double leaving_m_s = glm::dot(along, v.linear_m_s) + glm::dot(turn, v.angular_rad_s) +
                                grasp * v.grasp_rate_rad_s - surface_m_s;
-    // Surface and grip as of the same moment: what moves with the hand feels like what rests.
+    // Surface and grip are taken at the same time, so that an object that moves with the hand feels
+    // like one at rest.
     const double depth_m = surface.offset_m + motion.lead_s * surface_m_s - place - ahead_m;
     track.touching = depth_m > 0.0; // false for NaN
     track.depth_m = std::clamp(depth_m, -most_m, most_m);
@@ -203,7 +207,7 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
     ConstraintRow row;
     row.depth = track.depth_m;
     if (track.touching) {
-        // The damper acts as a deeper spring: so the whole push stays one-sided, and shared.
+        // The damper acts as a deeper spring, so that the whole push stays one-sided and is shared.
         row.depth = std::max(0.0, surface.stiffness_n_m * track.depth_m -
                                       surface.damping_n_s_m * leaving_m_s) /
                     stiffness_n_m;
@@ -218,7 +222,8 @@ ConstraintRow ContactRenderer::measure(Track &track, const GripMotion &motion) c
     return row;
 }
 
-// Coulomb friction of a contact that pushes: a spring to where it first touched, dragged along beyond the cone.
+// Coulomb friction of a contact that pushes: a spring to the point of first touch, dragged along
+// beyond the cone.
 void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept {
     const ContactSurface &surface = track.now;
     if (!(surface.friction > 0.0) || !(surface.stiffness_n_m > 0.0) || is_stop(track.plane)) {
@@ -237,7 +242,7 @@ void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept
         track.anchored = true;
         track.anchor_m = point_m;
     }
-    // Of several contacts with one surface each rubs with its share, which is that of its push.
+    // Of several contacts with one surface each rubs in proportion to its push.
     const double share = std::min(
         1.0, track.push / (surface.stiffness_n_m * std::max(track.depth_m, kLeastDepth_m)));
     const double stiffness_n_m = share * surface.stiffness_n_m;
@@ -248,7 +253,7 @@ void ContactRenderer::rub(Track &track, const GripMotion &motion) const noexcept
     Vec3 stretch_m = along(point_m - track.anchor_m);
     const double spring_n = stiffness_n_m * glm::length(stretch_m);
     if (spring_n > limit_n) {
-        stretch_m *= limit_n / spring_n; // slips: the anchor is dragged along
+        stretch_m *= limit_n / spring_n; // slipping: the anchor is dragged along
         track.anchor_m = point_m - stretch_m;
     }
     Vec3 rub_n = -stiffness_n_m * stretch_m - (share * surface.damping_n_s_m) * along(velocity_m_s);
@@ -284,7 +289,8 @@ Wrench ContactRenderer::render(const GripMotion &motion, double dt_s) noexcept {
     Wrench sum;
     for (std::size_t i = 0; i < count_; ++i) {
         Track &track = tracks_[i];
-        // Contradicting constraints, such as both sides of a slot that is too narrow, would push without bound.
+        // Contradicting constraints, such as both sides of a slot that is too narrow, would push
+        // without limit.
         track.push = std::min(solution.push[i], kMostPush * (alone[i] + deepest));
         track.force_n = Vec3(0.0);
         track.moment_nm = Vec3(0.0);
@@ -315,7 +321,7 @@ void ContactRenderer::integrate(double scale, double dt_s) noexcept {
         return;
     }
     for (std::size_t i = 0; i < count_; ++i) {
-        // A turn stop's is in N m s: the same three numbers.
+        // A turn stop's impulse is in N m s; it uses the same three numbers.
         tracks_[i].impulse_ns += (scale * dt_s) * (tracks_[i].force_n + tracks_[i].moment_nm);
         tracks_[i].grasp_impulse_nms += (scale * dt_s) * tracks_[i].grasp_torque_nm;
     }

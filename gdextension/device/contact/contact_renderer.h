@@ -1,6 +1,7 @@
-// Contact planes -> wrench, at servo rate: the grip's pose is projected on all of them at once (the god-object), and
-// the offset pushes. A contact never pulls, and rubs by a stick-slip spring (Coulomb cone). One contact or several
-// with the same plane feel the same; at edges and in wedges the pushes are those of the nearest allowed pose.
+// Converts contact planes to a wrench at servo rate. The grip's pose is projected on all planes at
+// once (the god-object), and the offset from that projection pushes. A contact never pulls; its
+// friction is a stick-slip spring (Coulomb cone). One contact and several with the same plane feel
+// the same. At edges and in wedges the pushes are those of the nearest allowed pose.
 #pragma once
 
 #include <algorithm>
@@ -18,32 +19,34 @@
 
 namespace spidar {
 
-// How stiff the god-object holds the grip's orientation and grasp angle while a contact away from the centre turns
-// it. A contact at a pole's end (lever r) gives way by 1 / stiffness + r^2 / this.
+// Stiffness of the god-object's orientation. A contact with lever r (a pole's end) yields by 1 /
+// stiffness + r^2 / this value per newton.
 inline constexpr double kGodObjectTurnStiffness_nm_rad = 1.0;
+// Stiffness of the god-object's grasp angle, per radian of grasp_angle.
 inline constexpr double kGodObjectGraspStiffness_nm_rad = 0.25;
 
 class ContactRenderer {
 public:
     void configure(const ServoSettings &settings) noexcept;
-    // Other caps for what is accepted from now on; all else stays.
+    // Changes the caps for contacts that are accepted from now on; all other state stays.
     void retune(const ServoSettings &settings) noexcept;
 
-    // A valid set (validate_contacts) replaces the last one; the same id and target carries on. Says what was
-    // brought down to a cap. now_s: the clock of HapticCommand::contacts_state_time_s.
+    // Replaces the contacts by a valid set (validate_contacts); a contact with the same id and
+    // target continues. Returns the first gain that was clamped. now_s: time on the clock of
+    // HapticCommand::contacts_state_time_s.
     GainClamp accept(const HapticCommand &command, double now_s) noexcept;
-    // Once a cycle, before accept(). True in the cycle in which a set is dropped for its age.
+    // Takes one cycle, before accept(). Returns true in the cycle in which the contacts expire.
     bool age(double dt_s) noexcept;
 
-    // The wrench of all contacts on the grip.
+    // Returns the wrench of all contacts on the grip.
     Wrench render(const GripMotion &motion, double dt_s) noexcept;
-    // Adds this cycle's impulses; scale: the part of the rendered wrench that is really asked of the strings.
+    // Adds this cycle's impulses. scale: share of the rendered wrench requested from the strings.
     void integrate(double scale, double dt_s) noexcept;
 
-    // Same order as the command's contacts.
+    // Writes one report per contact, in the command's order. Returns their number.
     int report(std::array<ContactReport, kMaxContacts> &reports) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return count_ == 0; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return count_ <= tracks_.size() && are_flags(caps_.from_latency) && clock_.is_sound() &&
                std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {
@@ -54,17 +57,18 @@ public:
 
 private:
     struct Track {
-        ContactPlane plane; // as last given, capped
+        ContactPlane plane; // as last received, clamped
         SurfaceTrack surface;
         ContactSurface now;
-        double depth_m = 0.0; // or rad: predicted, what the spring sees
-        double push = 0.0;    // N, or N m, along the normal
+        // Predicted depth, which the spring uses; rad for stops.
+        double depth_m = 0.0;
+        double push = 0.0; // along the normal: N, or N m for stops
         bool touching = false;
         bool anchored = false;
-        Vec3 anchor_m{0.0}; // the friction spring's other end, device frame
+        Vec3 anchor_m{0.0}; // other end of the friction spring, device frame
         Vec3 force_n{0.0};
         double grasp_torque_nm = 0.0;
-        Vec3 moment_nm{0.0}; // turn_stop
+        Vec3 moment_nm{0.0}; // turn_stop only
         Vec3 impulse_ns{0.0};
         double grasp_impulse_nms = 0.0;
     };
@@ -79,8 +83,8 @@ private:
     std::size_t count_ = 0;
     std::uint32_t active_mask_ = 0;
     GameClock clock_;
-    double state_time_s_ = -1.0; // of the last set
-    GripPose pose_;              // last rendered
+    double state_time_s_ = -1.0; // of the last set of contacts
+    GripPose pose_;              // pose of the last render()
     RefreshedStrength strength_{1.0};
 };
 

@@ -12,19 +12,19 @@ namespace spidar {
 
 namespace {
 
-// A turn that is carried on further than this is a guess.
+// Largest turn by which a surface is extrapolated.
 constexpr double kMostTurn_rad = 0.35;
-// So is a way that acceleration adds.
+// Largest distance that the acceleration adds to an extrapolation.
 constexpr double kMostAdded_m = 0.002;
-// Two updates nearer than this tell no rate.
+// Shortest time between two updates from which rates are computed.
 constexpr double kLeastApart_s = 1e-4;
 
 bool is_stop(const ContactPlane &plane) noexcept {
     return plane.target == ContactTarget::grasp_stop || plane.target == ContactTarget::turn_stop;
 }
 
-// What two rates in a row have in common: a surface that turns or speeds up steadily is carried on, one that jumps
-// (an edge, a bounce) or trembles is not.
+// Returns the common part of two consecutive rates. A surface that turns or accelerates steadily is
+// extrapolated; one that jumps (an edge, a bounce) or trembles is not.
 double in_common(double last, double newest) noexcept {
     if (!(last * newest > 0.0)) {
         return 0.0;
@@ -104,8 +104,8 @@ ContactSurface SurfaceTrack::now(const GameClock &clock) const noexcept {
     if (!(s < 1.0)) {
         return to;
     }
-    // Both ends of the fade move on alike: a plane that moves as announced is not dragged back. The old end was
-    // carried to the moment of the update already.
+    // Both ends of the cross-fade are extrapolated alike, so that a plane that moves as announced
+    // is not dragged back. The old end was already extrapolated to the time of the update.
     Vec3 from_normal = from_.normal;
     double from_m = from_.offset_m + way_m(moved_s) - way_m(moved_s - since_s);
     if (turning) {
@@ -114,7 +114,7 @@ ContactSurface SurfaceTrack::now(const GameClock &clock) const noexcept {
     }
     ContactSurface now = to;
     const Vec3 normal = from_normal + s * (to.normal - from_normal);
-    const double length = glm::length(normal); // at least sqrt(1/2): less than a right angle apart
+    const double length = glm::length(normal); // at least sqrt(1/2)
     now.normal = normal / length;
     now.offset_m = blend(from_m, to.offset_m, s) / length;
     now.stiffness_n_m = blend(from_.stiffness_n_m, to.stiffness_n_m, s);

@@ -1,6 +1,6 @@
-// What a contact's plane is right now: the game gives it 30 to 144 times a second, the servo loop asks 1000 times. In
-// between it moves on: by its velocity, as the game gives it, and by its turning and acceleration, as the last
-// updates showed them.
+// The present plane of a contact. A game updates it 30 to 144 times per second and the servo loop
+// uses it 1000 times. In between, the plane is extrapolated by the velocity that the game gives,
+// and by the turn rate and acceleration of the last updates.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -18,28 +18,31 @@ struct ContactSurface {
     double friction = 0.0;
 };
 
-// One plane from update to update. Stops (grasp_stop, turn_stop) move by their velocity alone.
+// One plane from update to update. Stops (grasp, turn) are extrapolated by velocity only.
 class SurfaceTrack {
 public:
-    // The first update, or another surface under the same id.
+    // Starts with the first update, or with another surface of the same id.
     void begin(const ContactPlane &plane) noexcept;
-    // The next update of the same surface, apart_s later by the game's own clock (0: unknown). from: what is rendered at
-    // this moment. pivot_m: the point about which a turn of the plane leaves it in place.
+    // Takes the next update of the same surface. apart_s: time since the last update on the game's
+    // clock (0: unknown). from: the surface rendered at this moment. pivot_m: the point about which
+    // a turn of the plane leaves it in place.
     void renew(const ContactPlane &plane, const ContactSurface &from, double apart_s,
                const Vec3 &pivot_m) noexcept;
-    // The surface at the clock's present.
+    // Returns the surface at the present time of `clock`.
     [[nodiscard]] ContactSurface now(const GameClock &clock) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(fading_in_) && spidar::is_sound(plane_.target);
     }
 
 private:
-    ContactPlane plane_; // as last given
+    ContactPlane plane_; // as last received
+    // The surface from which the cross-fade starts.
     ContactSurface from_;
     bool fading_in_ = false;
     Vec3 pivot_m_{0.0};
-    // Between the last two updates, and what is made of the last three.
+    // Turn rate and acceleration between the last two updates (seen_) and those used, from the last
+    // three updates.
     Vec3 seen_turn_rad_s_{0.0};
     Vec3 turn_rad_s_{0.0};
     double seen_acceleration_m_s2_ = 0.0;

@@ -7,9 +7,10 @@ namespace spidar {
 
 namespace {
 
-// A constraint is broken when its row falls short by more than this part of the deepest.
+// Share of the deepest constraint by which a row must fall short to count as violated.
 constexpr double kBroken = 1e-12;
-// Each exchange of the active set lowers the energy, so none comes back; far more than problems of this size take.
+// Largest number of exchanges. Each lowers the energy, so that no active set returns; problems of
+// this size take far fewer.
 constexpr int kMostExchanges = 48;
 
 template <int kRows>
@@ -24,7 +25,7 @@ struct Problem { // NOLINT(cppcoreguidelines-pro-type-member-init)
     Values<kRows> depth;
 };
 
-// Solves gram * push = depth on the constraints of `mask`; the others' push is zero.
+// Solves gram * push = depth on the constraints of `mask`; other pushes are zero.
 template <int kRows>
 Values<kRows> solve_subset(const Problem<kRows> &problem, std::uint32_t mask) noexcept {
     std::array<std::size_t, kRows> index;
@@ -51,7 +52,7 @@ Values<kRows> solve_subset(const Problem<kRows> &problem, std::uint32_t mask) no
             d -= l[r][c] * v;
             sum -= l[r][c] * y[c];
         }
-        // Regularised, so only rounding can bring a pivot down to nothing.
+        // The matrix is regularized: only rounding can make a pivot vanish.
         pivot[r] = std::max(d, 0.5 * problem.softness * row[index[r]]);
         y[r] = sum;
     }
@@ -66,7 +67,7 @@ Values<kRows> solve_subset(const Problem<kRows> &problem, std::uint32_t mask) no
     return push;
 }
 
-// Constraints of `mask` whose push is negative.
+// Returns the constraints of `mask` whose push is negative.
 template <std::size_t kRows>
 std::uint32_t negatives(const std::array<double, kRows> &push, std::uint32_t mask) noexcept {
     std::uint32_t found = 0;
@@ -101,7 +102,7 @@ RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int co
         finite = finite && std::isfinite(rows[i].depth);
     }
     if (!finite || !(deepest > 0.0)) {
-        return solution; // nothing is broken: the usual case in free space
+        return solution; // nothing is violated: the usual case in free space
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < problem.count; ++i) {
@@ -120,7 +121,8 @@ RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int co
         return solution;
     }
 
-    // A guess whose pushes are all positive is a feasible start; otherwise what is negative is dropped.
+    // A guess with positive pushes is a feasible start; constraints with negative pushes are
+    // removed from it.
     std::uint32_t active = first_guess & ((1U << problem.count) - 1U);
     Values<kRows> push{};
     while (active != 0) {
@@ -138,7 +140,7 @@ RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int co
 
     const double tolerance = kBroken * deepest;
     for (int exchange = 0; exchange < kMostExchanges; ++exchange) {
-        // The inactive constraint that is broken most joins.
+        // The inactive constraint that is violated most becomes active.
         double worst = tolerance;
         std::uint32_t joining = 0;
         for (std::size_t i = 0; i < problem.count; ++i) {
@@ -158,7 +160,8 @@ RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int co
             break;
         }
         active |= joining;
-        // Towards the new set's solution, as far as every push stays positive (Lawson and Hanson 1974).
+        // Moves towards the new set's solution as far as every push stays positive (Lawson and
+        // Hanson 1974).
         for (std::size_t drop = 0; drop < problem.count; ++drop) {
             const Values<kRows> target = solve_subset(problem, active);
             ++solution.solves;

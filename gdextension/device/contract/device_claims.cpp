@@ -13,7 +13,7 @@ struct Claims {
     std::map<std::string, std::string> owners; // device name -> owner
 };
 
-// Never destroyed: a claim held by a static object may be released after main().
+// Never destroyed: a static object may release its claim after main().
 Claims &claims() {
     static Claims *const kept = new Claims;
     return *kept;
@@ -33,7 +33,7 @@ bool DeviceClaim::take(const std::string &name, const std::string &owner) {
         Claims &all = claims();
         const std::lock_guard<std::mutex> lock(all.mutex);
         if (!all.owners.emplace(name, owner).second) {
-            return false; // what this claim holds already, it keeps
+            return false; // a claim that is already held stays
         }
     }
     std::string taken = name;

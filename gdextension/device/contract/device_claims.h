@@ -1,11 +1,11 @@
-// One owner a device, within this process: a second node on the same device is refused.
+// Ownership of a device within this process: a second owner of the same device is refused.
 #pragma once
 
 #include <string>
 
 namespace spidar {
 
-// Empty names are private devices: always granted.
+// Devices with an empty name are private and always granted.
 class DeviceClaim {
 public:
     DeviceClaim() = default;
@@ -13,9 +13,11 @@ public:
     DeviceClaim(const DeviceClaim &) = delete;
     DeviceClaim &operator=(const DeviceClaim &) = delete;
 
-    // False when somebody else owns it; owner_of(name) tells who. `owner` is for messages.
+    // Returns false when somebody else owns the device; owner_of(name) returns who. `owner` is a
+    // name for messages.
     bool take(const std::string &name, const std::string &owner);
     void release() noexcept;
+    // Returns the owner, or an empty string.
     [[nodiscard]] static std::string owner_of(const std::string &name);
 
 private:

@@ -119,7 +119,7 @@ void EventLog::tell(DeviceEventKind kind, int string, double value) noexcept {
     }
     silent_ = false;
     Memory &memory = memory_[index];
-    // Faults are latched: each is told at once.
+    // Faults are latched: each is reported at once.
     const bool quiet = memory.told && now_s_ - memory.told_s < kQuiet_s &&
                        describe(kind).level != EventLevel::fault;
     if (quiet || count_ >= events_.size()) {

@@ -1,5 +1,5 @@
-// What happened to a device, as a game may show it: one line of a table says what each event means and what to
-// do about it. Events are rare; a fixed, wait-free queue carries them from the servo thread.
+// Events of a device that a game may show. A table holds the meaning and the remedy of each kind.
+// Events are rare; a fixed, wait-free queue carries them from the servo thread.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-// Numbers are part of recordings and of the Godot interface: append, never reorder.
+// The values are stored in recordings and used by the Godot interface: append, never reorder.
 enum class DeviceEventKind : std::uint8_t {
     device_connected = 0,
     device_lost,
@@ -58,16 +58,18 @@ inline constexpr int kDeviceEventKinds = 39;
 enum class EventLevel : std::uint8_t { info = 0, warning = 1, fault = 2 };
 
 struct DeviceEvent {
-    double time_s = 0.0; // of the servo clock (ServoSnapshot::time_s)
-    double value = 0.0;  // what the description calls value, in its unit; 0 where it has none
+    // Servo clock (ServoSnapshot::time_s) of the event.
+    double time_s = 0.0;
+    // Value in the unit of the description; 0 when the kind has none.
+    double value = 0.0;
     DeviceEventKind kind = DeviceEventKind::device_connected;
     std::int8_t string = -1; // 0-7, or -1
-    std::uint16_t repeated =
-        0; // how often it happened since it was last told, this time not counted
+    // Occurrences of this kind that were not reported since the last report of it.
+    std::uint16_t repeated = 0;
 };
 
 struct EventDescription {
-    const char *name;     // as in the enumeration
+    const char *name;     // name in the enumeration
     const char *category; // link, string, motion, heat, request, game, timing, calibration, state
     EventLevel level;
     const char *unit;    // of DeviceEvent::value; "" for none
@@ -75,24 +77,27 @@ struct EventDescription {
     const char *remedy;  // one sentence; "" when there is nothing to do
 };
 
-// Never fails: an unknown kind has a description that says so.
+// Returns the description. An unknown kind gets a description that says so.
 [[nodiscard]] const EventDescription &describe(DeviceEventKind kind) noexcept;
 
-// The events of one servo cycle. The same kind is told again only after kQuiet_s; what was left out is counted,
-// so that a fault that repeats each cycle cannot flood anybody.
+// The events of one servo cycle. A kind below level `fault` is reported again only after kQuiet_s;
+// events that are left out are counted. A fault that repeats each cycle therefore cannot flood the
+// queue.
 class EventLog {
 public:
     static constexpr double kQuiet_s = 1.0;
+    // Largest number of events per cycle; more are counted as left out.
     static constexpr int kMostAtOnce = 8;
 
     void begin_cycle(double time_s) noexcept;
+    // Adds an event. string: 0-7 or -1. value: in the unit of the kind's description.
     void tell(DeviceEventKind kind, int string = -1, double value = 0.0) noexcept;
-    // Nothing was told in this cycle, not even again.
+    // True when no event was added in this cycle, not even one that was left out.
     [[nodiscard]] bool at_rest() const noexcept { return silent_; }
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return {events_.data(), count_};
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(silent_) && count_ <= events_.size() &&
                std::all_of(memory_.begin(), memory_.end(),

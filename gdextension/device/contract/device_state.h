@@ -1,4 +1,4 @@
-// The states of a device, from the first reading to the last.
+// The states of a device.
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,21 @@
 
 namespace spidar {
 
-// CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED. A device without a zero goes CONNECTED -> TAUT ->
-// CALIBRATED -> ARMING; FADING leads it to CONNECTED too, with its zero known. FAULT is latched.
+// CLOSED -> CONNECTED -> ARMING -> ACTIVE -> FADING -> CONNECTED. A device without a zero goes
+// CONNECTED -> TAUT -> CALIBRATED -> ARMING; after FADING it is CONNECTED with its zero known.
+// FAULT is latched.
 enum class DeviceState : std::uint8_t {
     closed = 0,    // no device
-    connected = 1, // reading; motors at zero
+    connected = 1, // the device is read; motors off
     arming = 2,    // forces rise
     active = 3,
-    fading = 4, // forces fall, then connected: motors off, whatever led to it
-    fault = 5,  // motors off until clear_fault() and arm()
-    taut = 6,   // zero_at_home(): strings drawn taut, zero taken, then checked by moving the grip
-    calibrated = 7, // the zero is confirmed; pretension keeps the strings taut until arm()
+    // Forces fall, then the device is connected with its motors off.
+    fading = 4,
+    fault = 5, // motors off until clear_fault() and arm()
+    // zero_at_home() runs: strings are drawn taut, zeroed, then checked by moving the grip.
+    taut = 6,
+    // The zero is confirmed; pretension keeps the strings taut until arm().
+    calibrated = 7,
 };
 inline constexpr std::size_t kDeviceStates = 8;
 static_assert(kDeviceStates == static_cast<std::size_t>(DeviceState::calibrated) + 1);

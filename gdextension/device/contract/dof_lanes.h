@@ -1,5 +1,6 @@
-// The seven degrees of freedom as a row of numbers, in the order of DofGains: x, y, z, turns about x, y, z, grasp. And sums
-// of wrenches over all seven. Not the paper's q, whose g is twice the grasp torque (core/base/types.h).
+// The seven DOF as a row of numbers in the order of DofGains: x, y, z, turns about x, y, z, grasp.
+// Not the paper's q, whose g is twice the grasp torque (core/base/types.h). The file also defines
+// sums of wrenches.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ inline constexpr std::size_t kGraspLane = kDofCount - 1;
     return lanes(moved.linear_m, moved.angular_rad, moved.grasp_rad);
 }
 
-// And back: Wrench, Twist or Displacement of a row.
+// Converts a row back to a Wrench, Twist or Displacement.
 template <typename Quantity>
 [[nodiscard]] Quantity of_lanes(const DofLanes &row) noexcept {
     return {Vec3(row[0], row[1], row[2]), Vec3(row[3], row[4], row[5]), row[6]};

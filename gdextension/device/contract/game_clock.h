@@ -1,4 +1,4 @@
-// How old a request is that a game computed from a snapshot, and how long it may be carried on without the next one.
+// The age of a game's request, and how long the loop may extrapolate it without a newer one.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 
 namespace spidar {
 
-// What moves is carried on by its velocity no longer than this; for games with longer frames, two and a half of them
-// (one may be dropped), but never longer than the second.
+// Time for which the velocity of a request extrapolates it (unit: s). Games with longer frames get
+// 2.5 frames, since one frame may be dropped, up to kMostExtrapolation_s.
 inline constexpr double kExtrapolation_s = 0.030;
 inline constexpr double kMostExtrapolation_s = 0.100;
 
 class GameClock {
 public:
-    // A request came. state_time_s: of the snapshot that it was computed from; negative or later than now: unknown.
+    // Takes a request. state_time_s: time of its snapshot; negative or in the future: unknown.
     void receive(double state_time_s, double now_s) noexcept {
         const bool stamped = state_time_s >= 0.0 && state_time_s <= now_s;
         late_s_ = stamped ? std::min(now_s - state_time_s, kMostExtrapolation_s) : 0.0;
@@ -26,19 +26,21 @@ public:
     }
     void advance(double dt_s) noexcept { age_s_ += dt_s; }
 
-    // Since it came.
+    // Time since the request arrived.
     [[nodiscard]] double age_s() const noexcept { return age_s_; }
-    // How far to carry it on.
+    // Time by which to extrapolate the request, from its snapshot.
     [[nodiscard]] double carried_s() const noexcept { return std::min(late_s_ + age_s_, most_s()); }
-    // The part of that since it came: what has been carried to that moment already moves on by this.
+    // The part of carried_s() since the request arrived.
     [[nodiscard]] double carried_since_s() const noexcept {
         return carried_s() - std::min(late_s_, most_s());
     }
+    // True while the request may still be extrapolated.
     [[nodiscard]] bool carries() const noexcept { return late_s_ + age_s_ <= most_s(); }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(received_); }
 
 private:
+    // frames that a request is extrapolated for
     static constexpr double kFrames = 2.5;
     static constexpr double kNewest = 0.25; // share of the newest frame in the mean
 

@@ -1,5 +1,5 @@
-// Points of the grip that contacts act on: where they are, how they move, and what a force there does to the
-// seven degrees of freedom. Inline: a servo cycle asks for a dozen of them.
+// Points of the grip that contacts act on: their places and velocities, and the effect of a force
+// there on the seven DOF. Inline: a servo cycle calls these functions a dozen times.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-// From P0 (unit: m). A stop has no point: P0.
+// Returns the vector from P0 to the point (unit: m). A stop acts at P0: zero.
 [[nodiscard]] inline Vec3 grip_lever(const GripPose &pose, ContactTarget target) noexcept {
     switch (target) {
     case ContactTarget::pole1_plus:
@@ -28,8 +28,8 @@ namespace spidar {
     return Vec3(0.0);
 }
 
-// Turn of the point's pole about the grip's z per unit of grasp_angle. psi = pi/2 - grasp_angle is shared by both poles
-// about their bisector: r1 lies at +psi/2 from it, r2 at -psi/2.
+// Returns the turn of the point's pole about the grip's z per unit of grasp_angle. Both poles share
+// psi = pi/2 - grasp_angle about their bisector: r1 lies at +psi/2, r2 at -psi/2.
 [[nodiscard]] inline double turn_per_grasp(ContactTarget target) noexcept {
     switch (target) {
     case ContactTarget::pole1_plus:
@@ -46,12 +46,13 @@ namespace spidar {
     return 0.0;
 }
 
-// Device frame (unit: m).
+// Returns the point in the device frame (unit: m).
 [[nodiscard]] inline Vec3 grip_point(const GripPose &pose, ContactTarget target) noexcept {
     return pose.position_m + grip_lever(pose, target);
 }
 
-// Velocity of that point for this twist (unit: m/s). The poles turn about z by -+ grasp_rate / 2.
+// Returns the velocity of the point for the grip's twist (unit: m/s). The poles turn about z by -+
+// grasp_rate / 2.
 [[nodiscard]] inline Vec3 grip_point_velocity(const GripState &grip,
                                               ContactTarget target) noexcept {
     const Vec3 z_axis = grip.frame.rotation[2];
@@ -60,8 +61,8 @@ namespace spidar {
     return grip.twist.linear_m_s + glm::cross(spin, grip_lever(grip.pose, target));
 }
 
-// The wrench about P0 that does the same work as `force_n` at the point, in all seven DOF (virtual work: the
-// transpose of grip_point_velocity).
+// Returns the wrench about P0 that does the same work in all seven DOF as force_n at the point
+// (virtual work: the transpose of grip_point_velocity).
 [[nodiscard]] inline Wrench wrench_of_force(const GripState &grip, ContactTarget target,
                                             const Vec3 &force_n) noexcept {
     Wrench wrench;

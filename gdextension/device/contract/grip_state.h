@@ -1,4 +1,4 @@
-// The grip as the strings show it in one cycle: where it is and how it moves. Device frame, SI.
+// Pose and motion of the grip in one cycle, from the strings. Device frame, SI units.
 #pragma once
 
 #include "core/base/status.h"
@@ -13,7 +13,8 @@ struct GripState {
     Twist twist; // filtered
     double residual_rms_m = 0.0;
     double conditioning = 0.0;
-    Status status = Status::held_last_pose; // < 0 or held_last_pose: the pose is an old one
+    // < 0 or held_last_pose: the pose is from an earlier cycle.
+    Status status = Status::held_last_pose;
 };
 
 } // namespace spidar

@@ -11,14 +11,14 @@ namespace spidar {
 
 namespace {
 
-// A normal this far from unit length is a mistake, not rounding: games compute in single precision (1e-7).
+// Largest error of a unit normal: games compute in single precision (1e-7); more is a mistake.
 constexpr double kUnitTolerance = 1e-3;
 
 bool none_negative(const DofGains &gains) noexcept {
     return std::ranges::all_of(gains, [](double gain) { return gain >= 0.0; });
 }
 
-// Orthonormal, right-handed.
+// True for an orthonormal, right-handed matrix.
 bool is_rotation(const Mat3 &m) noexcept {
     const auto near = [](double value, double wanted) {
         return std::abs(value - wanted) <= kUnitTolerance;
@@ -29,7 +29,7 @@ bool is_rotation(const Mat3 &m) noexcept {
            glm::dot(glm::cross(m[0], m[1]), m[2]) > 0.0;
 }
 
-// The first `count` of these.
+// Validates the first `count` elements.
 template <typename Requests, typename Validate>
 Status validate_first(const Requests &requests, int count, Validate validate) noexcept {
     if (count < 0 || count > static_cast<int>(requests.size())) {
@@ -115,7 +115,7 @@ Status validate_effect(const Effect &effect) noexcept {
     }
     bool good = true;
     if (effect.kind != EffectKind::constant && effect.kind != EffectKind::vibration) {
-        good = none_negative(effect.gain); // a negative one would drive the hand
+        good = none_negative(effect.gain); // a negative gain would drive the hand
     }
     if (effect.kind == EffectKind::spring || effect.kind == EffectKind::detents) {
         good = good && is_rotation(effect.centre_rotation);

@@ -1,5 +1,6 @@
-// What the game asks the device thread to render. A plain value: published whole, through a triple buffer.
-// Device frame, SI. Requests add up; each ages from the tick it arrives and fades when it is not renewed.
+// What the game requests the servo loop to render. A plain value, published as a whole through a
+// triple buffer. Device frame, SI units. Requests add up; each ages from the cycle in which it
+// arrives and fades when it is not refreshed.
 #pragma once
 
 #include <array>
@@ -11,55 +12,62 @@
 
 namespace spidar {
 
+// Largest number of contact planes.
 inline constexpr int kMaxContacts = 8;
-// Beyond any frame: no request reaches further, so that absurd ones do not overflow.
+// Largest distance in a request (unit: m), beyond any frame: larger values could overflow.
 inline constexpr double kFarAway_m = 10.0;
-// A raw wrench is short-lived by nature: nothing local stops a grip that the hand lets go.
+// Longest duration of a raw wrench (unit: s): no contact stops the grip when the hand lets go.
 inline constexpr double kMaxWrenchDuration_s = 60.0;
 
-// Which point of the grip a contact plane stops.
+// The point of the grip that a contact plane stops.
 enum class ContactTarget : std::uint8_t {
     centre = 0,      // P0
     pole1_plus = 1,  // P0 + r1
     pole1_minus = 2, // P0 - r1
     pole2_plus = 3,  // P0 + r2
     pole2_minus = 4, // P0 - r2
-    grasp_stop = 5,  // 1-D: acts on grasp_angle
-    turn_stop = 6,   // 1-D: acts on the grip's turn about one axis
+    grasp_stop = 5,  // 1-D stop on grasp_angle
+    // 1-D stop on the grip's turn about one axis.
+    turn_stop = 6,
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(ContactTarget target) noexcept {
     return is_one_of(target, ContactTarget::turn_stop);
 }
 
-// Bit k of a DOF mask: x, y, z, turns about x, y, z, grasp; axes of the device.
+// All bits of a DOF mask. Bit k: x, y, z, turns about x, y, z, grasp; axes of the device.
 inline constexpr std::uint8_t kAllDof = 0x7F;
-// One value a DOF in that order: N, N/m or N s/m for the first three, N m, N m/rad or N m s/rad for the others
-// (grasp: per radian of grasp_angle). Not the paper's q, whose g is twice the grasp torque.
+// One value per DOF in that order. Units: N, N/m or N s/m for the first three; N m, N m/rad or N m
+// s/rad for the others, for the grasp per radian of grasp_angle. Not the paper's q, whose g is
+// twice the grasp torque.
 using DofGains = SevenDof<struct DofGainsMeaning>;
 
-// Between updates a plane moves on by its velocity, and turns and speeds up as it did over the last ones.
-// Unilateral: the target point x is pushed out along +normal when dot(normal, x) < offset.
-// grasp_stop: normal.x is +1 (stops opening below offset_rad) or -1: keeps normal.x * grasp_angle >= offset;
-// stiffness is then in N m/rad, damping in N m s/rad. A stop at a width of angle w: normal.x = -1, offset = -w.
-// turn_stop: keeps dot(normal, turn) >= offset_rad, `turn` the rotation vector of the grip's orientation as seen
-// from the device frame (zero at rest); units as for grasp_stop. Its rate is dot(normal, velocity), in rad/s.
+// A unilateral constraint of the target point x: pushes x along +normal while dot(normal, x) <
+// offset. Between updates the plane moves by its velocity, and turns and accelerates as in the last
+// updates.
+// grasp_stop: keeps normal.x * grasp_angle >= offset (rad), with normal.x = +1 or -1. Stiffness is
+// in N m/rad, damping in N m s/rad. Example: closing stops at the angle w with normal.x = -1,
+// offset = -w.
+// turn_stop: keeps dot(normal, turn) >= offset (rad). `turn` is the rotation vector of the grip's
+// orientation in the device frame, zero at rest. Its rate is dot(normal, velocity) in rad/s; other
+// units as for grasp_stop.
 struct ContactPlane {
-    Vec3 normal{0.0, 1.0, 0.0}; // unit
-    double offset_m = 0.0;      // or rad
-    Vec3 velocity_m_s{0.0};     // of the surface, where the target is nearest
+    Vec3 normal{0.0, 1.0, 0.0}; // unit vector
+    double offset_m = 0.0;      // m; rad for stops
+    Vec3 velocity_m_s{0.0};     // of the surface point nearest to the target
     double stiffness_n_m = 350.0;
     double damping_n_s_m = 2.0;
     double friction = 0.0; // Coulomb coefficient
     ContactTarget target = ContactTarget::centre;
-    std::int32_t id = 0; // persistent; impulses come back by it
+    std::int32_t id = 0; // persistent; ContactReport uses the same id
 };
 
-// A spring and damper in all seven DOF between the grip and a proxy of the game's: something held or dragged.
-// The proxy moves on by its twist from the time that it was computed for (game_clock.h says how long).
+// A spring and damper in all seven DOF between the grip and a proxy of the game, for something held
+// or dragged. The proxy is extrapolated by its twist from the time that it was computed for (see
+// game_clock.h).
 struct Coupling {
-    Vec3 position_m{0.0}; // of the proxy, where the grip's centre should be
+    Vec3 position_m{0.0}; // of the proxy: where the grip center should be
     Mat3 rotation{1.0};
     double grasp_angle_rad = 0.0;
     Twist twist; // of the proxy
@@ -68,45 +76,49 @@ struct Coupling {
     double max_force_n = 5.0;
     double max_moment_nm = 0.2;
     double max_grasp_torque_nm = 0.2;
-    // ServoSnapshot::time_s of the pose that the game computed it from; negative: when it arrives.
+    // ServoSnapshot::time_s of the pose used to compute the coupling. Negative: time of arrival.
     double state_time_s = -1.0;
     std::uint8_t dof_mask = 0; // 0: no coupling
 };
 
+// Largest number of effects.
 inline constexpr int kMaxEffects = 6;
 enum class EffectKind : std::uint8_t {
     viscous = 0,   // -gain * velocity
     constant = 1,  // gain as a wrench
-    spring = 2,    // gain * (centre - pose)
+    spring = 2,    // gain * (center - pose)
     vibration = 3, // gain * sin(2 pi frequency t) as a wrench
-    detents =
-        4, // valleys at centre + n * spacing, gain deep: the greatest force on the way out of one
+    // Valleys at center + n * spacing; gain is the largest force on the way out of one.
+    detents = 4,
 };
 inline constexpr int kEffectKindCount = 5;
-// Bounds of a vibration: a string should buzz, not hammer.
+// Largest vibration force (unit: N): a string should buzz, not hammer.
 inline constexpr double kMaxVibration_n = 2.0;
+// Largest vibration moment and grasp torque (unit: N m).
 inline constexpr double kMaxVibration_nm = 0.05;
 inline constexpr double kMinVibration_hz = 5.0;
-inline constexpr double kMaxVibration_hz = 250.0; // and a quarter of the servo rate
-// Detents closer than this (m, rad) are finer than the encoders.
+// Upper limit besides a quarter of the servo rate.
+inline constexpr double kMaxVibration_hz = 250.0;
+// Smallest spacing of detents (m or rad); finer ones are below the encoders' resolution.
 inline constexpr double kMinDetentSpacing = 1e-3;
 
 struct Effect {
     EffectKind kind = EffectKind::viscous;
     std::uint8_t dof_mask = 0; // 0: no effect
-    std::int32_t id = 0;       // persistent: the same id and kind carries on
+    std::int32_t id = 0;       // persistent: an effect with the same id and kind continues
     DofGains gain{};
     Vec3 centre_m{0.0};        // spring, detents
     Mat3 centre_rotation{1.0}; // spring, detents
     double centre_grasp_rad = 0.0;
     double frequency_hz = 0.0; // vibration
     DofGains spacing{};        // detents: m, rad
-    // Full for so long from when it came, or came with another `renewal`; then faded like a wrench.
+    // Time of full strength (unit: s) from arrival or change of `renewal`. The effect then fades.
     double duration_s = 0.0;
     std::uint32_t renewal = 0;
 };
 
-// Limits that a game may change while the device is open; ranges as in SafetySettings and RenderSettings.
+// Limits that a game may change while the device is open. Ranges as in SafetySettings and
+// RenderSettings.
 struct LiveLimits {
     double max_force_n = 0.0;
     double max_moment_nm = 0.0;
@@ -120,18 +132,19 @@ struct TouchScene; // device/contact/touch
 
 struct HapticCommand {
     bool forces_enabled = false;
-    // Edge counters: the device acts when a value differs from the last one it saw.
+    // The following counters are edges: the device acts when a value differs from the last one.
     std::uint32_t arm_count = 0;
     std::uint32_t disarm_count = 0;
     std::uint32_t clear_fault_count = 0;
-    std::uint32_t zero_count = 0; // zero_at_home(): the grip is held at home
-    // Sign of life: the game changes it each frame. 0: nobody promised one, so nobody is missed.
+    std::uint32_t zero_count = 0; // zero_at_home(): the grip is at home
+    // Sign of life: the game changes it in each frame. 0: the game is not watched.
     std::uint32_t heartbeat = 0;
-    // The loop's own watchdogs and panic_stop() set these, not the game: motors off for this reason, latched.
+    // Set by the loop's own watchdogs and panic_stop(), not by the game. A change switches the
+    // motors off for stop_reason, latched.
     std::uint32_t stop_count = 0;
     Status stop_reason = Status::panic_stopped;
 
-    // A wrench that the game asks for itself, beside contacts and coupling. Each change of wrench_sequence applies it in
+    // A raw wrench, added to contacts and coupling. Each change of wrench_sequence applies it in
     // full for wrench_duration_s; then it fades out within SafetySettings::wrench_fade_s.
     std::uint64_t wrench_sequence = 0;
     Wrench wrench;
@@ -140,10 +153,11 @@ struct HapticCommand {
     std::uint64_t contacts_sequence = 0;
     int contact_count = 0;
     std::array<ContactPlane, kMaxContacts> contacts{};
-    // As Coupling::state_time_s.
+    // Like Coupling::state_time_s.
     double contacts_state_time_s = -1.0;
 
-    // Null with another touch_sequence: nothing to touch. It stays as it is until the device has acknowledged a newer one.
+    // Scene that the hand can touch; null: nothing to touch. A new scene needs a new
+    // touch_sequence. The scene must stay unchanged until the device has acknowledged a newer one.
     std::uint64_t touch_sequence = 0;
     const TouchScene *touch = nullptr;
 
@@ -154,24 +168,25 @@ struct HapticCommand {
     int effect_count = 0;
     std::array<Effect, kMaxEffects> effects{};
 
-    // How far the game closes the fingers of a rigid grip, 0 to 1 (FingerSettings::by_game).
+    // How far the game closes the fingers of a rigid grip, 0..1 (FingerSettings::by_game).
     double grasp_share = 0.0;
 
-    // Taken when limits_sequence changes; until then those of the settings hold.
+    // `limits` apply from a change of limits_sequence on; until then the settings apply.
     std::uint32_t limits_sequence = 0;
     LiveLimits limits;
 };
 
-// ok, or invalid_request / not_finite: the command must then not be published. Over-large but finite values
-// are ok: the device brings them down to its limits. duration_s: 0 to kMaxWrenchDuration_s.
+// Returns ok, or invalid_request / not_finite: the command must then not be published. Finite
+// values above the limits are ok: the device clamps them. duration_s: 0 to kMaxWrenchDuration_s.
 [[nodiscard]] Status validate_wrench(const Wrench &wrench, double duration_s) noexcept;
 [[nodiscard]] Status validate_contact(const ContactPlane &contact) noexcept;
-// contact_count and every contact that it covers.
+// Checks contact_count and every contact that it covers.
 [[nodiscard]] Status validate_contacts(const HapticCommand &command) noexcept;
 [[nodiscard]] Status validate_coupling(const Coupling &coupling) noexcept;
 [[nodiscard]] Status validate_effect(const Effect &effect) noexcept;
+// Checks effect_count and every effect that it covers.
 [[nodiscard]] Status validate_effects(const HapticCommand &command) noexcept;
-// Finite, none below zero, and a force, moment and grasp torque above it.
+// Requires finite limits, none negative, and force, moment and grasp torque above 0.
 [[nodiscard]] Status validate_limits(const LiveLimits &limits) noexcept;
 
 } // namespace spidar

@@ -1,30 +1,32 @@
-// How the grip moves from cycle to cycle: what tracking measures, and what requests are rendered against.
+// Motion of the grip from cycle to cycle: measured by tracking, input of rendering.
 #pragma once
 
 #include "device/contract/grip_state.h"
 
 namespace spidar {
 
-// A small move of the grip: dP0, turn, d(grasp_angle).
+// A small displacement of the grip: dP0 and turn in the device frame, d(grasp_angle).
 struct Displacement {
     Vec3 linear_m{0.0};
     Vec3 angular_rad{0.0};
     double grasp_rad = 0.0;
 };
 
-// The fingers of a rigid grip, which no string measures (device/tracking/fingers.h). given: they are told by something else.
+// The fingers of a rigid grip, which no string measures (device/tracking/fingers.h).
 struct FingerMotion {
+    // True for a rigid grip: angle and rate below are used.
     bool given = false;
-    double angle_rad = 0.0; // as a grasp angle: 0 open
+    double angle_rad = 0.0; // as a grasp angle: 0 when open
     double rate_rad_s = 0.0;
 };
 
-// One cycle's input of the renderer: the pose as measured, where it will be relative to that, and how fast.
+// Input of the renderer for one cycle.
 struct GripMotion {
     GripState grip;
     Displacement ahead; // filtered and predicted pose, relative to grip.pose
     Twist velocity;     // filtered
-    // How far ahead a steady motion is seen: what moves beside the grip, such as a wall, is to be looked at then.
+    // Time by which the prediction leads a steady motion (unit: s). Objects that move, such as a
+    // wall, must be extrapolated by the same time.
     double lead_s = 0.0;
 };
 

@@ -1,5 +1,6 @@
-// How requests come and go. A game speaks 30 to 144 times a second and the servo loop renders 1000 times: what the game
-// changes must not reach the hand as a blow, and what it stops to refresh must not act for ever.
+// How requests start, change and end. A game updates 30 to 144 times per second and the servo loop
+// renders 1000 times. A change must not reach the hand as a jolt, and a request that is no longer
+// refreshed must end.
 #pragma once
 
 #include <algorithm>
@@ -8,27 +9,28 @@
 
 namespace spidar {
 
-// One game period at 60 Hz: what jumps between two updates is spread over it.
+// Time over which a jump between two updates is spread (unit: s): one game frame at 60 Hz.
 inline constexpr double kCrossFade_s = 0.016;
-// The new value's share, since_s after the update; the old one has the rest.
+// Returns the weight (0..1) of the new value since_s after the update; the old value has the rest.
 [[nodiscard]] inline double cross_fade(double since_s) noexcept {
     return std::min(1.0, since_s / kCrossFade_s);
 }
-// From `from` (share 0) to `to` (share 1).
+// Returns the value between `from` (share 0) and `to` (share 1).
 [[nodiscard]] inline double blend(double from, double to, double share) noexcept {
     return from + share * (to - from);
 }
 
-// What is left of a request whose full duration ended past_s ago (negative: not yet) and that fades over fade_s.
+// Returns the strength (0..1) of a request whose full duration ended past_s ago (negative: not yet)
+// and that fades over fade_s.
 [[nodiscard]] inline double faded_out(double past_s, double fade_s) noexcept {
     return std::clamp(1.0 - std::max(0.0, past_s) / fade_s, 0.0, 1.0);
 }
 
-// Strength of a request that the game refreshes each frame: falls to nothing as the last update grows old, and comes
-// back gradually when the game does.
+// Strength of a request that the game refreshes each frame. It falls to 0 as the last update ages,
+// and returns gradually with the next update.
 class RefreshedStrength {
 public:
-    // From nothing to full, after a pause of the game too: not with a blow.
+    // Time from no to full strength (unit: s), also after a pause of the game.
     static constexpr double kOnset_s = 0.050;
 
     explicit RefreshedStrength(double strength) noexcept : strength_(strength) {}
@@ -37,7 +39,7 @@ public:
         gone_s_ = safety.contacts_gone_s;
     }
     void set(double strength) noexcept { strength_ = strength; }
-    // One cycle. age_s: of the last update. False: the request is so old that it is to be dropped.
+    // Takes one cycle. age_s: age of the update. Returns false when the request has expired.
     bool advance(double age_s, double dt_s) noexcept {
         const double left = std::clamp(1.0 - (age_s - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
         strength_ = std::min(left, strength_ + dt_s / kOnset_s);
@@ -47,7 +49,9 @@ public:
     [[nodiscard]] double value() const noexcept { return strength_; }
 
 private:
+    // Age up to which a request has full strength (unit: s).
     double full_s_ = 0.1;
+    // Age at which a request has no strength (unit: s).
     double gone_s_ = 0.3;
     double strength_;
 };

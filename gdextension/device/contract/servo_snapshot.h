@@ -1,4 +1,4 @@
-// What the device thread publishes each cycle: a plain value, device frame, SI.
+// What the servo loop publishes in each cycle: a plain value, device frame, SI units.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ namespace spidar {
 struct ContactReport {
     std::int32_t id = 0;
     Vec3 impulse_ns{0.0};           // on the grip, summed since this id appeared
-    double grasp_impulse_nms = 0.0; // grasp_stop
+    double grasp_impulse_nms = 0.0; // grasp_stop only
     bool touching = false;
 };
 
-// What a part of the scene got from the tool (device/contact/touch).
+// Impulse from the tool on a part of the scene (device/contact/touch).
 struct TouchPartReport {
     std::int32_t id = 0;
     Vec3 impulse_ns{0.0};          // on the part, summed since this id appeared
     Vec3 angular_impulse_nms{0.0}; // about the part's origin
 };
 
-// A point where the tool touches, or is about to.
+// A point where the tool touches or almost touches the scene.
 struct TouchPointReport {
     std::int32_t tool_id = 0;
     std::int32_t scene_id = 0;
@@ -37,85 +37,94 @@ struct TouchPointReport {
     Vec3 normal{0.0};  // out of the scene
     Vec3 force_n{0.0}; // on the tool
     double gap_m = 0.0;
-    double slip_m_s = 0.0; // along the surface; 0: friction holds it
+    double slip_m_s = 0.0; // speed along the surface; 0: friction holds
 };
 
 inline constexpr int kMostTouchParts = 32;
 inline constexpr int kMostTouchPoints = 24;
 struct TouchReport {
-    std::uint64_t sequence = 0; // of the scene that is rendered
-    // The proxy: where the tool appears, in no surface.
+    std::uint64_t sequence = 0; // touch_sequence of the rendered scene
+    // Pose of the proxy: where the tool is shown, outside all surfaces.
     Vec3 position_m{0.0};
     Mat3 rotation{1.0};
     double grasp_rad = 0.0;
-    Wrench wrench;             // of contacts and load on the hand, before limits
-    double stop_push_nm = 0.0; // grasp torque of the jaws' stop
-    DofGains stiffness{};      // in use
+    // Wrench of contacts and load on the hand, before limits.
+    Wrench wrench;
+    // Grasp torque of the jaws' stop.
+    double stop_push_nm = 0.0;
+    DofGains stiffness{}; // as used in this cycle
     int part_count = 0;
     int point_count = 0;
-    // Of the last cycle, and cycles whose answer was the last one's.
+    // Closest-point queries of the last cycle.
     std::int32_t queries = 0;
+    // Solver passes of the last cycle.
     std::int32_t passes = 0;
+    // Cycles that reused the last answer.
     std::uint64_t skipped = 0;
     std::array<TouchPartReport, kMostTouchParts> parts{}; // in the order of the scene
     std::array<TouchPointReport, kMostTouchPoints> points{};
 };
 
-// Each only grows.
+// Counters; each only grows.
 struct ServoCounters {
     std::uint64_t ticks = 0;
-    std::uint64_t kinematics_skipped = 0; // counts unchanged
-    std::uint64_t tension_skipped = 0;    // same pose and request, all settled: the last tensions
-    std::uint64_t steps_skipped = 0;      // at rest, nothing new: the last answer, whole
+    std::uint64_t kinematics_skipped = 0; // counts were unchanged
+    // Pose and request were unchanged and all had settled: the last tensions were used.
+    std::uint64_t tension_skipped = 0;
+    // Everything was at rest without new input: the whole last answer was used.
+    std::uint64_t steps_skipped = 0;
     std::uint64_t cold_starts = 0;
     std::uint64_t bad_samples = 0; // count jumps and impossible lengths
     std::uint64_t read_timeouts = 0;
-    std::uint64_t rejected_requests = 0; // not finite or malformed, seen in the loop
+    // Requests that were not finite or malformed.
+    std::uint64_t rejected_requests = 0;
     std::uint64_t clamped_requests = 0;
     std::uint64_t expired_requests = 0;
     std::uint64_t saturated_ticks = 0; // strings at a bound changed the wrench
     std::uint64_t slewed_ticks = 0;    // the slew limit changed a tension
     std::uint64_t write_failures = 0;
-    std::uint64_t reports_missed = 0; // gaps in the device's sequence numbers
-    std::uint64_t old_reports = 0;    // repeated or out of order: left out
-    std::uint64_t faded_ticks = 0;    // a safety monitor scaled the wrench down
-    std::uint64_t bad_time_steps = 0; // not in [1e-6, 0.05] s: taken as 1 / rate
-    std::uint64_t gate_clamps =
-        0; // a tension outside [0, max] or NaN reached the safety gate: a defect
+    std::uint64_t reports_missed = 0; // gaps in the sequence numbers of the device
+    std::uint64_t old_reports = 0;    // repeated or out of order: ignored
+    std::uint64_t faded_ticks = 0;    // a safety monitor reduced the wrench
+    std::uint64_t bad_time_steps = 0; // outside [1e-6, 0.05] s: replaced by 1 / rate
+    // A tension outside [0, max] or NaN reached the safety gate. This is a defect.
+    std::uint64_t gate_clamps = 0;
 };
 
 struct ServoSnapshot {
-    double time_s = 0.0; // sum of the time steps
+    double time_s = 0.0; // sum of all time steps
     DeviceState state = DeviceState::closed;
-    Status fault = Status::ok;     // why, when state is fault
+    Status fault = Status::ok;     // the reason when state is fault
     std::int8_t fault_string = -1; // 0-7, or -1
     GripState grip;
     GraspPhase grasp = GraspPhase::open;
     CountArray counts{};
     StringArray lengths_m{};
     StringArray tensions_n{}; // commanded, after every limit
-    Wrench requested;         // all requests summed, after limits and ramp
-    Wrench achieved;          // what tensions_n give; where the rest went: tension_report()
+    Wrench requested;         // sum of all requests, after limits and ramp
+    // The wrench that tensions_n give; tension_report() splits the difference.
+    Wrench achieved;
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0;    // arming ramp, 0..1
-    double tension_scale = 0.0;  // the part of it that scales all tensions, pretension too
-    double safety_scale = 1.0;   // what the safety monitors leave of the wrench, 0..1
-    double thermal_share = 0.0;  // of the warmest motor's budget, 1 = spent
-    double parity_error_m = 0.0; // what no pose explains of the eight lengths
+    double force_scale = 0.0;   // arming ramp, 0..1
+    double tension_scale = 0.0; // part of force_scale that scales all tensions, also the pretension
+    double safety_scale = 1.0;  // share of the wrench that the safety monitors allow, 0..1
+    double thermal_share = 0.0; // used share of the warmest motor's thermal budget; 1: spent
+    double parity_error_m = 0.0; // part of the eight lengths that no pose explains
     bool zero_known = false;
     int contact_count = 0;
     std::array<ContactReport, kMaxContacts> contacts{};
     TouchReport touch;
-    // Work done on the hand in each DOF since the start: commanded tensions times the motion that the lengths show.
-    std::array<double, kDofCount> injected_j{}; // in the order of DofGains
-    GainClamp clamp;                            // the last gain that was brought down
+    // Work done on the hand per DOF since the start, in the order of DofGains: commanded tensions
+    // times measured motion.
+    std::array<double, kDofCount> injected_j{};
+    GainClamp clamp; // the last clamped gain
     ServoCounters counters;
     std::uint8_t buttons = 0;
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] inline bool is_sound(const ServoSnapshot &snapshot) noexcept {
     bool sound = is_one_of(snapshot.state, DeviceState::calibrated) &&
                  is_one_of(snapshot.grasp, GraspPhase::over_closed) &&

@@ -1,5 +1,6 @@
-// The border to a device: encoder counts in, motor currents out. One thread owns a transport; only write() of
-// one that says write_may_block() may run in a second thread at the same time.
+// The interface to a device: encoder counts in, motor currents out. One thread owns a transport.
+// Only write(), and only when write_may_block() is true, may run in a second thread at the same
+// time.
 #pragma once
 
 #include <array>
@@ -13,36 +14,41 @@ namespace spidar {
 
 struct DeviceReading {
     CountArray counts{};
-    std::uint64_t device_time_us = 0; // the device's own clock; 0 when it has none
+    std::uint64_t device_time_us = 0; // clock of the device; 0 when it has none
     std::uint16_t sequence = 0;
     std::uint8_t buttons = 0;
-    // False: the counts have no reference yet (a real device before it was zeroed, or plugged in anew).
+    // False: the counts have no reference yet. A real device is in this state before it is zeroed,
+    // and after it was plugged in again.
     bool zeroed = true;
-    // Good reports that came in since the reading before and were overtaken by this one: not lost.
+    // Valid reports since the last reading that were superseded by this one. They are not lost.
     std::uint16_t overtaken = 0;
-    // ok, or why the device cannot pull: its emergency stop, watchdog, supply, encoders, temperature.
+    // ok, or why the device cannot pull: emergency stop, watchdog, supply, encoders or temperature.
     Status device_status = Status::ok;
-    std::uint8_t fault_strings = 0; // bit i: string i, where an encoder fault says which
-    // What else is wired to the device, such as a pressure sensor in the grip, in its own units. 0 where there is nothing.
+    // Bit i: string i, when an encoder fault names strings.
+    std::uint8_t fault_strings = 0;
+    // Other sensors, such as grip pressure, in their own units. 0 when there is none.
     std::array<std::int16_t, kSensorCount> sensors{};
 };
 
-// What a cycle sends. Both forms, so that a device may take either: tensions after the tension gain, and
-// the motor currents that MotorCalibration makes of them.
+// What a cycle sends. Both forms are filled in, so that a device may use either: tensions after the
+// tension gain, and the motor currents that MotorCalibration makes of them.
 struct DriveCommand {
     StringArray tensions_n{};
     StringArray currents_a{};
-    bool motors_on = false; // false: currents are zero and the device may cut power
-    bool clear_faults =
-        false; // acts only with motors_on false: the device may forget latched faults
+    // False: currents are zero and the device may cut the motors' power.
+    bool motors_on = false;
+    // The device may clear latched faults. Acts only with motors_on false.
+    bool clear_faults = false;
 };
 
-// What a servo cycle takes in from outside, beside the game's command.
+// Input of a servo cycle besides the game's command.
 struct CycleInput {
-    DeviceReading reading; // stays what it was when nothing new came
+    // Unchanged when no new reading arrived.
+    DeviceReading reading;
     double dt_s = 0.001;
     Status read_status = Status::ok;
-    Status write_status = Status::ok; // of what this cycle sends: for ServoStep::report_write()
+    // Status of writing this cycle's command, for ServoStep::report_write().
+    Status write_status = Status::ok;
     bool may_arm_itself = false;
 };
 
@@ -53,33 +59,34 @@ public:
     Transport &operator=(const Transport &) = delete;
     virtual ~Transport() = default;
 
-    // Opens the device. Never called from a servo step: it may allocate and wait.
+    // Opens the device. May allocate and wait: never call it from a servo step.
     virtual Status open() noexcept = 0;
-    // Switches the motors off, then closes the operating system's handle. Does nothing when not open. Like open(), it may
-    // wait.
+    // Switches the motors off, then closes the handle. Does nothing when not open. May wait.
     virtual void close() noexcept = 0;
 
-    // The newest reading. read_timeout: nothing new (reading untouched); read_failed: device lost.
+    // Reads the newest reading. Returns read_timeout when there is no new one (reading unchanged),
+    // read_failed when the device is lost.
     virtual Status read(DeviceReading &reading) noexcept = 0;
     virtual Status write(const DriveCommand &command) noexcept = 0;
 
-    // write() waits for the device, for seconds if that hangs: keep it out of the loop's thread.
+    // True: write() may wait for the device for seconds and must not run in the loop's thread.
     [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
 
-    // Waits for the next report, until this instant of monotonic_ns() at the latest, and leaves it to read(). False at
-    // once: this device cannot clock the loop. True: a report waits, or the time is up.
+    // Waits for the next report and leaves it to read(). Returns true when a report waits or
+    // monotonic_ns() has reached until_ns. Returns false at once when the device cannot clock the
+    // loop.
     [[nodiscard]] virtual bool wait_report(std::int64_t until_ns) noexcept {
         (void)until_ns;
         return false;
     }
 
-    // Under which name this device's motors are known while it is open, whoever opens it: its serial number, or its place.
-    // Empty: its motors are new each time, as those of a simulated device are.
+    // Name under which the heat of the device's motors is stored while it is open: serial number or
+    // path. Empty: the motors start cold each time, as those of a simulated device do.
     [[nodiscard]] virtual std::string device_name() const { return {}; }
 
-    // Simulated devices move on by this much time, once a servo cycle. Real ones ignore it.
+    // Advances a simulated device by this time, once per servo cycle. Real devices ignore it.
     virtual void advance(double dt_s) noexcept { (void)dt_s; }
-    // A simulated device may arm itself when forces are enabled; a real one arms only on arm().
+    // True for a simulated device, which may arm itself when forces are on. Real ones need arm().
     [[nodiscard]] virtual bool simulated() const noexcept { return false; }
 };
 

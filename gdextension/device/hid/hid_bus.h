@@ -1,4 +1,4 @@
-// The system's HID access as HidTransport needs it: hidapi in the add-on, a model of it in tests.
+// Interface to the system's HID access: hidapi in the add-on, a model in tests.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 namespace spidar {
 
 struct HidDeviceInfo {
-    std::string path; // of the system; may change with every plug-in
+    std::string path; // system path; may change with every plug-in
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
-    std::uint16_t usage_page = 0; // 0: the system does not tell
+    std::uint16_t usage_page = 0; // 0: the system does not report it
     std::string serial;
     std::string product;
 };
 
-// An open device. One thread at a time; several handles on one device, each used by its own thread, are fine.
-// Closed by its destructor.
+// An open device; the destructor closes it. Each handle may be used by one thread at a time.
+// Several handles on one device may be used by different threads.
 class HidHandle {
 public:
     HidHandle() = default;
@@ -29,13 +29,14 @@ public:
     HidHandle &operator=(const HidHandle &) = delete;
     virtual ~HidHandle() = default;
 
-    // The next input report with its id: its length, 0 when none comes within the time (0: no waiting), -1 when the
-    // device is gone.
+    // Reads the next input report with its id. Returns its length, 0 when none arrives within
+    // timeout_ms (0: no waiting), or -1 when the device is gone.
     virtual int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept = 0;
-    // An output report that begins with its id: its length, or -1. May block for seconds.
+    // Writes an output report, id first. Returns its length or -1. May block for seconds.
     virtual int write(std::span<const std::uint8_t> bytes) noexcept = 0;
-    // A feature report whose id is bytes[0]: its length, or -1. May block.
+    // Reads the feature report whose id is bytes[0]. Returns its length or -1. May block.
     virtual int get_feature(std::span<std::uint8_t> bytes) noexcept = 0;
+    // Sends the feature report whose id is bytes[0]. Returns its length or -1. May block.
     virtual int send_feature(std::span<const std::uint8_t> bytes) noexcept = 0;
 };
 
@@ -46,15 +47,15 @@ public:
     HidBus &operator=(const HidBus &) = delete;
     virtual ~HidBus() = default;
 
-    // All HID devices now plugged in. hid_unavailable when the system's HID access does not start.
+    // Lists all HID devices. Returns hid_unavailable when the system's HID access does not start.
     virtual Status enumerate(std::vector<HidDeviceInfo> &devices) = 0;
-    // Null on failure, with the reason: no_permission, open_failed, hid_unavailable.
+    // Returns null on failure; `status` is no_permission, open_failed or hid_unavailable.
     virtual std::unique_ptr<HidHandle> open(const std::string &path, Status &status) = 0;
-    // A clock that never goes back (unit: us).
+    // Monotonic clock (unit: us).
     [[nodiscard]] virtual std::uint64_t now_us() noexcept = 0;
 };
 
-// The system's own, through hidapi; shared by all transports of the process.
+// Returns the system's HID access through hidapi, shared by all transports of the process.
 [[nodiscard]] std::shared_ptr<HidBus> system_hid_bus();
 
 } // namespace spidar

@@ -8,7 +8,7 @@ namespace spidar {
 
 namespace {
 
-// Microchip's generic HID demonstration: many unrelated boards carry these numbers.
+// Ids of Microchip's generic HID demonstration, which many unrelated boards use.
 constexpr std::uint16_t kSharedVendor = 0x04D8;
 constexpr std::uint16_t kSharedProduct = 0x003F;
 

@@ -1,4 +1,4 @@
-// Which of the plugged-in HID devices are meant.
+// Selects HID devices among those that are plugged in.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,32 @@
 
 namespace spidar {
 
-// 0 or empty: any. All devices must have the vendor-defined usage page, where the system tells it.
+// 0 or an empty string matches any device. The vendor-defined usage page is always required where
+// the system reports it.
 struct HidDeviceFilter {
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
-    std::string serial;               // name_of() the device
-    std::string product = "SPIDAR-G"; // the product string begins with this
-    std::string path;                 // of the system: tells devices without a serial number apart
+    std::string serial; // as name_of() returns it
+    // The product string must begin with this.
+    std::string product = "SPIDAR-G";
+    // System path; distinguishes devices without a serial number.
+    std::string path;
 };
 
 [[nodiscard]] bool matches(const HidDeviceFilter &filter, const HidDeviceInfo &device);
 
-// Its serial number, or its path where it has none.
+// Returns the serial number, or the path when there is none.
 [[nodiscard]] const std::string &name_of(const HidDeviceInfo &device) noexcept;
 
-// Under which name a device is claimed and its motors' heat is kept. Empty of no device.
+// Returns the name for the device's claim and stored motor heat. Empty without a device.
 [[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
 
-// Those that match, in the order of their serial numbers, each path once. no_device when there is none.
+// Finds the matching devices, ordered by serial number, each path once. Returns no_device when
+// there is none.
 [[nodiscard]] Status find_devices(HidBus &bus, const HidDeviceFilter &filter,
                                   std::vector<HidDeviceInfo> &found);
 
-// Empty when usable; else one sentence naming the field, the value and the remedy.
+// Returns an empty string when usable, else one sentence with field, value and remedy.
 [[nodiscard]] std::string validate(const HidDeviceFilter &filter);
 
 } // namespace spidar

@@ -14,8 +14,8 @@ std::string name_of(const HidDeviceInfo &device) {
     return "\"" + device.product + "\" (serial \"" + device.serial + "\", " + device.path + ")";
 }
 
-// Reads feature report `id` of `size` bytes and decodes it. Windows wants a buffer for the longest feature report of the
-// device whichever is read, and may say that it filled the whole.
+// Reads and decodes feature report `id` of `size` bytes. Windows needs a buffer for the device's
+// longest feature report, and may report that it filled all of it.
 template <typename Report>
 bool read_feature(HidHandle &handle, HidReportId id, std::size_t size, Report &report) {
     std::array<std::uint8_t, kLargestReport + 1> bytes{};

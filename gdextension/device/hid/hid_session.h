@@ -1,4 +1,4 @@
-// One plug-in of a device: its handles, opened, asked what it is and told its limits.
+// One plug-in of a device: its handles, its capabilities and its limits.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace spidar {
 
-// A handle each, because one handle must not be used by two threads at once.
+// There is one handle per thread, since two threads must not use the same handle at once.
 struct HidSession {
     std::shared_ptr<HidHandle> reader;  // servo loop
     std::shared_ptr<HidHandle> writer;  // writer thread
     std::shared_ptr<HidHandle> control; // controlling thread: feature reports
     HidDeviceInfo device;
     HidCapabilities capabilities;
-    HidLimits limits; // as the device keeps them
+    HidLimits limits; // as the device reports them back
 };
 
-// `problem`: a sentence when the status is negative. On failure nothing stays open.
+// Opens handles, reads capabilities, sets limits. Failure leaves nothing open; see `problem`.
 [[nodiscard]] Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &limits,
                                   HidSession &session, std::string &problem);
 

@@ -22,11 +22,11 @@ namespace {
 
 constexpr auto kReplugPoll = std::chrono::milliseconds(250);
 constexpr auto kHangingWritePoll = std::chrono::milliseconds(1);
-// A system's queue holds 64 reports; twice that many in one cycle is a device gone mad, left for the next cycle.
+// Largest number of reports read per cycle: twice the system's queue.
 constexpr int kMostReportsAtOnce = 128;
-// Commands without motors that clear what an earlier host left latched (its watchdog).
+// Number of commands with motors off that clear faults which an earlier host left latched.
 constexpr int kClearingCommands = 20;
-// A silent device must not keep the loop from noticing: its own limits are shorter, this is the last one.
+// Longest wait for a report; the caller's own limits are shorter.
 constexpr std::int64_t kLongestWait_ms = 50;
 constexpr double kMillinewtonsPerNewton = 1000.0;
 constexpr double kHalf = 0.5;
@@ -46,13 +46,13 @@ struct HidTransport::Impl {
     Impl(std::shared_ptr<HidBus> bus_in, const HidTransportSettings &settings_in)
         : bus(std::move(bus_in)), settings(settings_in), intake(statistics) {}
 
-    // A handle of the present session, and its number; null when there is none.
+    // Returns a handle of the present session with its number; null when there is none.
     struct Borrowed {
         std::shared_ptr<HidHandle> handle;
         std::uint32_t session = 0;
     };
     [[nodiscard]] Borrowed borrow(std::shared_ptr<HidHandle> HidSession::*which) const noexcept;
-    // This session's device is gone. A late failure on an earlier session changes nothing.
+    // Marks this session's device as lost. A late failure of an earlier session has no effect.
     void lose(std::uint32_t which) noexcept;
     Status connect(const HidDeviceFilter &filter, std::string &why);
     void watch();
@@ -60,9 +60,9 @@ struct HidTransport::Impl {
 
     const std::shared_ptr<HidBus> bus;
     const HidTransportSettings settings;
-    std::string problem; // the controlling thread's own
+    std::string problem; // used by the controlling thread
 
-    // Held only to copy or swap; handles are closed outside, by whoever drops the last reference.
+    // Locked only to copy or swap. The last owner of a handle closes it without the lock.
     mutable std::mutex mutex;
     HidSession session;
     std::uint32_t session_number = 0;          // counts connects
@@ -75,25 +75,25 @@ struct HidTransport::Impl {
     std::atomic<bool> is_open{false};
     std::atomic<bool> write_busy{false};
     std::atomic<std::uint32_t> zero_number{0}; // counts zeroings
-    // The zero of before does not count: plugged in anew, or the device restarted.
+    // The earlier zero is void: the device was plugged in again or restarted.
     std::atomic<bool> zero_required{false};
 
     HidStatistics statistics;
 
-    // Reader's own. It borrows only when the link has changed, so that the loop meets no lock.
+    // Used by the reader. It borrows only when the link has changed: the loop takes no lock.
     ReportIntake intake;
     Borrowed reader;
     std::uint32_t link_read = 0;
     std::uint32_t session_read = 0;
-    std::array<std::uint8_t, 2 * kLargestReport> bytes{}; // room enough to see that one is too long
+    std::array<std::uint8_t, 2 * kLargestReport> bytes{}; // room to detect one that is too long
     int waiting = 0; // length of a report in `bytes` that wait_report() left for read()
     void refresh_reader() noexcept;
 
-    // Reader to writer: epoch of the intake above, sequence of the newest state below; 0 before any. And the sequence
-    // that the device had accepted when that epoch began.
+    // Upper half: epoch of the intake. Lower half: number of the newest state. 0: none yet.
     std::atomic<std::uint32_t> answered{0};
+    // The command that the device had accepted when that epoch began.
     std::atomic<std::uint16_t> start_after{kNoSequence};
-    // Writer's own.
+    // Used by the writer.
     std::uint32_t epoch_written = 0;
     std::uint16_t sequence = kNoSequence;
     int clearing = 0;
@@ -145,13 +145,13 @@ Status HidTransport::Impl::connect(const HidDeviceFilter &filter, std::string &w
     return Status::ok;
 }
 
-// Looks for the device while it is gone.
+// Looks for the device while it is lost.
 void HidTransport::Impl::watch() {
     HidDeviceFilter filter = settings.filter;
     std::string why;
     std::unique_lock<std::mutex> lock(mutex);
-    // This very device: by its serial number, whatever its path is then. Without one only a device at the same place can
-    // be the same, and another one must not be taken for it.
+    // Accepts only the same device. With a serial number the path may change; without one only a
+    // device at the same path can be the same.
     filter.serial = session.device.serial;
     filter.path = session.device.serial.empty() ? session.device.path : std::string();
     while (!stop_watcher) {
@@ -168,7 +168,7 @@ void HidTransport::Impl::watch() {
             if (usable(connect(filter, why))) {
                 HidStatistics::add(statistics.replugs);
             }
-        } catch (const std::exception &) { // no memory: the next poll may have some
+        } catch (const std::exception &) { // no memory: tried again at the next poll
             why.clear();
         }
         lock.lock();
@@ -245,7 +245,7 @@ bool HidTransport::wait_report(std::int64_t until_ns) noexcept {
     }
     if (m.waiting == 0) {
         constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
-        // Rounded up: a wait of less than a millisecond would else be none, and the loop would spin.
+        // Rounded up: a wait below 1 ms would be none, and the loop would spin.
         const std::int64_t wait_ms = (until_ns - monotonic_ns() + kNanosecondsPerMillisecond - 1) /
                                      kNanosecondsPerMillisecond;
         m.waiting = m.reader.handle->read(
@@ -328,10 +328,10 @@ CommandReport HidTransport::Impl::next_command(const DriveCommand &command,
 Status HidTransport::write(const DriveCommand &command) noexcept {
     Impl &m = *impl_;
     if (m.write_busy.exchange(true, std::memory_order_acq_rel)) {
-        return Status::write_failed; // hangs in another thread
+        return Status::write_failed; // a write blocks in another thread
     }
     const Impl::Borrowed writer = m.borrow(&HidSession::writer);
-    // Until the device has spoken nobody knows where its count of commands stands.
+    // Until the device has sent a report its command numbering is unknown.
     const std::uint32_t newest_state = m.answered.load(std::memory_order_acquire);
     Status status = Status::ok;
     if (!writer.handle) {

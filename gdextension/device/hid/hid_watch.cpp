@@ -25,7 +25,7 @@ HidWatch::HidWatch(std::shared_ptr<HidBus> bus, HidDeviceFilter filter,
     : bus_(std::move(bus)), filter_(std::move(filter)), period_(period), known_(std::move(known)) {
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error &) { // no thread left: what is plugged in later is not found
+    } catch (const std::system_error &) { // later devices are not found
         stop_ = true;
     }
 }
@@ -50,7 +50,7 @@ void HidWatch::run() {
                 found_.store(true);
                 return;
             }
-        } catch (const std::exception &) { // no memory: the next look may have some
+        } catch (const std::exception &) { // no memory: tried again at the next look
             known_.clear();
         }
         lock.lock();
@@ -63,7 +63,7 @@ bool HidWatch::look() {
         known_.clear();
         return false;
     }
-    // What was unplugged is new when it comes back.
+    // A device that was unplugged counts as new when it returns.
     std::erase_if(known_, [&now](const HidDeviceInfo &one) { return !contains(now, one); });
     return std::any_of(now.begin(), now.end(), [this](const HidDeviceInfo &one) {
         return !contains(known_, one) && DeviceClaim::owner_of(claim_name(one)).empty();

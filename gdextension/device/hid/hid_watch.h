@@ -1,4 +1,4 @@
-// Looks for a device that is plugged in later, in a thread of its own: listing devices may take many milliseconds.
+// Looks for devices plugged in later, in a thread: listing them may take many milliseconds.
 #pragma once
 
 #include <atomic>
@@ -17,14 +17,14 @@ namespace spidar {
 
 class HidWatch {
 public:
-    // Those of `known` are passed over while they stay plugged in: they were tried.
+    // Devices in `known` were already tried and are skipped while they stay plugged in.
     HidWatch(std::shared_ptr<HidBus> bus, HidDeviceFilter filter, std::vector<HidDeviceInfo> known,
              std::chrono::milliseconds period = std::chrono::milliseconds(500));
     ~HidWatch();
     HidWatch(const HidWatch &) = delete;
     HidWatch &operator=(const HidWatch &) = delete;
 
-    // True once a new device that matches, and that nobody in this process owns, has been seen.
+    // True once a new matching device that nobody in this process owns has been seen.
     [[nodiscard]] bool found() const noexcept { return found_.load(); }
 
 private:
@@ -34,7 +34,7 @@ private:
     const std::shared_ptr<HidBus> bus_;
     const HidDeviceFilter filter_;
     const std::chrono::milliseconds period_;
-    std::vector<HidDeviceInfo> known_; // the thread's own
+    std::vector<HidDeviceInfo> known_; // used by the thread only
     std::atomic<bool> found_{false};
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -26,9 +26,9 @@ std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bu
             continue;
         }
         settings.filter.serial = device.serial;
-        settings.filter.path = device.path; // this very one, of all that look alike
+        settings.filter.path = device.path; // this device among all that match
         auto transport = std::make_unique<HidTransport>(bus, settings);
-        status = transport->open(); // now, so that what is wrong can be told or stood in for
+        status = transport->open(); // now, so that a failure can be reported or replaced
         if (usable(status)) {
             return transport;
         }

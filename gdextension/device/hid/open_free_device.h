@@ -9,8 +9,9 @@
 
 namespace spidar {
 
-// The first that matches settings.filter, is free and opens; `claim` then owns it in the name of `owner`. Null: `status`
-// and `problem` say why; invalid_settings: a field of the filter, which `problem` begins with.
+// Opens the first device that matches settings.filter, is free and can be opened; `claim` then owns
+// it in the name of `owner`. Returns null with `status` and `problem` otherwise. For
+// invalid_settings, `problem` begins with the name of a filter field.
 [[nodiscard]] std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,
                                                              HidTransportSettings settings,
                                                              const std::string &owner,

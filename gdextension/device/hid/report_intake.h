@@ -1,4 +1,4 @@
-// Everything between the bytes of an input report and a reading that may be trusted. The servo loop's own.
+// From the bytes of an input report to a reading that may be trusted. Used by the servo loop only.
 #pragma once
 
 #include "device/contract/transport.h"
@@ -13,19 +13,19 @@ class ReportIntake {
 public:
     explicit ReportIntake(HidStatistics &statistics) noexcept : statistics_(statistics) {}
 
-    // Another plug-in of the device: nothing of the last one holds.
+    // Starts a new session after a plug-in: forgets all state.
     void begin() noexcept;
-    // True: a good new report, the newest so far. now_us: the host's clock.
+    // Returns true when the report is valid and the newest so far. now_us: the host's clock.
     bool take(ReportBytes bytes, std::uint64_t now_us) noexcept;
 
     [[nodiscard]] const StateReport &newest() const noexcept { return newest_; }
-    // Counts begin() and the device's restarts: when it changes, zero and count of commands are worth nothing.
+    // Number of begin() calls and device restarts. A change voids zero and command numbering.
     [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
-    // True when the last begin of an epoch was the device's own.
+    // True when the current epoch began with a restart of the device.
     [[nodiscard]] bool restarted() const noexcept { return restarted_; }
 
-    // The newest report as the servo step wants it. zero_number counts zeroings; the readings after one are not
-    // zeroed until reports made before it must have left every queue.
+    // Fills in the newest report. zero_number counts zeroings: after a new one, readings are not
+    // zeroed until all older reports must have left every queue.
     void fill(DeviceReading &reading, std::uint32_t zero_number, bool zero_counts) noexcept;
 
 private:

@@ -1,6 +1,6 @@
-// hidapi's Linux backend calls libudev. Loading it when first used, in place of linking it, keeps the add-on free of a
-// library that a system without udev does not have: there, no HID devices are found and the simulated one stands in.
-// These are the functions that hidapi's hidraw backend uses; the types are opaque to us as to it.
+// hidapi's Linux backend calls libudev. Loading it on first use, instead of linking it, lets the
+// add-on start on systems without udev: no HID devices are found there, and the simulated one is
+// used. These are the functions that hidapi's hidraw backend needs; their types are opaque.
 #ifdef __linux__
 
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
-// A device that a game drives: readings come from its transport, commands from the game's thread, stops from the host's
-// watchdogs. Where a write may block, a thread of its own does it.
+// A device that a game drives: readings from the transport, commands from the game's thread, stops
+// from the host's watchdogs. A writer thread is used where a write may block.
 #pragma once
 
 #include <memory>
@@ -63,7 +63,7 @@ public:
         }
         writer_.post(drive);
         if (!drive.motors_on) {
-            writer_.allow(); // what a panic forbade is off in what is posted, too
+            writer_.allow(); // the posted command switches off what a panic forbade
         }
         return writer_.take_result();
     }
@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    static constexpr int kOffTries = 10; // of a write that does not wait
+    static constexpr int kOffTries = 10; // attempts of a write that does not wait
 
     std::unique_ptr<Transport> transport_;
     WriterThread writer_;

@@ -1,5 +1,5 @@
-// Reasons of the host's own to switch the motors off: a panic stop, a servo thread that stood still, a device that takes
-// no more writes.
+// The host's own reasons to switch the motors off: a panic stop, a servo thread that stalled, a
+// device that accepts no more writes.
 #pragma once
 
 #include <atomic>
@@ -14,11 +14,12 @@ namespace spidar {
 
 class HostWatchdogs {
 public:
-    // From any thread.
+    // Called from any thread.
     void panic() noexcept { panics_.fetch_add(1, std::memory_order_acq_rel); }
 
-    // Before the first cycle, with the newest command, which is acknowledged as filled in here. What an earlier run met
-    // is over, but a panic is latched until the fault was cleared after it: then the first cycle has a reason to stop.
+    // Called before the first cycle with the newest command, and sets its stop_count and
+    // stop_reason. Stops of an earlier run are over. A panic stays latched until the fault is
+    // cleared after it: then the first cycle has a reason to stop.
     void restart(HapticCommand &newest) noexcept {
         write_is_blocked_ = false;
         hear(newest);
@@ -28,8 +29,8 @@ public:
             stop(Status::panic_stopped);
         }
     }
-    // Once a cycle. Fills in the command's stop_count and stop_reason. writer: null when the loop writes by itself.
-    // True: there is a new reason.
+    // Called once per cycle. Sets the command's stop_count and stop_reason. writer: null when the
+    // loop writes itself. Returns true when there is a new reason.
     bool watch(WriterThread *writer, HapticCommand &command, EventLog &events) noexcept {
         const std::uint32_t before = stops_;
         if (hear(command)) {
@@ -44,10 +45,11 @@ public:
     }
 
 private:
-    // A write that waits so long is told.
+    // Time after which a blocked write is reported.
     static constexpr std::int64_t kBlocked_ns = 20'000'000;
 
-    // True: there was a panic since the last call. One that comes with a clear_fault() counts as the later of the two.
+    // Returns true when there was a panic since the last call. When panic and clear_fault() arrive
+    // together, the panic counts as later.
     bool hear(const HapticCommand &command) noexcept {
         const bool cleared = command.clear_fault_count != clear_fault_count_;
         clear_fault_count_ = command.clear_fault_count;
@@ -79,8 +81,10 @@ private:
     std::atomic<std::uint32_t> panics_{0};
     std::uint32_t panics_seen_ = 0;
     std::uint32_t clear_fault_count_ = 0;
-    bool panicked_ = false;   // and no fault cleared since
-    std::uint32_t stops_ = 0; // only grows: a command without it would be an edge of its own
+    // A panic occurred and no fault was cleared since.
+    bool panicked_ = false;
+    // Only grows, since any change counts as an edge.
+    std::uint32_t stops_ = 0;
     Status stop_reason_ = Status::ok;
     bool write_is_blocked_ = false;
 };

@@ -1,4 +1,4 @@
-// How punctual a loop's thread is: counted by that thread, read by any other at any time.
+// Punctuality of a loop's thread: counted by that thread, read by any other at any time.
 #pragma once
 
 #include <atomic>
@@ -10,19 +10,20 @@ namespace spidar {
 
 struct LoopStatistics {
     double measured_rate_hz = 0.0; // over the last second; the set rate when stepped
-    double lateness_p50_us = 0.0;  // wake-up after the deadline; 0 when stepped
+    double lateness_p50_us = 0.0;  // delay of the wake-up; 0 when stepped
     double lateness_p99_us = 0.0;
     double lateness_max_us = 0.0;
     double step_p50_us = 0.0; // read + compute + write
     double step_p99_us = 0.0;
     std::uint64_t missed_deadlines = 0;
-    std::uint64_t late_cycles = 0;   // more than 1 ms after the deadline
-    bool real_time_priority = false; // SCHED_FIFO granted
+    // Cycles that began more than 1 ms late.
+    std::uint64_t late_cycles = 0;
+    bool real_time_priority = false; // SCHED_FIFO was granted
 };
 
 class LoopTiming {
 public:
-    // While no thread runs. rate_hz: what measured_rate_hz says until a second was measured.
+    // Called while no thread runs. rate_hz: value of measured_rate_hz until a second was measured.
     void restart(double rate_hz) noexcept {
         lateness_.clear();
         step_time_.clear();
@@ -34,7 +35,7 @@ public:
         late_of_hundred_ = 0;
     }
 
-    // From the loop's thread, all but the last two.
+    // Starts the measurement of a second. Loop's thread only, like all functions up to missed().
     void begin(std::int64_t now_ns) noexcept {
         second_began_ns_ = now_ns;
         cycles_of_second_ = 0;
@@ -42,7 +43,8 @@ public:
     void set_real_time_priority(bool granted) noexcept {
         real_time_priority_.store(granted, std::memory_order_relaxed);
     }
-    // A cycle begins so long after its deadline. True: too many of the last hundred came late.
+    // A cycle began late_ns after its deadline. Returns true when more than kLateOfHundred of the
+    // last hundred cycles were late.
     bool woken(std::int64_t late_ns) noexcept {
         lateness_.add(late_ns);
         const bool late = late_ns > kLate_ns;
@@ -86,8 +88,9 @@ public:
     [[nodiscard]] const LoopHistogram &lateness() const noexcept { return lateness_; }
 
 private:
-    // A cycle this late is counted; so many in a hundred are told.
+    // Delay from which a cycle counts as late.
     static constexpr std::int64_t kLate_ns = 1'000'000;
+    // Late cycles in a hundred that are not reported.
     static constexpr int kLateOfHundred = 3;
 
     LoopHistogram lateness_;
@@ -96,7 +99,8 @@ private:
     std::atomic<std::uint64_t> late_cycles_{0};
     std::atomic<double> measured_rate_hz_{0.0};
     std::atomic<bool> real_time_priority_{false};
-    // The thread's own: of the hundred cycles that are being counted, and of the second that is being measured.
+    // Used by the loop's thread only: late and total cycles of the current hundred, start and
+    // cycles of the current second.
     int cycles_of_hundred_ = 0;
     int late_of_hundred_ = 0;
     std::int64_t second_began_ns_ = 0;

@@ -1,4 +1,4 @@
-// The recording that a loop makes, and those that were stopped while the loop's thread may still hold them.
+// The recording that a loop makes, and stopped recordings that the loop's thread may still use.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,9 @@ namespace spidar {
 
 class Recordings {
 public:
-    // From the controlling thread. in_time: the loop runs in a thread of its own. touches: scenes that the loop may still
-    // look at. Empty: recording. Else one sentence.
+    // Starts a recording; called from the controlling thread. in_time: the loop runs in its own
+    // thread. touches: scenes that the loop may still use. Returns an empty string, or one sentence
+    // with the reason why nothing is recorded.
     [[nodiscard]] std::string start(const std::string &path, const ServoSettings &settings,
                                     bool in_time, const std::deque<NumberedTouch> &touches) {
         if (recording()) {
@@ -41,13 +42,13 @@ public:
         if (recorder == nullptr) {
             return;
         }
-        // The cycle that runs now may hold it, and the one that is about to begin has not seen the change.
+        // The current cycle may use the recorder; the next one may not have seen the change yet.
         constexpr std::uint64_t kCyclesToLetGo = 2;
         owned_.back().free_at_cycle = cycles_.load(std::memory_order_acquire) + kCyclesToLetGo;
         recorder->close();
         last_ = recorder->statistics();
     }
-    // The same, while the loop rests: nothing holds a recorder.
+    // Like stop(), while no cycle runs and nothing uses a recorder.
     void stop_at_rest() noexcept {
         stop();
         owned_.clear();
@@ -55,27 +56,27 @@ public:
     [[nodiscard]] bool recording() const noexcept {
         return current_.load(std::memory_order_relaxed) != nullptr;
     }
-    // Of the recording that runs, or else of the last one.
+    // Of the running recording, else of the last one.
     [[nodiscard]] RecorderStatistics statistics() const noexcept {
         const Recorder *const recorder = current_.load(std::memory_order_relaxed);
         return recorder != nullptr ? recorder->statistics() : last_;
     }
 
-    // From the controlling thread: what the game has just read.
+    // Records what the game has just read. Called from the controlling thread.
     void note(const GameRead &read) noexcept {
         if (Recorder *const recorder = current_.load(std::memory_order_relaxed)) {
             recorder->note(read);
         }
     }
 
-    // The same: a scene, before its command is published.
+    // Records a scene before its command is published. Called from the controlling thread.
     void note(const NumberedTouch &touch) {
         if (Recorder *const recorder = current_.load(std::memory_order_relaxed)) {
             recorder->note(touch);
         }
     }
 
-    // From the loop's thread: what this cycle is recorded by, null for nothing; and the end of a cycle.
+    // Returns the recorder of this cycle, or null. Called from the loop's thread, like end_cycle().
     [[nodiscard]] Recorder *current() const noexcept {
         return current_.load(std::memory_order_acquire);
     }
@@ -84,10 +85,10 @@ public:
     }
 
 private:
-    // The one that records now is the last.
+    // The last element is the running recording.
     struct Owned {
         std::unique_ptr<Recorder> recorder;
-        std::uint64_t free_at_cycle = UINT64_MAX; // from then on the loop has let go of it
+        std::uint64_t free_at_cycle = UINT64_MAX; // the loop no longer uses it from this cycle on
     };
     std::vector<Owned> owned_;
     std::atomic<Recorder *> current_{nullptr};

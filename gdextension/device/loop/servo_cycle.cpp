@@ -53,7 +53,7 @@ bool ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
     CycleInput &input = given_.input;
     input.dt_s = dt_s;
     if (!source_->next(given_, step_, host_events_)) {
-        return false; // the end: what was last shown stays
+        return false; // the end: the last published snapshot stays
     }
     if (recorder != nullptr) {
         recorder->begin(step_);
@@ -63,7 +63,7 @@ bool ServoCycle::run(double dt_s) noexcept SPIDAR_NONBLOCKING {
     const bool lost = step_.snapshot().state == DeviceState::closed;
     input.write_status = source_->write(drive);
     if (!lost) {
-        step_.report_write(input.write_status); // a lost device is not lost a second time
+        step_.report_write(input.write_status); // a lost device must not be lost twice
     }
     const ServoSnapshot &snapshot = step_.snapshot();
     if (recorder != nullptr) {

@@ -1,4 +1,4 @@
-// One servo cycle after the other: read, compute, write; and what the rest of the program sees of it.
+// Runs servo cycles (read, compute, write) and publishes their results.
 #pragma once
 
 #include <memory>
@@ -18,37 +18,42 @@ public:
         step_.use(&touch_memory_);
     }
 
-    // At rest. What was asked and what happened before does not act after it.
+    // Called while no cycle runs. Earlier commands and events have no effect on later cycles. On a
+    // negative status the old settings stay.
     Status configure(const ServoSettings &settings) noexcept;
-    // While no cycle runs and the source is open: the motors are as warm as an earlier loop left them, and what they are
-    // now is kept for a later one. False: there is no memory for it.
+    // Sets the motors' heat to what an earlier loop left, cooled since then. Called while no cycle
+    // runs and the source is open.
     void recall_heat() noexcept;
+    // Stores the motors' heat for a later loop. Called while no cycle runs and the source is open.
+    // Returns false when there is no memory.
     bool keep_heat() noexcept;
-    // While no cycle runs and the source is open: a source that begins in the middle shows what came before.
+    // Publishes the state before the first cycle of a source that begins in the middle of a
+    // recording. Called while no cycle runs and the source is open.
     void recall() noexcept;
-    // From the loop's thread: one cycle of this length. False: the source has none left.
+    // Runs one cycle of dt_s in the loop's thread. Returns false when the source is exhausted.
     bool run(double dt_s) noexcept SPIDAR_NONBLOCKING;
-    // Where no cycle runs: what a reader sees of a device that did not open, or was closed.
+    // Publishes the snapshot of an unopened device, and an event. Called while no cycle runs.
     void show_open_failed(Status why) noexcept;
+    // Publishes the snapshot of a closed device. Called while no cycle runs.
     void show_closed() noexcept;
 
     [[nodiscard]] CycleSource &source() noexcept { return *source_; }
     [[nodiscard]] Recordings &recordings() noexcept { return recordings_; }
     [[nodiscard]] const Recordings &recordings() const noexcept { return recordings_; }
-    // The cycle that was shown last. From the loop's thread.
+    // Number of the last published cycle. Called from the loop's thread.
     [[nodiscard]] std::uint64_t tick() const noexcept { return tick_; }
-    // Of the host, beside the step's. From the loop's thread.
+    // Events of the host, besides those of the step. Called from the loop's thread.
     [[nodiscard]] EventLog &host_events() noexcept { return host_events_; }
-    // From the controlling thread; false: nothing new.
+    // Controlling thread: reads the newest snapshot. Returns false when there is no new one.
     bool latest(ServoSnapshot &snapshot) noexcept { return snapshots_.read(snapshot); }
-    // False as well when the next event happened after until_s, in snapshot time.
+    // Takes the oldest event. Returns false when there is none up to until_s (snapshot time).
     bool next_event(DeviceEvent &event, double until_s) noexcept {
         const DeviceEvent *const waiting = events_.oldest();
         return waiting != nullptr && !(waiting->time_s > until_s) && events_.take(event);
     }
 
 private:
-    // When nobody reads them, the newest are dropped.
+    // Size of the event queue. When it is full, the newest events are dropped.
     static constexpr std::size_t kWaitingEvents = 256;
 
     std::unique_ptr<CycleSource> source_;

@@ -34,7 +34,7 @@ Status ServoLoop::start_stepped(const ServoSettings &settings) {
 Status ServoLoop::start_threaded(const ServoSettings &settings) {
     stop();
     const Status status = prepare(settings);
-    // Settings that are wrong stay wrong; a device may still be plugged in.
+    // Wrong settings stay wrong, but a device may still be plugged in.
     const bool waits = settings.reopen_interval_s > 0.0 && status <= Status::not_open;
     if (!usable(status) && !waits) {
         return status;
@@ -98,7 +98,7 @@ void ServoLoop::publish(HapticCommand &command, std::shared_ptr<const TouchScene
 
 bool ServoLoop::latest(ServoSnapshot &snapshot) noexcept {
     const bool is_newer = cycle_.latest(snapshot);
-    // The loop holds the shapes of the scene that it renders, and looks at no older one.
+    // The loop owns the shapes of the scene that it renders, and uses no older scene.
     while (is_newer && !touches_.empty() && touches_.front().sequence < snapshot.touch.sequence) {
         touches_.pop_front();
     }

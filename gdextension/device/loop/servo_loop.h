@@ -1,5 +1,5 @@
-// Drives a device, or plays a recording again, by ServoStep: in a real-time thread of its own, or stepped in simulated
-// time. One controlling thread (the game's) calls everything here.
+// Drives a device, or plays a recording, with ServoStep: in a real-time thread, or stepped in
+// simulated time. One controlling thread (the game's) calls all functions unless stated otherwise.
 #pragma once
 
 #include <array>
@@ -20,31 +20,33 @@ namespace spidar {
 
 class ServoLoop {
 public:
-    // A device.
+    // A loop for a device.
     explicit ServoLoop(std::unique_ptr<Transport> transport);
-    // What brings its own commands: a Replay (recording/replay.h).
+    // A loop for a source with its own commands, such as a Replay (recording/replay.h).
     explicit ServoLoop(std::unique_ptr<CycleSource> source) : cycle_(std::move(source)) {}
     ~ServoLoop() { stop(); }
     ServoLoop(const ServoLoop &) = delete;
     ServoLoop &operator=(const ServoLoop &) = delete;
 
-    // Opens the device. On failure nothing runs, unless reopen_interval_s lets the thread try again: then the
-    // state is closed until the device opens.
+    // Opens the device and starts the thread. On failure nothing runs. With reopen_interval_s > 0 a
+    // device that does not open is no failure: the state is closed until the thread has opened it.
     Status start_threaded(const ServoSettings &settings);
+    // Opens the device; advance() then runs the cycles. On failure nothing runs.
     Status start_stepped(const ServoSettings &settings);
-    // Motors to zero, thread joined, then the handle closed. Safe at any time, twice too. Waits for a write that is
-    // under way.
+    // Switches the motors off, ends the thread and closes the device. Waits for a write in
+    // progress. May be called at any time and repeatedly.
     void stop() noexcept;
-    // From any thread, at any time, one atomic: the motors go off in the next cycle, and at once where a writer thread
-    // serves the device. Latched: clear_fault() and arm() lead back. While no loop runs, or no device is open, it is
-    // remembered: the device opens in FAULT.
+    // Switches the motors off in the next cycle, or at once where a writer thread serves the
+    // device. May be called from any thread at any time; one atomic operation. Latched until
+    // clear_fault() and arm(). When no loop runs or no device is open, the device later opens in
+    // FAULT.
     void panic_stop() noexcept { cycle_.source().panic(); }
-    // Since the thread began its last cycle (unit: s); 0 when none runs. What a game watches the loop by.
+    // Time since the thread began its last cycle (unit: s), for a game to watch; 0 without thread.
     [[nodiscard]] double since_last_cycle_s() const noexcept {
         return thread_.since_last_cycle_s();
     }
-    // What happened, in order. False: nothing more, or nothing before until_s (snapshot time). From the controlling
-    // thread.
+    // Takes the next event in order. Returns false when there is none up to until_s (snapshot
+    // time).
     bool next_event(DeviceEvent &event,
                     double until_s = std::numeric_limits<double>::infinity()) noexcept {
         return cycle_.next_event(event, until_s);
@@ -52,51 +54,54 @@ public:
     [[nodiscard]] bool running() const noexcept { return is_running_; }
     [[nodiscard]] bool threaded() const noexcept { return thread_.running(); }
 
-    // Stepped only: advance by numerator/denominator seconds of simulated time in whole servo cycles; the rest
-    // is carried (rational accumulator: 1/60 s at 1 kHz gives 16 or 17 cycles). Returns the cycles run.
+    // Stepped only: advances simulated time by numerator/denominator seconds in whole servo cycles
+    // and carries the remainder exactly (1/60 s at 1 kHz gives 16 or 17 cycles). Returns the number
+    // of cycles run.
     int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
 
-    // Stepped only: whole cycles until the newest one is `tick`, or a replay is at its end.
+    // Stepped only: runs whole cycles until the newest is `tick` or the replay ends.
     void advance_to(std::uint64_t tick) noexcept;
 
-    // Newest command wins. Wait-free.
+    // Publishes a command; the newest wins. Wait-free.
     void publish(const HapticCommand &command) noexcept { cycle_.source().publish(command); }
-    // The same with the scene that command.touch shall point to: kept, with its shapes, until the loop renders a newer one.
+    // Publishes a command with a scene. The loop keeps the scene and its shapes alive until it
+    // renders a newer one. Sets command.touch and command.touch_sequence.
     void publish(HapticCommand &command, std::shared_ptr<const TouchScene> touch);
-    // The newest snapshot. True when it is newer than at the last call. Wait-free.
+    // Reads the newest snapshot. Returns true when it is newer than at the last call. Wait-free.
     bool latest(ServoSnapshot &snapshot) noexcept;
     [[nodiscard]] LoopStatistics statistics() const noexcept { return timing_.statistics(); }
-    // How late the thread woke, all cycles since the start: samples in each of LoopHistogram's buckets.
+    // Lateness of the thread's wake-ups since the start: cycles per bucket of LoopHistogram.
     [[nodiscard]] std::array<std::uint32_t, LoopHistogram::kBuckets>
     lateness_counts() const noexcept {
         return timing_.lateness().counts();
     }
 
-    // Every cycle from the next one on goes into a file that replays to the bit. Empty: recording. Else one sentence;
-    // a recording that runs goes on. stop() ends a recording too.
+    // Records every cycle from the next one on into a file that replays bit for bit. Returns an
+    // empty string, or one sentence with the reason. On failure a running recording continues.
+    // stop() ends a recording too.
     [[nodiscard]] std::string start_recording(const std::string &path) {
         return running() ? cycle_.recordings().start(path, settings_, threaded(), touches_)
                          : "No device is open: there is nothing to record. Open one first.";
     }
     void stop_recording() noexcept { cycle_.recordings().stop(); }
     [[nodiscard]] bool recording() const noexcept { return cycle_.recordings().recording(); }
-    // What the game has just read of this loop: a recording keeps it, so that a replay hands it out in the same way.
+    // Tells a recording what the game has just read, so that a replay returns it at the same place.
     void note_read(const GameRead &read) noexcept { cycle_.recordings().note(read); }
-    // Of the recording that runs, or else of the last one.
+    // Of the running recording, else of the last one.
     [[nodiscard]] RecorderStatistics recording_statistics() const noexcept {
         return cycle_.recordings().statistics();
     }
 
 private:
-    // Ready for the first cycle, and the source open if it can be.
+    // Configures the cycle and opens the source.
     Status prepare(const ServoSettings &settings) noexcept;
 
     ServoCycle cycle_;
     LoopTiming timing_;
     ServoThread thread_{cycle_, timing_};
-    TickAccumulator ticks_; // stepped
+    TickAccumulator ticks_; // stepped only
     ServoSettings settings_;
-    std::deque<NumberedTouch> touches_; // that the loop's thread may still look at
+    std::deque<NumberedTouch> touches_; // scenes that the loop's thread may still use
     bool is_running_ = false;
 };
 

@@ -10,9 +10,9 @@ namespace spidar {
 
 namespace {
 
-// Measured time steps of real devices are no shorter than this part of the period: a wake-up came too early.
+// Shortest time step of a real device, as a share of the period; a shorter one is an early wake-up.
 constexpr double kShortestStepPart = 0.25;
-// How long a thread that waits to open a device may keep a stop() waiting.
+// Time for which a thread that waits to open a device may delay a stop().
 constexpr std::int64_t kNap_ns = 20'000'000;
 
 std::int64_t nanoseconds(double time_s) noexcept {
@@ -89,7 +89,8 @@ void ServoThread::run_cycles() noexcept {
     std::int64_t deadline_ns = last_ns + period_ns;
     timing_.begin(last_ns);
     while (!stop_asked_.load(std::memory_order_acquire)) {
-        // A device that streams is the clock: a cycle begins when its report comes, or half a period after it was due.
+        // A device that streams is the clock: a cycle begins with its report, or half a period
+        // after the report was due.
         if (clocked) { // however fast it streams
             sleep_until_ns(last_ns + shortest_ns);
         }
@@ -104,7 +105,8 @@ void ServoThread::run_cycles() noexcept {
                                       seconds(woken_ns - deadline_ns));
         }
         deadline_ns = clocked ? woken_ns : deadline_ns;
-        // A step longer than the longest is a computer that slept: the step is told the truth.
+        // A step longer than the longest means that the computer slept; the step receives the true
+        // time.
         const double step_s = std::max(seconds(woken_ns - last_ns), kShortestStepPart * period_s_);
         last_ns = woken_ns;
         cycle_.run(simulated ? period_s_ : step_s);
@@ -112,7 +114,7 @@ void ServoThread::run_cycles() noexcept {
         timing_.cycle_ended(woken_ns, done_ns);
 
         deadline_ns += period_ns;
-        if (done_ns > deadline_ns) { // skip what is missed; catching up would only jerk
+        if (done_ns > deadline_ns) { // skip missed cycles; catching up would only cause a jerk
             const std::int64_t missed = (done_ns - deadline_ns) / period_ns + 1;
             timing_.missed(missed);
             deadline_ns += missed * period_ns;

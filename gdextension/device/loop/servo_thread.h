@@ -1,4 +1,4 @@
-// The real-time thread that runs servo cycles against the clock, or at the device's own reports.
+// The real-time thread that runs servo cycles, timed by the clock or by the device's reports.
 #pragma once
 
 #include <atomic>
@@ -14,18 +14,18 @@ class ServoThread {
 public:
     ServoThread(ServoCycle &cycle, LoopTiming &timing) noexcept : cycle_(cycle), timing_(timing) {}
 
-    // open_status: of the source. While it is not open, the thread opens it again each reopen_interval_s.
-    // open_failed: the system has no thread left.
+    // open_status: result of opening the source. While the source is not open, the thread tries
+    // again every reopen_interval_s. Returns open_failed when the system can start no thread.
     Status start(const ServoSettings &settings, Status open_status) noexcept;
-    // Motors off, then joined.
+    // Switches the motors off and joins the thread.
     void stop() noexcept;
     [[nodiscard]] bool running() const noexcept { return thread_.joinable(); }
-    // Since the last cycle began (unit: s); 0 when no thread runs. From any thread.
+    // Time since the last cycle began (unit: s); 0 when no thread runs. Called from any thread.
     [[nodiscard]] double since_last_cycle_s() const noexcept;
 
 private:
     void run() noexcept;
-    // False: stopped before the source opened.
+    // Opens the source, with retries. Returns false when stopped before the source opened.
     bool open_patiently() noexcept;
     void run_cycles() noexcept;
 

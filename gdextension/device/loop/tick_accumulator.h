@@ -1,4 +1,4 @@
-// Game ticks -> whole servo cycles of simulated time, exactly: no drift in an hour of ticks of 1/60 s.
+// Converts game ticks to whole servo cycles of simulated time, exactly: 1/60 s does not drift.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace spidar {
 
 class TickAccumulator {
 public:
-    // More than this at once (a quarter of an hour at 1 kHz) is a mistake: the rest is dropped.
+    // Largest result of cycles(), 17 minutes at 1 kHz. More is a mistake: the rest is dropped.
     static constexpr std::uint64_t kMostCyclesAtOnce = 1'000'000;
 
     void restart(double rate_hz) noexcept {
@@ -19,10 +19,11 @@ public:
         carry_ = 0;
         unit_ = 1;
     }
-    // Cycles to run for a tick of numerator / denominator seconds; the part of a cycle that is left is carried.
+    // Returns the number of cycles in a tick of numerator / denominator seconds. The remaining part
+    // of a cycle is carried to the next call.
     std::uint64_t cycles(std::uint32_t numerator, std::uint32_t denominator) noexcept {
         const std::uint64_t unit = denominator * kMillihertz;
-        if (unit != unit_) { // another tick length: the rest to the nearest new unit
+        if (unit != unit_) { // another tick length: convert the carry to the nearest new unit
             const double part = static_cast<double>(carry_) / static_cast<double>(unit_);
             carry_ = static_cast<std::uint64_t>(std::llround(part * static_cast<double>(unit)));
             unit_ = unit;
@@ -33,7 +34,7 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t kMillihertz = 1000; // in a hertz
+    static constexpr std::uint64_t kMillihertz = 1000; // millihertz per hertz
 
     std::uint64_t rate_mhz_ = 0;
     std::uint64_t carry_ = 0; // the part of a cycle not run yet, in 1 / unit_ cycles

@@ -1,15 +1,16 @@
-// Which build of core and device this is. Two programs of one identity compute the same bits and hold the servo
-// step's memory in the same way, so that one can replay what the other recorded.
+// Identity of this build of core and device. Two programs with one identity compute equal bits and
+// have the same memory layout of the servo step, so that one can replay the recordings of the
+// other.
 #pragma once
 
 #include <cstdint>
 
 namespace spidar {
 
-// From the sources of core and device, and the compiler.
+// Returns a hash of the sources of core and device and of the compiler.
 [[nodiscard]] std::uint64_t build_identity() noexcept;
 
-// The version of spidar_g.
+// Returns the version of spidar_g.
 [[nodiscard]] const char *build_version() noexcept;
 
 } // namespace spidar

@@ -13,24 +13,26 @@ namespace spidar {
 
 namespace {
 
-// The memory of a step is stored and restored byte for byte: it must own nothing outside itself.
+// The memory of a step is stored and restored byte for byte, so that it must not own anything
+// outside itself.
 static_assert(std::is_trivially_copyable_v<ServoStep>);
 
-// How often the writing thread looks, and after how many looks what it has goes to the system.
+// Interval of the writing thread, and the number of intervals after which data goes to the system.
 constexpr std::chrono::milliseconds kLook{20};
 constexpr int kLooksPerFlush = 10;
-// In stepped time the ring is emptied when so many cycles wait.
+// In stepped time the ring is emptied when this many cycles wait.
 constexpr std::size_t kInlineBatch = 256;
 // Commands change at most once a game frame.
 constexpr double kCommandsPerCycle = 0.25;
-// A game reads a cycle once, and again only in a physics tick that comes before the next cycle. So no read is ever lost
-// while no cycle is.
+// A game reads a cycle once, and again only in a physics tick before the next cycle. No read is
+// therefore lost while no cycle is.
 constexpr double kReadsPerCycle = 2.0;
-// A segment starts again only when the ring has room to go on: not one cycle at a time on a disk that is too slow.
+// A segment restarts only when the ring has room to continue: otherwise a slow disk would get
+// single cycles.
 constexpr std::size_t kRestartPart = 2;
 
-// The place of the next record was last touched a ring's length ago: let it come to the processor while the step
-// computes, so that end() does not wait for memory.
+// Prefetches the place of the next record, last used a ring's length ago, while the step computes:
+// end() then does not wait for memory.
 void fetch_for_writing(CycleRecord *record) noexcept {
     if (record != nullptr) {
         constexpr std::size_t kCacheLine_bytes = 64;
@@ -88,7 +90,7 @@ void Recorder::close() noexcept {
         thread_.join();
     }
     drain();
-    take_touches(); // and lets go of them
+    take_touches(); // also releases the scenes
     touches_.clear();
     mark_lost(lost_.load(std::memory_order_relaxed));
     file_.close();
@@ -157,7 +159,8 @@ void Recorder::note(NumberedTouch touch) {
     noted_.push_back(std::move(touch));
 }
 
-// A memory or a cycle that needs a scene comes to the ring after the scene was noted: who has seen it there finds the scene.
+// A memory or a cycle that needs a scene enters the ring after the scene was noted: whoever sees it
+// there finds the scene.
 void Recorder::take_touches() {
     std::deque<NumberedTouch> noted;
     {
@@ -185,7 +188,7 @@ void Recorder::take_touches() {
     }
 }
 
-// Null: there is none, or nobody noted it. Older ones are let go.
+// Returns null when there is no such scene. Releases older ones.
 const TouchScene *Recorder::touch_of(std::uint64_t sequence) {
     const auto find = [this, sequence] {
         return std::ranges::find(touches_, sequence, &NumberedTouch::sequence);
@@ -220,7 +223,7 @@ void Recorder::drain() {
         if (record->command_is_new) {
             const HapticCommand *const command = commands_.oldest();
             if (command == nullptr) {
-                break; // the loop puts the command in first: it is there
+                break; // the loop adds the command first: it is there
             }
             command_ = *command;
             commands_.pop();

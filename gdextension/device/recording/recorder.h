@@ -1,5 +1,5 @@
-// Writes every cycle of a servo loop to a file without holding the loop up: the loop puts a plain copy into a ring, and
-// a thread of its own (or, in stepped time, the loop's caller) makes bytes of it.
+// Writes every cycle of a servo loop to a file without delaying the loop. The loop copies the cycle
+// into a ring; a writing thread (or, in stepped time, the loop's caller) encodes and writes it.
 #pragma once
 
 #include <atomic>
@@ -21,18 +21,18 @@ namespace spidar {
 
 class ServoStep;
 
-// The ring holds this much time: what a disk may sleep before cycles are lost.
+// Time that the ring holds (unit: s): the longest pause of a disk without lost cycles.
 inline constexpr double kRingTime_s = 4.0;
 
-// What a recording has come to.
+// Progress of a recording.
 struct RecorderStatistics {
-    std::uint64_t cycles = 0; // handed over
-    std::uint64_t lost = 0;   // the ring was full; marked in the file
-    std::uint64_t bytes = 0;  // written
-    bool failed = false;      // the file could not be written any further
+    std::uint64_t cycles = 0; // cycles passed to the recorder
+    std::uint64_t lost = 0;   // cycles lost because the ring was full; marked in the file
+    std::uint64_t bytes = 0;  // bytes written
+    bool failed = false;      // a write failed and nothing more is written
 };
 
-// A scene that a game published, or null for none, and the touch_sequence of its command.
+// A scene that a game published (or null), with the touch_sequence of its command.
 struct NumberedTouch {
     std::uint64_t sequence = 0;
     std::shared_ptr<const TouchScene> touch;
@@ -40,29 +40,30 @@ struct NumberedTouch {
 
 class Recorder {
 public:
-    // in_time: the loop has a thread of its own. Then a writing thread drains the ring; else the loop's caller does, and
-    // nothing is ever lost.
+    // in_time: the loop runs in its own thread and a writing thread empties the ring. Otherwise the
+    // loop's caller empties it, and no cycle is ever lost.
     Recorder(const ServoSettings &settings, bool in_time);
-    ~Recorder(); // close()
+    ~Recorder(); // calls close()
     Recorder(const Recorder &) = delete;
     Recorder &operator=(const Recorder &) = delete;
 
-    // From the controlling thread. Empty: recording. Else one sentence.
+    // Controlling thread: opens the file. Returns an empty string or a sentence with the reason.
     [[nodiscard]] std::string open(const std::string &path);
-    // From the controlling thread: what the ring holds is written, and the file closed. The loop may still call
-    // begin() and end(); they then do nothing that lasts.
+    // Writes what the ring holds and closes the file; called from the controlling thread. The loop
+    // may still call begin() and end(), which then have no effect.
     void close() noexcept;
 
-    // From the loop's thread, around each step, without waiting or allocating. step: before it takes this cycle. Where a
-    // segment starts it forgets what it remembers of pairs of shapes, as a replay does there.
+    // begin() and end() enclose each step in the loop's thread; they neither wait nor allocate.
+    // `step` is the state before the cycle. At the start of a segment the step forgets its memory
+    // of shape pairs, as a replay does.
     void begin(const ServoStep &step) noexcept;
     void end(CycleInput input, const DriveCommand &drive, const ServoSnapshot &snapshot,
              const HapticCommand &command, bool command_is_new) noexcept;
-    // From the controlling thread, without waiting: what the game has just read.
+    // Records what the game has just read. Called from the controlling thread; does not wait.
     void note(const GameRead &read) noexcept;
-    // From the controlling thread: a scene, before its command is published; when a recording starts, all that the loop may
-    // still look at, oldest first, before the loop is told of the recorder. Its shapes are kept in the file, and alive until
-    // they are there.
+    // Records a scene. Called from the controlling thread before the scene's command is published.
+    // When a recording starts, all scenes that the loop may still use must be noted first, oldest
+    // first. The shapes are written to the file and stay alive until then.
     void note(NumberedTouch touch);
 
     [[nodiscard]] RecorderStatistics statistics() const noexcept;
@@ -77,35 +78,41 @@ private:
     const RecordingInfo info_;
     const bool in_time_;
 
-    // The loop's.
+    // Used by the loop.
     SpscRing<CycleRecord> cycles_;
     SpscRing<HapticCommand> commands_;
-    SpscRing<GameRead> reads_;     // the controlling thread's
+    // Filled by the controlling thread.
+    SpscRing<GameRead> reads_;
     bool segment_needed_ = true;   // the next cycle starts a segment
-    bool segment_started_ = false; // its memory is stored
-    bool command_missing_ = false; // a new command came in a cycle that was lost
+    bool segment_started_ = false; // the memory of that segment is stored
+    bool command_missing_ = false; // a lost cycle had a new command
     std::atomic<std::uint64_t> handed_over_{0};
     std::atomic<std::uint64_t> lost_{0};
 
-    // The memory of the step at the start of a segment: the loop's while not full, then the writer's.
+    // The memory of the step at the start of a segment. Owned by the loop while memory_full_ is
+    // false, else by the writer.
     std::vector<std::uint8_t> memory_;
     std::atomic<bool> memory_full_{false};
 
-    // The writer's.
+    // Used by the writer.
     RecordingWriter file_;
     HapticCommand command_;
-    std::deque<NumberedTouch> touches_;   // from the newest on that a recorded command had
-    std::set<std::uint64_t> shapes_kept_; // their numbers: the shapes are in the file
+    // Scenes from the newest that a recorded command had.
+    std::deque<NumberedTouch> touches_;
+    // Numbers of the shapes that the file holds.
+    std::set<std::uint64_t> shapes_kept_;
     std::uint64_t lost_marked_ = 0;
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<bool> failed_{false};
 
-    bool is_open_ = false; // the controlling thread's
+    bool is_open_ = false; // used by the controlling thread
     std::thread thread_;
-    std::mutex mutex_; // of what follows; the loop has no part in it
+    // Guards the members below. The loop never uses it.
+    std::mutex mutex_;
     std::condition_variable wake_;
     bool stop_asked_ = false;
-    std::deque<NumberedTouch> noted_; // the writer has not taken them yet
+    // Scenes that the writer has not taken yet.
+    std::deque<NumberedTouch> noted_;
 };
 
 } // namespace spidar

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kTitle = "spidar_g recording";
 constexpr std::string_view kSettings = "settings.";
-constexpr std::uint64_t kMostWords = 2'000; // five times what a command has: each cycle copies them
+constexpr std::uint64_t kMostWords = 2'000; // five times a command's words; each cycle copies them
 constexpr std::uint64_t kMostStateBytes = 1'000'000;
 
 std::string now_utc() {
@@ -37,7 +37,7 @@ std::string now_utc() {
     return text.data();
 }
 
-// Independent of the locale, and exact: doubles in hexadecimal.
+// Doubles are written in hexadecimal: exact and independent of the locale.
 template <typename T>
 std::string text_of(T value) {
     std::array<char, 40> text{};

@@ -1,5 +1,5 @@
-// The head of a recording: what was recorded, by which build, with which settings. Kept as lines of text, so that it can
-// be read with any tool, and by versions that know other fields.
+// The head of a recording: what was recorded, by which build and with which settings. It is text,
+// one field per line, so that any tool and other versions can read it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace spidar {
 
-// Of the file's chunks and of the cycles in them. A file of a later format is refused.
+// Version of chunks and cycles. Files of a later format are refused.
 inline constexpr std::uint32_t kRecordingFormat = 3;
 
 struct RecordingInfo {
@@ -21,20 +21,20 @@ struct RecordingInfo {
     std::uint64_t command_words = 0;
     std::uint64_t reading_words = 0; // reading_fields.h
     std::uint64_t touch_words = 0;   // touch_words.h
-    std::uint64_t state_bytes = 0;   // of the step's memory
+    std::uint64_t state_bytes = 0;   // size of the step's memory
     ServoSettings settings;
 };
 
-// What this build, now, would write about a recording with these settings.
+// Returns the head that this build writes for a recording with these settings.
 [[nodiscard]] RecordingInfo describe_recording(const ServoSettings &settings);
 
 [[nodiscard]] std::string to_text(const RecordingInfo &info);
 
-// Empty when `text` is the head of a recording; else one sentence. Lines of unknown fields are passed over, and fields
-// without a line keep their defaults.
+// Reads a head. Returns an empty string, or one sentence with the reason. Unknown fields are
+// ignored, and missing fields keep their defaults.
 [[nodiscard]] std::string read_text(std::string_view text, RecordingInfo &info);
 
-// Empty when this build replays such a recording to the bit; else one sentence saying why not, and what to do.
+// Returns an empty string when this build can replay bit for bit, else a reason with remedy.
 [[nodiscard]] std::string why_no_replay(const RecordingInfo &info);
 
 } // namespace spidar

@@ -139,7 +139,7 @@ bool RecordingReader::take(ChunkKind kind) {
         return true;
     case ChunkKind::shape:
         return take_shape();
-    case ChunkKind::info: // only the first chunk is one
+    case ChunkKind::info: // valid as the first chunk only
         break;
     }
     give_up("is damaged");

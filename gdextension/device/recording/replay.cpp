@@ -67,9 +67,9 @@ bool Replay::restore(ServoStep &step) noexcept {
     const std::span<const std::uint8_t> memory = reader_.memory();
     bool sound = memory.size() == sizeof step;
     if (sound) {
-        ServoStep found; // of this build (why_no_replay), trivially copyable (recorder.cpp)
+        ServoStep found; // same build (why_no_replay), trivially copyable (recorder.cpp)
         std::memcpy(static_cast<void *>(&found), memory.data(), sizeof found);
-        // It counts the cycles as the file does.
+        // The step counts the cycles as the file does.
         sound = found.is_sound() && found.snapshot().counters.ticks + 1 == cycle_.tick &&
                 found.touch().relink(
                     step.touch().memory(),
@@ -90,7 +90,7 @@ bool Replay::recall(ServoStep &step) noexcept {
 
 bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noexcept {
     const bool exact = why_poses_only_.empty();
-    // The first cycle of an exact replay has a memory before it, or there is nothing to go on from.
+    // The first cycle of an exact replay needs a memory before it.
     const bool starts = cycles_.load(std::memory_order_relaxed) == 0;
     bool more = fetch();
     if (more && exact && (starts || cycle_.segment_start)) {
@@ -110,7 +110,7 @@ bool Replay::next(CycleGiven &given, ServoStep &step, EventLog & /*events*/) noe
                 load_touch(reader_.touch_words(), shapes_, touch_) ? &touch_ : nullptr;
         }
     }
-    given.command_is_new = true; // for who records the replay
+    given.command_is_new = true; // for a recording of the replay
     given.input = cycle_.input;
     return true;
 }

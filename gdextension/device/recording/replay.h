@@ -1,8 +1,9 @@
-// A recording that is played again: gives a servo loop what the recorded one was given, and compares what comes out with
-// what came out then, bit for bit. No motor is behind it, and no game's command comes between.
-// A recording of another build plays as poses: the kinematics of this build find them from the recorded counts, and the
-// snapshot holds the recorded state, grasp, fault and tensions. Wrenches and contacts are zero then, and nothing is compared.
-// Any file may be played, one that was made to do harm too.
+// Plays a recording: gives a servo loop the recorded inputs and compares the outputs bit for bit.
+// No motor is driven, and no command of the game is used.
+// A recording of another build plays as poses. This build's kinematics find the poses from the
+// recorded counts; the snapshot holds the recorded state, grasp, fault and tensions, with zero
+// wrenches and contacts. Nothing is compared.
+// A malicious file does no harm.
 #pragma once
 
 #include <atomic>
@@ -18,76 +19,76 @@ namespace spidar {
 
 struct ReplayReport {
     std::uint64_t cycles = 0;          // replayed so far
-    std::uint64_t differing = 0;       // gave other bits than in the recording
-    std::uint64_t first_differing = 0; // its tick; 0: none
-    std::uint64_t lost = 0;            // missing in the recording
-    bool finished = false;             // nothing more to replay
-    // The last cycle's time, and what was recorded of it.
+    std::uint64_t differing = 0;       // cycles whose output differed from the recording
+    std::uint64_t first_differing = 0; // tick of the first one; 0: none
+    std::uint64_t lost = 0;            // cycles missing in the recording
+    bool finished = false;             // no cycle is left
+    // Time of the last cycle.
     double time_s = 0.0;
 };
 
 class Replay final : public CycleSource {
 public:
-    // Empty: ready for ServoLoop. Else one sentence: no file, damaged, settings that this build cannot use.
+    // Loads a file. Returns an empty string or a sentence: no file, damaged, unusable settings.
     [[nodiscard]] std::string load(const std::string &path);
-    // The same for a file's bytes from anywhere; `name` stands in messages.
+    // Loads the bytes of a file; `name` appears in messages.
     [[nodiscard]] std::string load(const std::string &bytes, const std::string &name);
-    // Once loaded. Empty: plays to the bit. Else it plays as poses, and this is the reason.
+    // After load(): empty when the recording plays bit for bit, else why it plays as poses.
     [[nodiscard]] const std::string &why_poses_only() const noexcept { return why_poses_only_; }
 
-    // Those of the recorded device: what to start the loop with.
+    // Settings of the recorded device, with which the loop must be started.
     [[nodiscard]] const ServoSettings &settings() const noexcept { return settings_; }
     [[nodiscard]] const RecordingInfo &info() const noexcept { return reader_.info(); }
 
     Status open() noexcept override { return Status::ok; }
     void close() noexcept override {}
-    [[nodiscard]] bool simulated() const noexcept override { return true; } // keeps its own time
-    // The memory before the first cycle.
+    [[nodiscard]] bool simulated() const noexcept override { return true; } // runs in its own time
+    // Sets the step's memory to that before the first cycle.
     bool recall(ServoStep &step) noexcept override;
-    // At the start of a segment the step gets the memory that it had. False: the recording is at its end.
+    // At a segment's start, sets the step's memory as recorded. Returns false at the end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
-    // The recorded state, where it plays as poses.
+    // Returns the recorded state when playing as poses, else null.
     const ServoSnapshot *shown(const ServoSnapshot &snapshot) noexcept override;
-    // Compares.
+    // Compares the outputs of the cycle with the recording.
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;
 
-    // From the controlling thread: what the recorded game read next. False: nothing more.
+    // Controlling thread: returns the recorded game's next read; false when there is none.
     [[nodiscard]] bool next_read(GameRead &read) noexcept;
 
-    // The scene of shapes that the newest command of the last cycle had. From the loop's thread, or when it rests.
+    // Scene of the last cycle's newest command. Loop's thread, or while no cycle runs.
     [[nodiscard]] const TouchScene &touch() const noexcept { return touch_; }
 
-    // The set of contacts that the last cycle rendered. From the loop's thread, or when it rests.
+    // Contacts that the last cycle rendered. Loop's thread, or while no cycle runs.
     [[nodiscard]] std::uint64_t contacts_sequence() const noexcept { return contacts_sequence_; }
 
-    // The cycle that was last replayed, as recorded. From the loop's thread, or when it rests.
+    // The last replayed cycle, as recorded. Called from the loop's thread, or while no cycle runs.
     [[nodiscard]] const RecordedCycle &cycle() const noexcept { return cycle_; }
 
-    // From any thread.
+    // Called from any thread.
     [[nodiscard]] ReplayReport report() const noexcept;
-    // When finished: empty, or why the recording ends before its time.
+    // When finished: empty, or the reason why the recording ends early.
     [[nodiscard]] std::string damage() const;
 
 private:
-    // Of a file that is open: how it plays.
+    // Decides how an opened file plays.
     [[nodiscard]] std::string prepare();
-    // The next cycle; false: none is left.
+    // Reads the next cycle. Returns false when there is none.
     bool fetch() noexcept;
-    // Of the segment that cycle_ starts. False: there is no memory that a step can use.
+    // Restores the memory of the segment at cycle_. Returns false without usable memory.
     bool restore(ServoStep &step) noexcept;
 
-    RecordedShapes shapes_; // that the step may point to
+    RecordedShapes shapes_; // the step may point to these
     TouchScene touch_;      // of the newest command
     RecordingReader reader_;
     RecordingReader reads_;
     std::string why_poses_only_;
     ServoSettings settings_;
-    ServoSnapshot shown_;              // where it plays as poses
+    ServoSnapshot shown_;              // when playing as poses
     std::atomic<bool> unsound_{false}; // a memory was refused
     RecordedCycle cycle_;
-    bool fetched_ = false; // cycle_ is still to be replayed
+    bool fetched_ = false; // cycle_ is not replayed yet
     std::uint64_t contacts_sequence_ = 0;
     std::atomic<std::uint64_t> cycles_{0};
     std::atomic<std::uint64_t> differing_{0};

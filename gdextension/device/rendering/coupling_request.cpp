@@ -77,7 +77,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
     next.grasp_angle_rad = std::clamp(next.grasp_angle_rad, -kFarAway_m, kFarAway_m);
     next.twist.grasp_rate_rad_s =
         capped(next.twist.grasp_rate_rad_s, kMaxProxyTurnRate_rad_s, Gain::speed, 6, false, clamp);
-    // Exactly orthonormal: the game computes in single precision.
+    // Orthonormalized: the game computes in single precision.
     next.rotation[0] = glm::normalize(next.rotation[0]);
     next.rotation[2] = glm::normalize(glm::cross(next.rotation[0], next.rotation[1]));
     next.rotation[1] = glm::cross(next.rotation[2], next.rotation[0]);
@@ -90,7 +90,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
             from_stiffness_[i] = blend(from_stiffness_[i], coupling_.stiffness[i], s);
             from_damping_[i] = blend(from_damping_[i], coupling_.damping[i], s);
         }
-        // From where the old proxy is to where the new one is by now.
+        // From the old proxy to the present place of the new one.
         coupling_ = next;
         clock_.receive(next.state_time_s, now_s);
         jump_ = Displacement();
@@ -107,7 +107,7 @@ GainClamp CouplingRequest::accept(const Coupling &coupling, double now_s) noexce
         clock_.receive(next.state_time_s, now_s);
     }
     coupling_ = next;
-    live_ = next.dof_mask != 0 || carries_on; // an empty one still fades the last one out
+    live_ = next.dof_mask != 0 || carries_on; // an empty coupling still fades out the last one
     return clamp;
 }
 
@@ -118,7 +118,7 @@ bool CouplingRequest::age(double dt_s) noexcept {
     clock_.advance(dt_s);
     if (coupling_.dof_mask == 0) {
         live_ = clock_.age_s() < kCrossFade_s;
-        return false; // withdrawn, not forgotten
+        return false; // withdrawn by the game, not expired
     }
     live_ = strength_.advance(clock_.age_s(), dt_s);
     return !live_;
@@ -131,7 +131,7 @@ Wrench CouplingRequest::render(const GripMotion &motion) const noexcept {
     const Proxy proxy = proxy_now();
     const GripState &grip = motion.grip;
     const Twist pull = clock_.carries() ? coupling_.twist : Twist();
-    // Proxy and grip as of the same moment.
+    // Proxy and grip are taken at the same time.
     const Vec3 apart_m = proxy.position_m + motion.lead_s * pull.linear_m_s - grip.pose.position_m -
                          motion.ahead.linear_m;
     const Vec3 apart_rad = rotation_log(proxy.rotation * glm::transpose(grip.frame.rotation)) +

@@ -1,4 +1,4 @@
-// The coupling at servo rate: a spring and damper in seven DOF to a proxy that moves on between the game's updates.
+// Coupling at servo rate: spring and damper in seven DOF to a proxy extrapolated between updates.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -14,16 +14,17 @@ namespace spidar {
 class CouplingRequest {
 public:
     void configure(const ServoSettings &settings) noexcept;
-    // Other caps for what is accepted from now on; all else stays.
+    // Changes the caps for couplings that are accepted from now on; all other state stays.
     void retune(const ServoSettings &settings) noexcept;
-    // A valid coupling (validate_coupling). What jumps against the last one is spread over one game period.
-    // now_s: the clock of Coupling::state_time_s.
+    // Takes a valid coupling (validate_coupling). A jump relative to the last one is spread over a
+    // game frame. now_s: time on the clock of Coupling::state_time_s. Returns the first gain that
+    // was clamped.
     GainClamp accept(const Coupling &coupling, double now_s) noexcept;
-    // Once a cycle, before accept(). True in the cycle in which the coupling is dropped for its age.
+    // Takes one cycle, before accept(). Returns true in the cycle in which the coupling expires.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return !live_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(live_, caps_.from_latency) && clock_.is_sound();
     }
@@ -40,7 +41,7 @@ private:
     Coupling coupling_{};
     DofGains from_stiffness_{};
     DofGains from_damping_{};
-    Displacement jump_{}; // where the last proxy was, relative to this one
+    Displacement jump_{}; // the last proxy relative to this one
     bool live_ = false;
     GameClock clock_;
     RefreshedStrength strength_{0.0};

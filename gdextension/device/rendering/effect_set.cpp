@@ -16,9 +16,9 @@ namespace spidar {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-// Of the servo rate: more would not be a sine any more.
+// Highest vibration frequency relative to the servo rate: above it the samples are no sine.
 constexpr double kHighestVibration = 0.25;
-// A constant force beyond these is the sum's limit's business; this only keeps it from overflowing.
+// Largest constant force: keeps it from overflowing. The limit of the sum is checked elsewhere.
 constexpr double kMostForce = 1e6;
 
 bool has(const Effect &effect, std::size_t dof) noexcept {
@@ -100,7 +100,7 @@ GainClamp EffectSet::accept(const HapticCommand &command) noexcept {
             used[j] = true;
             last_[i] = given[j];
             if (before.renewal == track.effect.renewal) {
-                track = old[j]; // not renewed: as it was, or over
+                track = old[j]; // not refreshed: continues, or has ended
             } else {
                 track.from = gain_now(old[j]);
                 track.phase_rad = old[j].phase_rad;

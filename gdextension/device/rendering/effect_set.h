@@ -1,4 +1,4 @@
-// Effects at servo rate: viscous field, constant force, spring to a point, vibration, detents, on any DOF.
+// Effects at servo rate on any DOF: viscous field, force, spring to a point, vibration, detents.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,18 @@ namespace spidar {
 class EffectSet {
 public:
     void configure(const ServoSettings &settings) noexcept;
-    // Other caps for what is accepted from now on; all else stays.
+    // Changes the caps for effects that are accepted from now on; all other state stays.
     void retune(const ServoSettings &settings) noexcept;
-    // A valid set (validate_effects) replaces the last one. The same id and kind carries on; what begins, ends or
-    // changes does so over one game period.
+    // Replaces the effects by a valid set (validate_effects). An effect with the same id and kind
+    // continues. Starts, ends and changes are spread over a game frame. Returns the first gain that
+    // was clamped.
     GainClamp accept(const HapticCommand &command) noexcept;
-    // Once a cycle, before accept(). Number of effects that ended in this cycle.
+    // Takes one cycle, before accept(). Returns the number of effects that ended in this cycle.
     int age(double dt_s) noexcept;
     Wrench render(const GripMotion &motion) noexcept;
-    // Every effect is over, and what was taken out has faded.
+    // True when every effect has ended and removed ones have faded.
     [[nodiscard]] bool at_rest() const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return count_ <= tracks_.size() && are_flags(caps_.from_latency) &&
                std::all_of(tracks_.begin(), tracks_.end(), [](const auto &one) {
@@ -36,9 +37,9 @@ public:
 
 private:
     struct Track {
-        Effect effect;       // as last given, capped
+        Effect effect;       // as last received, clamped
         DofGains from{};     // gain at the time of the last change
-        double fade_s = 0.0; // since then
+        double fade_s = 0.0; // time since then
         double age_s = 0.0;
         double phase_rad = 0.0;
         bool ended = false;
@@ -52,10 +53,11 @@ private:
     GainCaps caps_{};
     std::array<Track, kMaxEffects> tracks_{};
     std::size_t count_ = 0;
-    // What effects gave that were taken out: falls to zero over one game period.
+    // Forces of removed effects, which fall to zero over a game frame.
     DofLanes leaving_{};
     double leaving_part_ = 0.0;
-    std::array<DofLanes, kMaxEffects> last_{}; // what each gave in the last cycle
+    // Force of each effect in the last cycle.
+    std::array<DofLanes, kMaxEffects> last_{};
 };
 
 } // namespace spidar

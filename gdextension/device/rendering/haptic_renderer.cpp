@@ -53,7 +53,7 @@ void HapticRenderer::take(const HapticCommand &command, double now_s, double dt_
     counters.expired_requests += parts_.touch.age(dt_s) ? 1U : 0U;
     counters.expired_requests += parts_.coupling.age(dt_s) ? 1U : 0U;
     counters.expired_requests += static_cast<std::uint64_t>(parts_.effects.age(dt_s));
-    // A renewed sequence that is not valid: the last good request stands until it expires.
+    // A new sequence number with an invalid request: the last valid request stays until it expires.
     const auto is_new = [&counters](std::uint64_t &seen, std::uint64_t sequence, auto &&validate) {
         if (sequence == seen) {
             return false;
@@ -119,7 +119,7 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved,
     } else {
         parts_.motion.reset();
     }
-    // A raw wrench is given as it was asked: whoever asks for one answers for its energy.
+    // A raw wrench bypasses the passivity controller: its sender is responsible for its energy.
     const Wrench held = parts_.coupling.render(motion);
     Wrench sum =
         parts_.wrench.value() + parts_.controller.correct(held, moved, motion.velocity, dt_s);
@@ -140,7 +140,7 @@ Wrench HapticRenderer::render(const GripState &grip, const Displacement &moved,
 void HapticRenderer::given(double scale, double dt_s) noexcept {
     parts_.contacts.integrate(scale, dt_s);
     parts_.touch.integrate(scale, dt_s);
-    parts_.observer.hold(Wrench()); // until it is known what the strings give
+    parts_.observer.hold(Wrench()); // until the wrench of the strings is known
 }
 
 void HapticRenderer::report(ServoSnapshot &snapshot) const noexcept {
@@ -158,7 +158,7 @@ bool HapticRenderer::has_seen(const HapticCommand &command) const noexcept {
            command.effects_sequence == effects_sequence_;
 }
 
-// What is over or empty has an age too: a game that comes back is judged by it.
+// Requests that ended or are empty age too: the age decides about the next update of the game.
 void HapticRenderer::advance_at_rest(double dt_s) noexcept {
     parts_.wrench.age(dt_s);
     parts_.contacts.age(dt_s);

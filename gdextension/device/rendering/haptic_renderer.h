@@ -1,5 +1,5 @@
-// All requests -> one wrench, every cycle: contacts, coupling, wrench, effects and the calibrated load of the grip
-// itself add up; each ages and fades on its own.
+// Combines all requests to one wrench in each cycle. Contacts, coupling, wrench, effects and the
+// compensated weight of the grip add up; each ages and fades by itself.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -18,44 +18,44 @@ namespace spidar {
 class HapticRenderer {
 public:
     void configure(const ServoSettings &settings) noexcept;
-    // Other limits and caps; what acts goes on.
+    // Changes limits and caps; active requests continue.
     void retune(const ServoSettings &settings) noexcept;
-    // What shapes are felt with; see TouchRenderer.
+    // Renders shapes; see TouchRenderer.
     [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.touch; }
     [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.touch; }
-    // Takes this command's requests as already seen.
+    // Takes the requests of this command as already seen.
     void acknowledge(const HapticCommand &command) noexcept;
 
-    // Once a cycle, first: ages what there is, then takes what is new. What is not valid is counted, and the last
-    // good request stands.
-    // now_s: ServoSnapshot::time_s of this cycle.
+    // Called first in each cycle: ages the present requests, then takes new ones. An invalid
+    // request is counted, and the last valid one stays. now_s: ServoSnapshot::time_s of this cycle.
     void take(const HapticCommand &command, double now_s, double dt_s,
               ServoCounters &counters) noexcept;
 
-    // The wrench to ask of the strings, before the limits of the sum. moved: in the last cycle. fingers: those of a rigid
-    // grip, which touch as well. trusted: the pose is of now; otherwise nothing that depends on speed acts.
+    // Returns the requested wrench before the limits of the sum. moved: displacement in the last
+    // cycle. fingers: those of a rigid grip, which also touch. trusted: the pose is current;
+    // otherwise nothing that depends on speed acts.
     Wrench render(const GripState &grip, const Displacement &moved, const FingerMotion &fingers,
                   bool trusted, double dt_s) noexcept;
-    // What becomes of it until the next cycle: `scale` of what render() returned is asked of the strings,
+    // Called after render(). scale: share of the returned wrench requested from the strings.
     void given(double scale, double dt_s) noexcept;
-    // and this is what their commanded tensions do to the grip. With the measured motion it tells the energy.
+    // Takes the wrench of the commanded tensions, which with the motion gives the energy.
     void achieved(const Wrench &wrench) noexcept { parts_.observer.hold(wrench); }
 
-    // Of what render() returned last, the part of the contacts.
+    // The contacts' part of the last render().
     [[nodiscard]] const Wrench &contact_push() const noexcept { return contact_push_; }
 
     void report(ServoSnapshot &snapshot) const noexcept;
 
-    // Nothing new in this command.
+    // Returns whether this command contains nothing new.
     [[nodiscard]] bool has_seen(const HapticCommand &command) const noexcept;
-    // At rest nothing but a raw wrench is asked.
+    // True when at most a raw wrench is requested.
     [[nodiscard]] bool at_rest() const noexcept { return all_at_rest(parts_); }
     [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
     [[nodiscard]] bool rests_through(double dt_s) const noexcept {
         return parts_.wrench.rests_through(dt_s);
     }
     void advance_at_rest(double dt_s) noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return parts_.motion.is_sound() && parts_.contacts.is_sound() && parts_.touch.is_sound() &&
                parts_.coupling.is_sound() && parts_.wrench.is_sound() &&
@@ -84,7 +84,7 @@ private:
     };
     Parts parts_;
     Wrench contact_push_{};
-    Wrench load_{}; // holds up the grip's weight
+    Wrench load_{}; // compensates the grip's weight
     GainClamp last_clamp_{};
     std::uint64_t wrench_sequence_ = 0;
     std::uint64_t contacts_sequence_ = 0;

@@ -10,13 +10,15 @@ namespace spidar {
 
 namespace {
 
-// Depth and width of the notch (damping ratios of its numerator and denominator). Wide, as the swing's
-// frequency lies between 105 and 140 Hz in the seven DOF of the paper's device, and moves with the hand.
+// Depth and width of the notch (damping ratios of its numerator and denominator). Wide, since the
+// resonance lies between 105 and 140 Hz in the seven DOF of the paper's device and moves with the
+// hand.
 constexpr double kNotchDepth = 0.12;
 constexpr double kNotchWidth = 1.0;
-// Above this part of the rate a notch has no room below the Nyquist frequency.
+// Largest resonance relative to the rate: above it a notch has no room below the Nyquist frequency.
 constexpr double kHighestResonance = 0.4;
-// Motion below these is far under an encoder count: set to rest, so that a grip at rest is exactly at rest.
+// Motion that counts as rest, far below an encoder count, so that a grip at rest is exactly at
+// rest.
 constexpr double kRestMove = 1e-12;  // m, rad
 constexpr double kRestSpeed = 1e-10; // m/s, rad/s
 
@@ -50,7 +52,7 @@ void MotionFilter::update(const Displacement &moved, double dt_s) noexcept {
     std::ranges::copy(lanes(moved), now.begin());
     const double alpha = velocity_filter_.share(dt_s);
     const double per_s = 1.0 / dt_s;
-    // The trapezoidal rule over this cycle, however long it is. rates: before and after it, summed.
+    // The trapezoidal rule over this cycle of any length. rates: sum of the rates before and after.
     const double half_s = 0.5 * warp_ * dt_s;
     const double pull = 2.0 * half_s * w_ * w_;
     const double share = 1.0 / (1.0 + 2.0 * kNotchWidth * w_ * half_s + w_ * w_ * half_s * half_s);

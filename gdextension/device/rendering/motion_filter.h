@@ -1,5 +1,6 @@
-// What contacts, coupling and effects see of the grip's motion: without the swing of rotors against grip on the
-// strings, and a little ahead, by what the loop delays. A pose that is fed back without this drives that swing.
+// The grip's motion for contacts, coupling and effects: without the oscillation of rotors against
+// grip on the elastic strings, and predicted by the delay of the loop. Feeding back an unfiltered
+// pose would drive that oscillation.
 #pragma once
 
 #include <array>
@@ -14,32 +15,33 @@ namespace spidar {
 class MotionFilter {
 public:
     void configure(const RenderSettings &settings, double rate_hz) noexcept;
-    // At rest: nothing ahead, no velocity.
+    // Resets to rest: no prediction, no velocity.
     void reset() noexcept;
-    // moved: since the last cycle, which is dt_s ago.
+    // moved: displacement since the last cycle, dt_s ago.
     void update(const Displacement &moved, double dt_s) noexcept;
 
     [[nodiscard]] Displacement ahead() const noexcept;
     [[nodiscard]] Twist velocity() const noexcept;
-    // The prediction less the delay of the notch.
+    // Returns the prediction time less the delay of the notch filter (unit: s).
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
-    // The grip stood still long enough: further updates without motion change nothing.
+    // True when the grip stood still so long that updates without motion change nothing.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:
-    // One lane a DOF, padded to whole vectors.
+    // One lane per DOF, padded to whole vectors.
     static constexpr std::size_t kLanes = 8;
     using Lanes = std::array<double, kLanes>;
 
     OnePole velocity_filter_;
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
-    // offset = filtered - measured position: offset'' + 2 width w offset' + w^2 offset = -depth speed
+    // offset = filtered - measured: offset'' + 2 width w offset' + w^2 offset = -depth speed.
     double w_ = 0.0; // 0: no notch
     double depth_ = 0.0;
-    double warp_ = 1.0; // of time, so that the trapezoidal rule is exact at w
+    // Warps time so that the trapezoidal rule is exact at w.
+    double warp_ = 1.0;
     Lanes offset_{};
     Lanes offset_rate_{};
     Lanes velocity_{};

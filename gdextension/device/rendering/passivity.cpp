@@ -7,9 +7,9 @@ namespace spidar {
 
 namespace {
 
-// A slow part below this (N, N m) is over: nobody feels it end.
+// Slow part (N, N m) that counts as zero, since nobody feels it end.
 constexpr double kNoForce = 1e-5;
-// What is stored below this (a millimetre against that force) is forgotten with it.
+// Stored energy that counts as zero: a millimeter against that force.
 constexpr double kNoEnergy_j = 1e-8;
 
 } // namespace
@@ -55,7 +55,7 @@ Wrench PassivityController::correct(const Wrench &asked, const Displacement &mov
         slow_[i] += blend * (force[i] - slow_[i]);
         if (store_j_[i] < 0.0 && most_[i] > 0.0) {
             const double full = speed[i] * speed[i] * dt_s;
-            // What would be taken back in this cycle, as far as the cap allows.
+            // The energy to take back in this cycle, as far as the cap allows.
             const double damping = -store_j_[i] < most_[i] * full ? -store_j_[i] / full : most_[i];
             out[i] -= damping * speed[i];
         }

@@ -1,5 +1,6 @@
-// Energy at the grip, per DOF: an observer of what the requests do to the hand, and a controller that takes back
-// what a wrench or coupling held between two frames of the game gives too much (Hannaford and Ryu 2002).
+// Energy at the grip per DOF. An observer measures the work of all requests on the hand. A
+// controller takes back energy that a wrench or coupling, held between two game frames, gives in
+// excess (Hannaford and Ryu 2002).
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -8,18 +9,19 @@
 
 namespace spidar {
 
-// The work is exact for a wrench that is held over each cycle: force of the last cycle times the move since.
+// Observes the work of the requests. The work is exact for a wrench held over each cycle: force of
+// the last cycle times the displacement since.
 class EnergyObserver {
 public:
-    // moved: in the cycle during which the last held() acted.
+    // moved: displacement in the cycle in which the last held wrench acted.
     void update(const Displacement &moved) noexcept;
-    // What acts until the next update.
+    // Sets the wrench that acts until the next update.
     void hold(const Wrench &wrench) noexcept;
-    // Without motion no work is done.
+    // True without motion, since no work is done.
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
-    // Net work done on the hand in each DOF since the last reset(); positive is energy given to the hand (unit: J).
+    // Net work on the hand per DOF since the start (unit: J); positive: given to the hand.
     [[nodiscard]] const DofLanes &injected_j() const noexcept { return injected_j_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(moving_); }
 
 private:
@@ -28,25 +30,27 @@ private:
     bool moving_ = false; // in the last update()
 };
 
-// Damps a DOF while its changing part has given the hand more than it took. A slow force, such as a weight, is the
-// game's own will and is left alone: only what changes within kSlow_s is watched.
+// Damps a DOF while the changing part of its force has given the hand more energy than it took. A
+// slow force, such as a weight, is intended by the game and left alone: only changes within kSlow_s
+// are watched.
 class PassivityController {
 public:
+    // Time constant that separates slow forces from changing ones.
     static constexpr double kSlow_s = 0.2;
-    // No more than this is remembered as taken, so that a long hold does not pay for a later blow.
+    // Largest energy kept from the hand: a long hold must not pay for a later jolt.
     static constexpr double kStore_j = 0.005;
-    // Both what was taken and what was given are forgotten over this: each tap is judged by itself.
+    // Time over which energies are forgotten, so that each tap is judged by itself.
     static constexpr double kMemory_s = 0.2;
 
-    // Damping that may be added; all zero switches the controller off.
+    // most_damping: largest damping that may be added; all zero switches the controller off.
     void configure(const DofGains &most_damping) noexcept;
     void reset() noexcept;
-    // The wrench to give in place of `asked`.
+    // Returns the wrench to render in place of `asked`.
     Wrench correct(const Wrench &asked, const Displacement &moved, const Twist &velocity,
                    double dt_s) noexcept;
-    // Nothing changes any more while nothing is asked, wherever the grip moves.
+    // True when nothing changes while nothing is requested, wherever the grip moves.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
 
 private:

@@ -6,7 +6,7 @@ namespace spidar {
 
 StringArray rotor_compensation(const RenderSettings &settings, const WrenchMatrix &matrix,
                                const Twist &twist) noexcept {
-    // The paper's seventh rate is half of grasp_rate, as its g is twice the torque.
+    // The paper's seventh rate is half of grasp_rate, since its g is twice the torque.
     const StringArray winding_m_s = apply_transposed(
         matrix, {twist.linear_m_s.x, twist.linear_m_s.y, twist.linear_m_s.z, twist.angular_rad_s.x,
                  twist.angular_rad_s.y, twist.angular_rad_s.z, 0.5 * twist.grasp_rate_rad_s});

@@ -1,4 +1,5 @@
-// What rotors, bearings and back-EMF take from a string's pull, added back: a calibrated option, off by default.
+// Compensates the losses of a string's pull by rotors, bearings and back-EMF: a calibrated option,
+// off by default.
 #pragma once
 
 #include "core/geometry/wrench_matrix.h"
@@ -6,9 +7,10 @@
 
 namespace spidar {
 
-// Tension to add to each string (unit: N; negative where the string is wound in). twist: filtered. Coulomb friction
-// rises over kFrictionBand_m_s, so that a string at rest is not pushed to and fro by noise.
+// String speed over which the Coulomb friction rises, so that noise does not toggle the tension of
+// a string at rest.
 inline constexpr double kFrictionBand_m_s = 0.02;
+// Returns the tension to add to each string (unit: N). Negative: subtracted. twist: filtered.
 [[nodiscard]] StringArray rotor_compensation(const RenderSettings &settings,
                                              const WrenchMatrix &matrix,
                                              const Twist &twist) noexcept;

@@ -11,7 +11,7 @@ namespace spidar {
 
 namespace {
 
-// limit / norm, at most 1; without overflow for components up to the largest double.
+// Returns limit / norm, at most 1, without overflow for components up to the largest double.
 double factor_for(const Vec3 &v, double limit) noexcept {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (largest <= 0.0) {
@@ -26,7 +26,7 @@ double factor_for(const Vec3 &v, double limit) noexcept {
     return std::min(1.0, factor);
 }
 
-// So far inside a limit that rounding cannot matter.
+// Share of a limit within which rounding cannot matter.
 constexpr double kWellWithin = 1.0 - 1e-12;
 
 bool well_within(const Vec3 &v, double limit) noexcept {

@@ -1,5 +1,5 @@
-// The wrench in seven DOF that a game asks for itself, beside contacts and coupling: in full for the time asked for, then
-// faded. And the limits that every sum of requests is brought within.
+// The raw wrench of a game in seven DOF, besides contacts and coupling: in full for the requested
+// duration, then faded. Also the limits of the sum of all requests.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -8,26 +8,27 @@
 
 namespace spidar {
 
-// The factor (0..1] that brings force, moment and grasp torque inside their limits. One factor for all seven
-// DOF: the direction of the wrench is kept. Holds for every finite wrench, 1e308 too; 0 for one that is not.
+// Returns the factor (0..1] that brings force, moment and grasp torque within their limits. One
+// factor for all seven DOF keeps the wrench's direction. Valid for every finite wrench, even 1e308;
+// 0 for a wrench that is not finite.
 [[nodiscard]] double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept;
 
 class WrenchRequest {
 public:
     void configure(const SafetySettings &safety) noexcept;
-    // Other limits for what is accepted from now on.
+    // Changes the limits for requests that are accepted from now on.
     void retune(const SafetySettings &safety) noexcept { safety_ = safety; }
-    // A valid request (validate_wrench). Says when it had to be brought down to a limit.
+    // Takes a valid request (validate_wrench). Returns what was clamped.
     GainClamp accept(const Wrench &wrench, double duration_s) noexcept;
-    // Once a cycle, before accept(). True in the cycle in which the request ends.
+    // Takes one cycle, before accept(). Returns true in the cycle in which the request ends.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench value() const noexcept;
-    // Not asked for, or in full.
+    // True when nothing is requested, or the request acts in full.
     [[nodiscard]] bool at_rest() const noexcept { return rests_through(0.0); }
     [[nodiscard]] bool rests_through(double dt_s) const noexcept {
         return !live_ || age_s_ + dt_s <= duration_s_;
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(live_); }
 
 private:

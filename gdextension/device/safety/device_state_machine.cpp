@@ -6,11 +6,12 @@ namespace spidar {
 
 namespace {
 
-// Forces fall to zero in this time on disarm: fast, but no blow to the hand.
+// Time in which forces fall to zero on disarm: fast, but without a jolt.
 constexpr double kFadeTime_s = 0.020;
-// Longer than a fade and than the first report of a device takes; short enough never to surprise.
+// Time for which an arm() stays pending: longer than a fade and than a device's first report, short
+// enough not to surprise.
 constexpr double kArmPatience_s = 0.100;
-// Slack strings are drawn in within this, at pretension.
+// Time in which slack strings are drawn in at pretension.
 constexpr double kTautTime_s = 0.5;
 
 } // namespace
@@ -58,7 +59,7 @@ bool DeviceStateMachine::stop(StopReason reason, Status why, int string) noexcep
         go_slack(DeviceState::fault);
         break;
     case StopAction::close:
-        if (!lost_) { // the first reason stands
+        if (!lost_) { // the first reason is kept
             fault_ = why;
             fault_string_ = -1;
         }
@@ -176,7 +177,7 @@ DeviceStateMachine::Outcome DeviceStateMachine::advance(const Inputs &inputs,
         arm_pending_s_ = kArmPatience_s;
     }
     outcome.too_warm = inputs.too_warm && may_wait && (inputs.arm || inputs.zero);
-    // What stands now; disarm() wins over an arm() of the same cycle.
+    // Requests of this cycle. disarm() overrides an arm() of the same cycle.
     if (inputs.disarm) {
         stop(StopReason::disarm_asked);
     }

@@ -9,7 +9,7 @@ namespace spidar {
 
 namespace {
 
-// A thousandth of the budget changes nothing that is felt: such motors are cold, and are forgotten.
+// Smallest heat that is kept: a thousandth of the budget has no effect.
 constexpr double kCold = 1e-3;
 constexpr double kSecond_ns = 1e9;
 
@@ -35,7 +35,7 @@ struct Memory {
     std::map<std::string, Warm> devices;
 };
 
-// Never destroyed: a loop of a static object may stop after main().
+// Never destroyed: a static loop may stop after main().
 Memory &memory() {
     static Memory *const kept = new Memory;
     return *kept;

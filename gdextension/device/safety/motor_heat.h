@@ -1,5 +1,6 @@
-// How warm the motors of each device are while no loop watches them: a device that is opened anew is as warm as it was
-// left, less what it has cooled since. For this process; a device is known by its name (Transport::device_name()).
+// Heat of each device's motors while no loop runs: a device that is opened again is as warm as it
+// was left, less the cooling since. Kept for this process under the device's name
+// (Transport::device_name()).
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,12 @@
 
 namespace spidar {
 
-// heat: share of each motor's thermal budget (ThermalBudget::heat()). now_ns: of monotonic_ns(). Without a name nothing
-// is kept. Both lock a mutex and may allocate: not from a servo cycle.
+// Stores the heat. heat: share of each motor's budget (ThermalBudget::heat()). now_ns: time of
+// monotonic_ns(). Without a name nothing is stored. Locks a mutex and may allocate: not for a servo
+// cycle.
 void keep_motor_heat(const std::string &device, const StringArray &heat, double thermal_time_s,
                      std::int64_t now_ns);
+// Returns the stored heat after cooling, or zeros. Locks a mutex: not for a servo cycle.
 [[nodiscard]] StringArray recall_motor_heat(const std::string &device, std::int64_t now_ns);
 
 } // namespace spidar

@@ -1,5 +1,5 @@
-// The one rule for motors: what each reason to let go does in each state. Whatever watches a device only names its reason;
-// this table decides what follows, for every state that pulls and for those that do not.
+// The one rule for switching motors off: the action of each reason in each state. A monitor only
+// gives its reason; this table decides what follows.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 namespace spidar {
 
 enum class StopReason : std::uint8_t {
-    forces_off = 0,   // forces_enabled = false: by the game, by a lost focus, after a panic
+    forces_off = 0,   // forces_enabled = false: by the game, lost focus, or after a panic
     disarm_asked = 1, // disarm()
     game_silent = 2,  // no heartbeat of the game
     overheated = 3,   // a motor's thermal budget is spent
-    string_named = 4, // the length of one string is known to be wrong
+    string_named = 4, // one string is known to have a wrong length
     clock_jumped = 5, // the computer slept, or its clock is wrong
-    fault = 6,        // reports stopped, over-speed, shaking, strings, a fault of the device's own
+    fault = 6,        // reports stopped, over-speed, shaking, strings, or a device fault
     panic = 7,        // panic_stop()
     device_lost = 8,  // unplugged
 };
@@ -25,21 +25,23 @@ inline constexpr std::size_t kStopReasons = 9;
 static_assert(kStopReasons == static_cast<std::size_t>(StopReason::device_lost) + 1);
 
 enum class StopAction : std::uint8_t {
-    unset = 0,   // a cell that nobody filled in: does not compile
-    nothing = 1, // the motors are off, or on their way to it
-    disarm = 2,  // nothing pulls, and a device that would arm itself no longer does
-    fade = 3,    // forces fall within 20 ms, then CONNECTED with the motors off
-    let_go = 4,  // CONNECTED, motors off in this cycle
-    fault = 5,   // FAULT, motors off in this cycle
-    close = 6,   // CLOSED, motors off in this cycle
-    latch = 7,   // CLOSED stays; the device opens in FAULT
+    unset = 0,   // a cell that was not filled in: does not compile
+    nothing = 1, // the motors are off or going off
+    // Nothing pulls; a device that would arm itself no longer does.
+    disarm = 2,
+    // Forces fall within 20 ms, then CONNECTED with the motors off.
+    fade = 3,
+    let_go = 4, // CONNECTED, motors off in this cycle
+    fault = 5,  // FAULT, motors off in this cycle
+    close = 6,  // CLOSED, motors off in this cycle
+    latch = 7,  // stays CLOSED; the device opens in FAULT
 };
 
-// What makes a device arm again that would arm itself (a simulated one). A real one always waits for arm().
+// What lets a self-arming (simulated) device arm again. A real device always waits for arm().
 enum class Rearm : std::uint8_t {
-    by_itself = 0, // as soon as the reason is gone
-    by_toggle = 1, // by arm(), or by forces_enabled switched off and on
-    by_arm = 2,    // by arm() alone
+    by_itself = 0, // the end of the reason
+    by_toggle = 1, // arm(), or forces_enabled switched off and on
+    by_arm = 2,    // arm() alone
 };
 
 namespace motor_rule {
@@ -47,7 +49,7 @@ namespace motor_rule {
 using A = StopAction;
 using Row = std::array<StopAction, kDeviceStates>;
 
-// A row for each reason, a column for each state, both in the order of their enumerations.
+// One row per reason and one column per state, both in the order of their enumerations.
 inline constexpr std::array<Row, kStopReasons> kActions{{
     //  closed      connected  arming    active    fading     fault       taut       calibrated
     {A::nothing, A::nothing, A::fade, A::fade, A::nothing, A::nothing, A::let_go, A::let_go},
@@ -90,7 +92,7 @@ static_assert(is_whole(), "a state or a reason is missing in the rule for motors
 [[nodiscard]] constexpr StopAction stop_action(DeviceState state, StopReason reason) noexcept {
     return motor_rule::kActions[static_cast<std::size_t>(reason)][static_cast<std::size_t>(state)];
 }
-// may_arm_itself: a simulated device, which plays on when its game does.
+// may_arm_itself: true for a simulated device, which continues when its game does.
 [[nodiscard]] constexpr Rearm rearm_after(StopReason reason, bool may_arm_itself) noexcept {
     return reason == StopReason::game_silent && may_arm_itself
                ? Rearm::by_itself

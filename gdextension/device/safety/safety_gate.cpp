@@ -21,7 +21,7 @@ SafetyGate::Output SafetyGate::pass(const StringArray &tensions_n, double dt_s) 
     const double step_n = dt_s > 0.0 && std::isfinite(dt_s) ? slew_n_per_s_ * dt_s : 0.0;
     for (std::size_t i = 0; i < last_n_.size(); ++i) {
         double wanted_n = tensions_n[i];
-        // Written so that NaN fails the comparison and lands at zero.
+        // Written so that NaN fails the comparison and gives zero.
         if (!(wanted_n >= 0.0)) {
             output.clamped = true;
             last_n_[i] = 0.0;

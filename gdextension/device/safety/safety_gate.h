@@ -1,5 +1,4 @@
-// The last stage before the motors. Whatever comes in, what goes out is finite, within [0, max], and moves no
-// faster than the slew limit.
+// The last stage before the motors. Its output is finite, within [0, max] and slew-limited.
 #pragma once
 
 #include "core/base/types.h"
@@ -14,12 +13,13 @@ public:
         bool clamped = false; // an input was NaN, negative or above the maximum
     };
 
-    // Both must be positive and finite; else the gate stays shut (everything zero).
+    // Requires positive, finite arguments; otherwise the gate stays shut (zero tensions).
     void configure(const StringArray &max_tensions_n, double slew_n_per_ms) noexcept;
 
-    // NaN and negative tensions become 0 N at once; all else approaches by at most slew * dt.
+    // Returns the tensions to send. NaN and negative inputs give 0 N at once; all others are
+    // approached by at most slew * dt.
     Output pass(const StringArray &tensions_n, double dt_s) noexcept;
-    // Motors off, in this very cycle: no slew.
+    // Switches the motors off in this cycle, without slew limit.
     void shut() noexcept { last_n_ = {}; }
 
 private:

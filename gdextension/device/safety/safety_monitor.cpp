@@ -72,7 +72,8 @@ SafetyMonitor::Verdict SafetyMonitor::watch_motion(const Sample &sample, EventLo
         return {};
     }
     if (parts_.bounce.update(sample.grip.twist, sample.contact_push, dt_s)) {
-        // Three bounces have given enough: to a quarter at once, and off at the next row.
+        // A series of bounces counts as two halvings: to a quarter at once, and off at the next
+        // series.
         parts_.shake.found(parts_.bounce.speed_m_s());
         parts_.shake.found(parts_.bounce.speed_m_s());
     }
@@ -122,7 +123,7 @@ SafetyMonitor::Verdict SafetyMonitor::watch(const Sample &sample, EventLog &even
     if (!sample.motors_on) {
         return {};
     }
-    // A fault before a reason to fade; of two alike the first.
+    // A fault comes before a reason to fade; of two of a kind the first.
     Verdict worst = strings;
     for (const Verdict &other : {motion, heat}) {
         const bool is_worse = worst.status == Status::ok || (worst.reason != StopReason::fault &&

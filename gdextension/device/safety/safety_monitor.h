@@ -1,5 +1,5 @@
-// All that watches the grip while forces act: it scales the wrench down, or names a reason to let go (motor_rule.h). Each
-// part has a file of its own.
+// All monitors of the grip while forces act. The result scales the wrench down or gives a reason to
+// stop (motor_rule.h). Each monitor has its own file.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -18,7 +18,7 @@ namespace spidar {
 
 class SafetyMonitor {
 public:
-    // A reason to let go, which motor_rule.h answers; none while `status` is ok.
+    // A reason to stop for motor_rule.h. There is none while `status` is ok.
     struct Verdict {
         StopReason reason = StopReason::fault;
         Status status = Status::ok;
@@ -29,25 +29,25 @@ public:
         const CountArray &counts;
         const StringArray &lengths_m;
         double fastest_m_s = 0.0;
-        double strongest_n = 0.0; // largest tension commanded
-        bool fresh = false;       // a good sample came in this cycle
-        bool moved = false;       // with another pose
+        double strongest_n = 0.0; // largest commanded tension
+        bool fresh = false;       // a good sample arrived in this cycle
+        bool moved = false;       // the sample gave another pose
         bool motors_on = false;
-        bool rendering = false; // a wrench is asked for
-        Wrench contact_push{};  // the part of it that contacts ask for
+        bool rendering = false; // a wrench is requested
+        Wrench contact_push{};  // the part of it that contacts request
     };
 
     Status configure(const ServoSettings &settings) noexcept;
-    // A fault was cleared or a zero taken: the grip starts with a clean record (heat stays).
+    // Restarts after a cleared fault or a new zero. The heat stays.
     void restart() noexcept;
 
     Verdict watch(const Sample &sample, EventLog &events, double dt_s) noexcept;
-    // What the motors pull in this cycle (unit: N).
+    // Takes the tensions of this cycle (unit: N).
     void spend(const StringArray &tensions_n, double dt_s) noexcept {
         parts_.heat.spend(tensions_n, dt_s);
     }
 
-    // At rest nothing is scaled down. spend() goes on.
+    // True when nothing is scaled down. spend() must still be called.
     [[nodiscard]] bool at_rest() const noexcept {
         return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && all_at_rest(parts_);
     }
@@ -56,9 +56,9 @@ public:
         return parts_.heat.at_rest();
     }
     [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
-    // What is left of the wrench, 0..1. Falls to zero within 20 ms, comes back within 50.
+    // Scale of the wrench, 0..1. Falls to zero within 20 ms, returns within 50 ms.
     [[nodiscard]] double wrench_scale() const noexcept { return scale_; }
-    // False: the velocity is not to be damped with.
+    // False while the velocity must not be used for damping.
     [[nodiscard]] bool velocity_trusted() const noexcept { return !fading_; }
     [[nodiscard]] Wrench wall(const GripState &grip) const noexcept {
         return workspace_.wall(grip);
@@ -67,7 +67,7 @@ public:
     [[nodiscard]] const StringMonitor &strings() const noexcept { return parts_.strings; }
     [[nodiscard]] const ThermalBudget &heat() const noexcept { return parts_.heat; }
     void set_heat(const StringArray &heat) noexcept { parts_.heat.set_heat(heat); }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(fading_, named_told_) && workspace_.is_sound() &&
                parts_.speed.is_sound() && parts_.shake.is_sound() && parts_.bounce.is_sound() &&

@@ -1,6 +1,6 @@
-// Was the zero taken at home, with the strings in their right places? At one pose nobody can tell: eight lengths
-// that are called home are home. But moved from there, a wrong zero, swapped or reversed strings contradict each
-// other, and a right zero does not.
+// Checks a zero: was it taken at home, with the strings in their places? At one pose this cannot be
+// seen, since any eight lengths can be called home. Once the grip moves, a wrong zero, swapped or
+// reversed strings make the lengths contradict each other.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,14 @@ class ZeroCheck {
 public:
     enum class Verdict : std::uint8_t { pending, confirmed, refused };
 
-    // How far and how much the grip has to move before the zero is believed.
+    // Distance from home that the grip must reach (unit: m).
     static constexpr double kReach_m = 0.040;
+    // Path that the grip must travel (unit: m).
     static constexpr double kTravel_m = 0.150;
-    // Disagreement above this refuses: 30 mm beside home give 2 mm within that reach, a calibrated device 0.5 mm.
+    // Parity error that refuses the zero (unit: m). A zero 30 mm beside home gives 2 mm within
+    // kReach_m, a calibrated device 0.5 mm.
     static constexpr double kParity_m = 0.001;
-    // For this long: one bad sample refuses nothing.
+    // Time for which the error must last (unit: s), so that one bad sample refuses nothing.
     static constexpr double kHold_s = 0.020;
 
     void begin() noexcept {
@@ -48,7 +50,7 @@ public:
                                                               : Verdict::pending;
     }
     [[nodiscard]] double worst_m() const noexcept { return worst_m_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(running_, started_); }
 
 private:

@@ -1,4 +1,4 @@
-// SerialPort through asio. Each handle has a context of its own, which runs only inside read() and write().
+// SerialPort with asio. Each handle has its own context, which runs only inside read() and write().
 #include "device/serial/serial_port.h"
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 #include <exception>
 
 #ifdef __SANITIZE_THREAD__
-// Each of asio's contexts runs in one thread at a time, so its fences, which this sanitizer does not know, order nothing.
+// Each asio context runs in one thread at a time, so that asio's fences, which this sanitizer does
+// not know, order nothing.
 #pragma GCC diagnostic ignored "-Wtsan"
 #endif
 #define ASIO_STANDALONE
@@ -35,7 +36,7 @@ class AsioPort final : public SerialPort {
 public:
     ~AsioPort() override {
 #ifndef _WIN32
-        if (claimed) { // a pseudo-terminal would stay so
+        if (claimed) { // a pseudo-terminal would stay locked
             (void)ioctl(port_.native_handle(), TIOCNXCL);
         }
 #endif
@@ -124,7 +125,7 @@ private:
 #endif
     }
 
-    // Handlers that become ready within the time; with 0, those that are.
+    // Runs handlers that become ready within the time; with 0, those that are ready.
     void run_for(int timeout_ms) noexcept {
         try {
             io_.restart();
@@ -151,7 +152,7 @@ private:
 
     void arrived(const asio::error_code &error, std::size_t count) noexcept {
         is_reading_ = false;
-        // What nobody fetches is the oldest, and is dropped: the reader resynchronises.
+        // The oldest unread bytes are dropped; the reader resynchronizes.
         if (count > came_.size() - filled_) {
             filled_ = 0;
         }
@@ -173,12 +174,12 @@ private:
 };
 
 Status status_of(const asio::error_code &error) {
-    switch (error.value()) { // the system's own number
+    switch (error.value()) { // error number of the system
 #ifdef _WIN32
     case ERROR_FILE_NOT_FOUND:
     case ERROR_PATH_NOT_FOUND:
         return Status::no_device;
-    case ERROR_ACCESS_DENIED: // this is how Windows says that another program has it
+    case ERROR_ACCESS_DENIED: // on Windows another program has the port
         return Status::device_in_use;
 #else
     case ENOENT:
@@ -210,10 +211,10 @@ std::string remedy(Status status) {
     }
 }
 
-// For this process alone. False: somebody else has it.
+// Locks the port for this process. Returns false when somebody else has it.
 bool claim(asio::serial_port &port) {
 #ifdef _WIN32
-    (void)port; // the system opens serial ports for one program only
+    (void)port; // Windows opens serial ports for one program only
     return true;
 #else
     const int descriptor = port.native_handle();

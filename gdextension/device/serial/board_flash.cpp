@@ -15,7 +15,8 @@ namespace spidar {
 namespace {
 
 const char *const kOwner = "the boards' parameters";
-// Flash is erased and written in less than a tenth of a second; the board may not listen meanwhile.
+// Time after a write: flash is erased and written in less than a tenth of a second, during which
+// the board may not listen.
 constexpr std::chrono::milliseconds kFlashTime(200);
 
 std::string as_mask(std::uint32_t mask) {
@@ -66,7 +67,7 @@ Status read_all(const std::string &port, std::uint32_t baud, const std::atomic<b
     return status;
 }
 
-// Another node or calibrator of this process is told by name; another program has the port locked.
+// Another owner in this process is named; another program has locked the port.
 bool claim_port(const std::string &port, DeviceClaim &claim, std::string &problem) {
     const std::string name = serial_device_name(port);
     if (claim.take(name, kOwner)) {
@@ -87,7 +88,7 @@ bool send_change(SerialPort &port, const FlashChange &change) {
     return frame.whole() && port.write(frame.bytes(), kWrite_ms);
 }
 
-// Under its old id, or under the new one: the sources do not say from when on an id counts.
+// Tries the old and the new id, since the sources do not say when a new id takes effect.
 bool read_back(SerialPort &port, const FlashChange &change, BoardFlash &after) {
     if (read_flash_of(port, change.board.board, after)) {
         return true;

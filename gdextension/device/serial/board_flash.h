@@ -1,5 +1,6 @@
-// What motor boards keep in their flash: read, and changed one number at a time. Only here is SET_PARAM sent. Each call opens
-// the port for itself alone, so that no motor is armed meanwhile, and closes it again.
+// Numbers in the flash of motor boards: read, and changed one at a time. Only this file sends
+// SET_PARAM. Each call opens the port exclusively and closes it again, so that no motor can be
+// armed meanwhile.
 #pragma once
 
 #include <atomic>
@@ -14,12 +15,12 @@
 namespace spidar {
 
 struct BoardFlash {
-    BoardLayout board; // under the id at which it answers
+    BoardLayout board; // with the id under which it answers
     std::uint8_t stored_id = 0;
-    std::uint32_t quadrature_mask = 0; // bit i: motor i is read by its quadrature encoder
+    std::uint32_t quadrature_mask = 0; // bit i: motor i has a quadrature encoder
 };
 
-// One number of one board. `board` is as read_board_flash() told it, on this port.
+// A change of one number of one board. `board` is as read_board_flash() returned it for this port.
 struct FlashChange {
     std::string port;
     BoardFlash board;
@@ -27,23 +28,23 @@ struct FlashChange {
     std::uint32_t value = 0;
 };
 
-// "B5M with id 1 at /dev/ttyUSB0".
+// Returns "B5M with id 1 at /dev/ttyUSB0".
 [[nodiscard]] std::string exact_name(const FlashChange &change);
-// Of the number that the change is about, as it was read.
+// Returns the number that the change is about, as it was read.
 [[nodiscard]] std::uint32_t value_before(const FlashChange &change) noexcept;
-// Empty when it may be written; else one sentence. `all`: the boards of the bus, as they were read.
+// Empty when the change may be written, else one sentence. all: boards of the bus, as read.
 [[nodiscard]] std::string validate(const FlashChange &change, const std::vector<BoardFlash> &all);
-// "quadrature mask 0x00 becomes 0xff".
+// Returns "quadrature mask 0x00 becomes 0xff".
 [[nodiscard]] std::string describe(const FlashChange &change);
 
-// Takes half a second. Statuses as open_session(), and device_in_use for a port that this process owns. `give_up`: set by
-// another thread, ends it early.
+// Reads all boards; takes half a second. Returns the statuses of open_session(), and device_in_use
+// for a port that this process owns. give_up: another thread may set it to end the call early.
 [[nodiscard]] Status read_board_flash(const std::string &port, std::uint32_t baud,
                                       const std::atomic<bool> &give_up,
                                       std::vector<BoardFlash> &boards, std::string &problem);
-// Reads all boards again, writes once when they are as the change says they were, reads back and compares. invalid_settings:
-// nothing was written. protocol_mismatch: written, and the board holds something else, or does not tell. `after`: what it
-// holds then.
+// Reads all boards again, writes once when they are unchanged, reads back and compares.
+// invalid_settings: nothing was written. protocol_mismatch: written, but the board holds another
+// value or does not answer. after: the board's values afterwards.
 [[nodiscard]] Status write_board_flash(const FlashChange &change, std::uint32_t baud,
                                        const std::atomic<bool> &give_up, BoardFlash &after,
                                        std::string &problem);

@@ -12,7 +12,7 @@ namespace {
 constexpr int kTries = 3;
 constexpr int kScans = 4;
 constexpr int kRoundTrips = 15;
-constexpr int kSlowestRoundTrip_ms = 40; // more than twice what a bridge with a long timer takes
+constexpr int kSlowestRoundTrip_ms = 40; // more than twice that of a bridge with a long timer
 
 bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
     BoardFrame frame;
@@ -24,7 +24,7 @@ bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
     const std::size_t length = reply_length(board, BoardCommand::info);
     const auto heard = listen(port, length, kAnswer_ms);
     board.id = id;
-    // The line may have been idle or noisy before: the reply is looked for.
+    // The line may have been idle or noisy before: the reply is searched for.
     for (std::size_t at = 0; at + length <= heard.size(); ++at) {
         if (decode_info(BoardBytes(heard).subspan(at, length), id, board.info)) {
             return true;
@@ -33,7 +33,8 @@ bool find_board(SerialPort &port, std::uint8_t id, BoardLayout &board) {
     return false;
 }
 
-// Some builds add the currents to CURRENT's reply. With no current asked for, its length is what comes.
+// Some firmware appends the currents to CURRENT's reply. The length of a reply to zero currents
+// shows it.
 bool measure_reply(SerialPort &port, BoardLayout &board) {
     const std::size_t usual = reply_length(board, BoardCommand::current);
     BoardLayout longer = board;
@@ -71,7 +72,7 @@ std::vector<BoardLayout> scan(SerialPort &port, const std::atomic<bool> &give_up
     return boards;
 }
 
-// An answer may come too late on a busy computer: two scans in a row must find the same boards.
+// Answers may come too late on a busy computer: two consecutive scans must find the same boards.
 bool find_boards(SerialPort &port, const std::atomic<bool> &give_up, BoardSession &session) {
     BoardFrame frame;
     frame.zeros(kResyncZeros);
@@ -93,7 +94,7 @@ bool find_boards(SerialPort &port, const std::atomic<bool> &give_up, BoardSessio
     return !session.boards.empty() && port.write(frame.bytes(), kWrite_ms);
 }
 
-// What every board must be able to say before its motors are used.
+// Conditions that every board must meet before its motors are used.
 bool question(SerialPort &port, BoardSession &session, std::string &problem) {
     for (BoardLayout &board : session.boards) {
         std::uint32_t mask = 0;
@@ -114,7 +115,8 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
     return true;
 }
 
-// As the servo loop asks, but with nothing else on the way, so that each answer's question is known. 0: too few came.
+// Asks as the servo loop does, one question at a time, so that each answer belongs to a known
+// question. Returns 0 when too few answers came.
 double measure_round_trip(SerialPort &port, const std::vector<BoardLayout> &boards) {
     BoardFrame frame;
     std::size_t length = 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 constexpr int kTries = 3;
 
-// Whole answers only.
+// Accepts complete answers only.
 std::vector<std::uint8_t> ask_parameter(SerialPort &port, const BoardLayout &board,
                                         BoardParameter parameter) {
     BoardFrame frame;
@@ -32,7 +32,7 @@ std::string name_of(const BoardLayout &board) {
     return std::string(name_of_model(board.info.model)) + " with id " + std::to_string(board.id);
 }
 
-// Everything that comes within the time, or until there are `enough` bytes.
+// Returns all bytes that arrive within time_ms; returns earlier after `enough` bytes.
 std::vector<std::uint8_t> listen(SerialPort &port, std::size_t enough, int time_ms) {
     std::vector<std::uint8_t> heard;
     const std::int64_t end_ns = monotonic_ns() + time_ms * kNanosecondsPerMillisecond;
@@ -57,7 +57,7 @@ void forget_input(SerialPort &port) {
 bool read_parameter(SerialPort &port, const BoardLayout &board, BoardParameter parameter,
                     std::uint32_t &value) {
     for (int i = 0; i < kTries; ++i) {
-        (void)ask_parameter(port, board, parameter); // what was asked for before
+        (void)ask_parameter(port, board, parameter); // discards the previous parameter
         const std::vector<std::uint8_t> heard = ask_parameter(port, board, parameter);
         BoardBytes data;
         if (!decode_parameter(heard, board, parameter, data)) {

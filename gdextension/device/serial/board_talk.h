@@ -10,19 +10,21 @@
 
 namespace spidar {
 
-inline constexpr int kAnswer_ms =
-    10; // a board answers within a millisecond; a busy computer hands it on later
+// Timeout of an answer (unit: ms). A board answers within 1 ms; a busy computer adds more.
+inline constexpr int kAnswer_ms = 10;
+// Time limit of a write (unit: ms).
 inline constexpr int kWrite_ms = 50;
 
-// "B5M with id 1".
+// Returns "B5M with id 1".
 [[nodiscard]] std::string name_of(const BoardLayout &board);
 
-// Everything that comes within the time, or until there are `enough` bytes.
+// Returns all bytes that arrive within time_ms, or until there are `enough`.
 [[nodiscard]] std::vector<std::uint8_t> listen(SerialPort &port, std::size_t enough, int time_ms);
+// Discards all waiting input.
 void forget_input(SerialPort &port);
 
-// The first four bytes of a parameter as a number. Asks twice, as a board answers with the parameter that was asked for
-// before. False: no answer.
+// Reads the first four bytes of a parameter as a number. Asks twice, since a board answers with the
+// parameter of the previous question. Returns false without an answer.
 [[nodiscard]] bool read_parameter(SerialPort &port, const BoardLayout &board,
                                   BoardParameter parameter, std::uint32_t &value);
 

@@ -4,7 +4,7 @@
 
 namespace spidar {
 
-// The writer has it for microseconds.
+// The writer holds the lock for microseconds.
 void GuardLink::take() noexcept {
     while (busy_.test_and_set(std::memory_order_acquire)) {
         std::this_thread::yield();
@@ -34,7 +34,7 @@ void GuardLink::end() noexcept {
 
 void GuardLink::beat(std::int64_t now_ns, bool pulled) noexcept {
     if (busy_.test_and_set(std::memory_order_acquire)) {
-        return; // another one is being started
+        return; // a new guard is being started
     }
     guard_.beat(now_ns);
     if (guard_.take_tripped() && pulled) {

@@ -1,5 +1,5 @@
-// The guard as the transport's threads share it: the writer beats, the watcher starts another when it is lost, and whether
-// the motors may pull is a matter of both.
+// The guard process as the transport's threads share it. The writer sends its beats, the watcher
+// starts a new guard when it is lost, and both decide whether the motors may pull.
 #pragma once
 
 #include <atomic>
@@ -16,21 +16,21 @@ class GuardLink {
 public:
     explicit GuardLink(SerialStatistics &statistics) noexcept : statistics_(statistics) {}
 
-    // Empty when it runs; else one sentence. Not from the writer: it may wait for half a second.
+    // Returns an empty string when the guard runs, else a sentence. Not for the writer: may wait.
     [[nodiscard]] std::string start(const std::string &program, int port,
                                     std::span<const BoardLayout> boards);
     void end() noexcept;
-    // It was lost: start() another.
+    // True when the guard was lost and start() must be called.
     [[nodiscard]] bool is_wanted() const noexcept { return is_wanted_.load(); }
 
-    // Once a write, from the writer: tells the guard that this process lives, and hears whether the guard does. pulled:
-    // the last currents were not zero.
+    // Called by the writer once per write. Tells the guard that this process is alive, and checks
+    // the guard. pulled: the last currents were not zero.
     void beat(std::int64_t now_ns, bool pulled) noexcept;
-    // From any thread. It runs, and has had no reason to step in since allow().
+    // True when the guard runs and has not stepped in since allow(). Called from any thread.
     [[nodiscard]] bool allows() const noexcept {
         return guard_.alive() && !tripped_.load(std::memory_order_acquire);
     }
-    // Faults are cleared, with the motors off.
+    // Called when faults are cleared, with the motors off.
     void allow() noexcept {
         if (guard_.alive()) {
             tripped_.store(false, std::memory_order_release);
@@ -44,10 +44,11 @@ private:
 
     SerialStatistics &statistics_;
     PortGuard guard_;
-    std::atomic_flag busy_ = ATOMIC_FLAG_INIT; // whoever has set it may touch the guard
+    // Whoever sets it may use the guard.
+    std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
     std::atomic<bool> is_wanted_{false};
     std::atomic<bool> tripped_{false};
-    bool was_alive_ = false; // the writer's own
+    bool was_alive_ = false; // used by the writer
 };
 
 } // namespace spidar

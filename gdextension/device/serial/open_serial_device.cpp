@@ -53,7 +53,7 @@ SerialSearch::SerialSearch(const SerialTransportSettings &settings, std::string 
     : settings_(settings), owner_(std::move(owner)) {
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error &) { // no thread left: what is plugged in later is not found
+    } catch (const std::system_error &) { // no thread: devices plugged in later are not found
         stop_.store(true);
     }
 }
@@ -96,7 +96,7 @@ void SerialSearch::run() {
         bool found = false;
         try {
             found = look();
-        } catch (const std::exception &) { // no memory: the next look may have some
+        } catch (const std::exception &) { // no memory: tried again at the next search
             found = false;
         }
         if (found) {
@@ -116,7 +116,7 @@ bool SerialSearch::look() {
     if (transport) {
         claim.release();
         if (!claim_.take(transport->device_name(), owner_)) {
-            return false; // another owner came in between
+            return false; // another owner was faster
         }
         found_ = std::move(transport);
         return true;
@@ -127,7 +127,7 @@ bool SerialSearch::look() {
     return false;
 }
 
-// The lock is held for the millisecond of an exchange at most: take() comes back in the next frame.
+// The lock is held for the millisecond of an exchange at most: take() succeeds in the next frame.
 void SerialSearch::keep_found() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (found_ && !wake_.wait_for(lock, kKeepAsking, [this] { return stop_.load(); })) {

@@ -1,4 +1,4 @@
-// Opens the serial motor boards that settings name, for one owner in this process.
+// Opens the serial motor boards of given settings for one owner in this process.
 #pragma once
 
 #include <atomic>
@@ -14,27 +14,30 @@
 
 namespace spidar {
 
-// Open, or null: `status` and `problem` say why. `problem` begins with "serial_port" when that setting is at fault. `claim`
-// owns the port in the name of `owner`. Takes up to half a second.
+// Returns the open device. Returns null with `status` and `problem` otherwise; `problem` begins
+// with "serial_port" when that setting is at fault. `claim` owns the port in the name of `owner`.
+// Takes up to half a second.
 [[nodiscard]] std::unique_ptr<SerialTransport>
 open_serial_device(SerialTransportSettings settings, const std::string &owner, DeviceClaim &claim,
                    Status &status, std::string &problem);
 
-// Looks for the boards in a thread of its own until they are found, and keeps them open until they are fetched.
+// Looks for the boards in its own thread until they are found, and keeps them open until take().
 class SerialSearch {
 public:
-    static constexpr std::chrono::milliseconds kPause{
-        500}; // between the end of a look and the next
+    // Pause between two searches.
+    static constexpr std::chrono::milliseconds kPause{500};
 
     SerialSearch(const SerialTransportSettings &settings, std::string owner);
-    // A look that is under way is broken off.
+    // Interrupts a search in progress.
     ~SerialSearch();
     SerialSearch(const SerialSearch &) = delete;
     SerialSearch &operator=(const SerialSearch &) = delete;
 
-    // Never waits. The open device, once; null: not found yet. Nobody in this process owns it then.
+    // Returns the open device once; null while none is found. The port then has no owner in this
+    // process. Never waits.
     [[nodiscard]] std::unique_ptr<SerialTransport> take();
-    // Never waits. Why the newest look failed. False: no look has ended since the last call.
+    // Returns the reason why the last search failed. Returns false when no search has ended since
+    // the last call. Never waits.
     [[nodiscard]] bool take_failure(Status &status, std::string &problem);
 
 private:
@@ -45,9 +48,9 @@ private:
     const SerialTransportSettings settings_;
     const std::string owner_;
     std::atomic<bool> stop_{false};
-    std::mutex mutex_; // all below
+    std::mutex mutex_; // guards all members below
     std::condition_variable wake_;
-    DeviceClaim claim_; // of found_
+    DeviceClaim claim_; // claim of found_
     std::unique_ptr<SerialTransport> found_;
     bool failed_ = false;
     Status status_ = Status::ok;

@@ -29,7 +29,7 @@ namespace {
 
 constexpr int kStart_ms = 500;
 constexpr int kEnd_ms = 500;
-constexpr int kOutOfTheWay = 64; // descriptors from here on do not meet those of the guard
+constexpr int kOutOfTheWay = 64; // descriptors from here on do not collide with the guard's
 
 std::string hexadecimal(BoardBytes bytes) {
     constexpr const char *kDigits = "0123456789abcdef";
@@ -41,7 +41,7 @@ std::string hexadecimal(BoardBytes bytes) {
     return text;
 }
 
-// Closed at its end.
+// Closes the descriptor in its destructor.
 struct Descriptor {
     int number = -1;
     Descriptor() = default;
@@ -54,8 +54,8 @@ struct Descriptor {
     Descriptor &operator=(const Descriptor &) = delete;
 };
 
-// A game that was exported or unpacked may have lost the mark that makes a file a program: then a copy in memory is
-// started, which has it. Empty: there is no such file.
+// An exported or unpacked game may have lost the file's executable flag: then a copy in memory,
+// which has the flag, is started. Returns an empty string when there is no such file.
 std::string startable(const std::string &program, Descriptor &copy) {
     if (access(program.c_str(), X_OK) == 0) {
         return program;
@@ -77,7 +77,8 @@ int moved_away(int descriptor) {
     return fcntl(descriptor, F_DUPFD_CLOEXEC, kOutOfTheWay);
 }
 
-// Its own group, so that Ctrl-C in the game's terminal does not end it before the game; signals as they are at a start.
+// The guard has its own process group, so that Ctrl-C in the game's terminal does not end it before
+// the game, and default signals.
 int spawn(const std::string &program, const std::string &off, int port, int socket) {
     const std::array<int, 2> given = {moved_away(port), moved_away(socket)};
     posix_spawn_file_actions_t files{};
@@ -157,7 +158,7 @@ void PortGuard::end() noexcept {
         }
         usleep(1000);
     }
-    (void)kill(process_, SIGKILL); // it hangs, so it guards nothing
+    (void)kill(process_, SIGKILL); // it hangs and guards nothing
     (void)waitpid(process_, nullptr, 0);
     process_ = -1;
 }

@@ -1,5 +1,5 @@
-// The guard: a small process beside this one that holds the port too, and sends "no current" when this process dies, hangs
-// or is stopped. The boards hold their last current for ever, so nothing else would. Linux only.
+// The guard: a small process that also holds the port, and sends zero currents when this process
+// dies, hangs or is stopped. Without a guard the boards would keep their last currents. Linux only.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace spidar {
 
 class PortGuard {
 public:
-    // A guard that does not answer for so long is lost (unit: ns).
+    // Silence after which a guard counts as lost (unit: ns).
     static constexpr std::int64_t kSilent_ns = 40'000'000;
 
     PortGuard() = default;
@@ -20,18 +20,20 @@ public:
     PortGuard(const PortGuard &) = delete;
     PortGuard &operator=(const PortGuard &) = delete;
 
-    // Starts `program` with this port and the bytes that bring all currents to zero. May wait for half a second. Empty when
-    // it runs and answers; else one sentence. Not while beat() runs in another thread.
+    // Starts `program` with this port and the bytes that set all currents to zero. Returns an empty
+    // string when the guard runs and answers, else one sentence. May wait for half a second. Must
+    // not run while beat() runs.
     [[nodiscard]] std::string start(const std::string &program, int port, BoardBytes off);
-    // The guard zeroes the currents once more and ends.
+    // The guard sets the currents to zero once more and ends.
     void end() noexcept;
 
-    // Once a write, from the writer thread: this process lives. Never waits.
+    // Signals that this process is alive. Writer thread, once per write; never waits.
     void beat(std::int64_t now_ns) noexcept;
-    // From any thread.
+    // Called from any thread.
     [[nodiscard]] bool alive() const noexcept { return alive_.load(std::memory_order_acquire); }
     [[nodiscard]] int process() const noexcept { return process_.load(); }
-    // It had to zero the currents since the last call: this process was silent. From beat()'s thread.
+    // Returns true when, since the last call, the guard set the currents to zero because this
+    // process was silent. Called from beat()'s thread.
     bool take_tripped() noexcept {
         const bool tripped = tripped_;
         tripped_ = false;
@@ -46,14 +48,14 @@ private:
     std::int64_t answered_ns_ = 0;
 };
 
-// The guard's file. The libraries for both processors of Linux lie in one folder, and so do their guards.
+// File name of the guard. One folder holds the libraries and guards of both Linux processors.
 #if defined(__aarch64__)
 inline constexpr char kGuardFile[] = "spidar_g_guard.arm64";
 #else
 inline constexpr char kGuardFile[] = "spidar_g_guard.x86_64";
 #endif
 
-// The path of kGuardFile in the folder of the library or program that this code is linked into.
+// Returns the path of kGuardFile beside the library or program that contains this code.
 [[nodiscard]] std::string guard_beside_library();
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// What Linux tells of serial ports in /sys: their USB bridges' names, and the latency timer of FTDI's.
+// Serial ports of Linux in /sys: names of their USB bridges, and the latency timer of FTDI bridges.
 #include "device/serial/serial_port.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLevelsToBridge = 4; // from a port's device up to the USB device that it is part of
+constexpr int kLevelsToBridge = 4; // from a port's device up to its USB device
 constexpr int kShort_ms = 1;
 
 std::string first_line(const fs::path &file) {
@@ -33,7 +33,7 @@ std::string latency_file(const std::string &path, const std::string &sys) {
     return sys + "/class/tty/" + name.string() + "/device/latency_timer";
 }
 
-// -1: it does not say.
+// Returns -1 when the timer is unknown.
 int latency_ms(const std::string &file) {
     std::ifstream input(file);
     int value = -1;
@@ -45,7 +45,7 @@ void ask_for_low_latency(int descriptor) {
     serial_struct settings{};
     if (descriptor >= 0 && ioctl(descriptor, TIOCGSERIAL, &settings) == 0) {
         settings.flags |= ASYNC_LOW_LATENCY;
-        (void)ioctl(descriptor, TIOCSSERIAL, &settings); // the file tells whether it worked
+        (void)ioctl(descriptor, TIOCSSERIAL, &settings); // the file shows whether this worked
     }
 #else
     (void)descriptor;
@@ -121,7 +121,7 @@ BridgeLatency shorten_latency(const std::string &path, int descriptor, std::stri
         ask_for_low_latency(descriptor);
     }
     if (latency_ms(file) > kShort_ms) {
-        std::ofstream output(file); // for those who may
+        std::ofstream output(file); // needs write access
         output << kShort_ms;
     }
     const int now_ms = latency_ms(file);

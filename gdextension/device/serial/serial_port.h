@@ -12,13 +12,13 @@
 namespace spidar {
 
 struct SerialPortInfo {
-    std::string path;    // of the system: /dev/ttyUSB0
-    std::string product; // of the USB bridge, as it says itself; empty where there is none
-    std::string serial;  // the same
+    std::string path;    // system path, such as /dev/ttyUSB0
+    std::string product; // product string of the USB bridge; empty without one
+    std::string serial;  // serial number of the USB bridge; empty without one
     bool usb = false;
 };
 
-// One thread at a time; another thread takes another(). Closed by its destructor.
+// An open port; the destructor closes it. Each thread uses a handle of its own (another()).
 class SerialPort {
 public:
     SerialPort() = default;
@@ -26,44 +26,46 @@ public:
     SerialPort &operator=(const SerialPort &) = delete;
     virtual ~SerialPort() = default;
 
-    // What has come in: the number of bytes, 0 when none comes within the time (0: no waiting), -1 when the port is gone.
+    // Reads received bytes. Returns their number, 0 when none arrive within timeout_ms (0: no
+    // waiting), or -1 when the port is gone.
     virtual int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept = 0;
-    // False: the port is gone, or it took the bytes only in part within the time.
+    // Returns false when the port is gone or did not take all bytes within timeout_ms.
     virtual bool write(std::span<const std::uint8_t> bytes, int timeout_ms) noexcept = 0;
-    // A second handle on the same port; null on failure.
+    // Returns a second handle on the same port; null on failure.
     virtual std::unique_ptr<SerialPort> another() noexcept = 0;
-    // What a process started from here inherits; -1 where it cannot.
+    // Returns the descriptor that a child process inherits; -1 where there is none.
     [[nodiscard]] virtual int descriptor() noexcept = 0;
 };
 
-// Opens the port for this process alone, raw, with eight bits, no parity and no flow control. Null on failure: `status` is
-// no_device, no_permission, device_in_use or open_failed, and `problem` a sentence with a remedy.
+// Opens the port for this process alone, raw, with eight bits, no parity and no flow control. On
+// failure returns null, with no_device, no_permission, device_in_use or open_failed in `status`,
+// and a sentence with a remedy in `problem`.
 [[nodiscard]] std::unique_ptr<SerialPort>
 open_serial_port(const std::string &path, std::uint32_t baud, Status &status, std::string &problem);
 
-// All serial ports now there, those of USB bridges first. The folders are the system's unless a test brings its own.
-// Empty on systems other than Linux: there a port is given by its name.
+// Lists all serial ports, those of USB bridges first. sys and dev: system folders, which tests
+// replace. Returns an empty list on systems other than Linux, where the port must be given by name.
 [[nodiscard]] std::vector<SerialPortInfo> list_serial_ports(const std::string &sys = "/sys",
                                                             const std::string &dev = "/dev");
-// Under which the boards on a port are known, as Transport::device_name().
+// Returns the name of the boards on a port, as in Transport::device_name().
 [[nodiscard]] inline std::string serial_device_name(const std::string &path) {
     return "serial:" + path;
 }
-// `wanted`, or if that is empty the only port of a USB bridge. no_device, invalid_settings: none, or several; `problem` names
-// them.
+// Sets `path` to `wanted` or, if `wanted` is empty, to the only port of a USB bridge. Returns
+// no_device for none and invalid_settings for several; `problem` then lists them.
 [[nodiscard]] Status choose_serial_port(const std::string &wanted, std::string &path,
                                         std::string &problem, const std::string &sys = "/sys",
                                         const std::string &dev = "/dev");
-// "FT232R (serial A50285BI) at /dev/ttyUSB0".
+// Returns "FT232R (serial A50285BI) at /dev/ttyUSB0".
 [[nodiscard]] std::string describe(const SerialPortInfo &port);
 
-// How long a USB bridge keeps what it received before it sends it on.
+// How long a USB bridge holds received bytes before it sends them on.
 enum class BridgeLatency : std::uint8_t {
-    not_known, // no bridge that says so
-    short_one, // 1 ms, now or before
-    long_one,  // and it cannot be set: `problem` says how
+    not_known, // no bridge that reports it
+    short_one, // 1 ms, set now or before
+    long_one,  // longer, and it cannot be set: `problem` holds the remedy
 };
-// descriptor: of the open port, -1: none.
+// Sets the latency to 1 ms. descriptor: of the open port; -1: none.
 [[nodiscard]] BridgeLatency shorten_latency(const std::string &path, int descriptor,
                                             std::string &problem, const std::string &sys = "/sys");
 

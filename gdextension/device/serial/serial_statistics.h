@@ -1,4 +1,4 @@
-// What a serial link has gone through: counted by the threads that use it, read by any.
+// Counters of a serial link: written by the threads that use the link, read by any thread.
 #pragma once
 
 #include <atomic>
@@ -8,23 +8,23 @@
 
 namespace spidar {
 
-// Each only grows, over all plug-ins; but `lost` falls again by what comes late.
+// Counters over all plug-ins. They only grow, except `lost`, which a late answer lowers.
 template <typename Count>
 struct SerialCountersOf {
-    Count asked{0};         // rounds of CURRENT sent to all boards
-    Count rounds{0};        // answered in full, and believed
-    Count lost{0};          // rounds that were not
-    Count superseded{0};    // readings not acted on: a newer one was there
+    Count asked{0};         // rounds of CURRENT commands sent to all boards
+    Count rounds{0};        // rounds answered in full and accepted
+    Count lost{0};          // rounds not answered in full
+    Count superseded{0};    // readings not used: a newer one was there
     Count bytes{0};         // received
-    Count garbage_bytes{0}; // belonged to no reply that was believed
-    Count implausible{0};   // whole replies with counts that no string makes
-    Count damaged{0};       // cut short, run together, or in pieces
+    Count garbage_bytes{0}; // bytes that belong to no accepted reply
+    Count implausible{0};   // complete replies with impossible counts
+    Count damaged{0};       // incomplete, run together, or in pieces
     Count unasked{0};
-    Count postponed{0}; // commands left out because the wire was still busy with the one before
+    Count postponed{0}; // commands dropped because the wire was still busy
     Count write_failures{0};
-    Count losses{0};       // unplugged, or failed as if
-    Count replugs{0};      // found again
-    Count guard_trips{0};  // the guard zeroed the currents: this process was silent
+    Count losses{0};       // device unplugged or failed
+    Count replugs{0};      // device found again
+    Count guard_trips{0};  // the guard set currents to zero: this process was silent
     Count guard_losses{0}; // the guard died or hung
 };
 using SerialCounters = SerialCountersOf<std::uint64_t>;
@@ -34,7 +34,7 @@ public:
     static void add(std::atomic<std::uint64_t> &counter, std::uint64_t count = 1) noexcept {
         counter.fetch_add(count, std::memory_order_relaxed);
     }
-    // What the reader counted since `before`, which becomes `now`. From the reader's thread.
+    // Adds the reader's counts since `before`, then sets `before` to `now`. Reader's thread only.
     void take(const ReplyCounters &now, ReplyCounters &before) noexcept {
         add(rounds, now.rounds - before.rounds);
         add(bytes, now.bytes - before.bytes);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr auto kWatch = std::chrono::milliseconds(100);
 constexpr auto kHangingWritePoll = std::chrono::milliseconds(1);
-// Less than the guard's patience, and far more than a command takes to be put together.
+// Longest delay of a pulling command after the guard's answer: less than the guard's patience, and
+// far more than composing a command takes.
 constexpr std::int64_t kHeldUp_ns = 10'000'000;
 constexpr int kFirstRounds = 50; // ten times what a good line needs
 constexpr auto kFirstRound = std::chrono::milliseconds(2);
@@ -35,7 +36,7 @@ SerialTransport::Impl::borrow(std::shared_ptr<SerialPort> BoardSession::*which) 
             boards_of(motors, session.boards)};
 }
 
-// Only after the link has changed, so that the loop meets no lock.
+// Borrows only when the link has changed, so that the loop takes no lock.
 void SerialTransport::Impl::refresh(
     Borrowed &mine, std::uint32_t &link_seen,
     std::shared_ptr<SerialPort> BoardSession::*which) const noexcept {
@@ -46,7 +47,7 @@ void SerialTransport::Impl::refresh(
     try {
         mine = borrow(which);
         link_seen = link;
-    } catch (const std::exception &) { // no memory: as good as unplugged, until the next cycle
+    } catch (const std::exception &) { // no memory: treated as unplugged until the next cycle
         mine.port.reset();
     }
 }
@@ -90,7 +91,7 @@ Status SerialTransport::Impl::connect(const std::string &path, const std::atomic
     return Status::ok;
 }
 
-// From the controlling thread before the watcher runs, then from the watcher.
+// Called from the controlling thread before the watcher runs, then from the watcher.
 void SerialTransport::Impl::start_guard() {
     const Borrowed mine = borrow(&BoardSession::writer);
     if (mine.port) {
@@ -100,7 +101,7 @@ void SerialTransport::Impl::start_guard() {
     }
 }
 
-// Looks for the device while it is gone, and for a guard while there is none.
+// Looks for the device while it is lost, and starts a guard while there is none.
 void SerialTransport::Impl::watch() {
     std::string why;
     std::unique_lock<std::mutex> lock(mutex);
@@ -114,7 +115,7 @@ void SerialTransport::Impl::watch() {
         lock.unlock();
         try {
             if (reconnects) {
-                guard.end(); // it holds the port that is gone, and nobody else may open it
+                guard.end(); // it holds the lost port, which nobody else could open
                 if (usable(connect(path, stop_watcher, why))) {
                     SerialStatistics::add(statistics.replugs);
                     start_guard();
@@ -122,7 +123,7 @@ void SerialTransport::Impl::watch() {
             } else if (guard.is_wanted()) {
                 start_guard();
             }
-        } catch (const std::exception &) { // no memory: the next look may have some
+        } catch (const std::exception &) { // no memory: tried again at the next search
             why.clear();
         }
         lock.lock();
@@ -161,7 +162,8 @@ Status SerialTransport::open_unless(const std::atomic<bool> &give_up) noexcept {
         m.stop_watcher = false;
         m.is_open.store(true);
         m.watcher = std::thread([&m] { m.watch(); });
-        // A loop that begins without a reading would take the counts of a device that it has not heard for zeroed.
+        // A loop that starts without a reading would take the counts of an unknown device as
+        // zeroed.
         for (int i = 0; i < kFirstRounds && !m.first_waits && !give_up.load(); ++i) {
             (void)write(DriveCommand());
             std::this_thread::sleep_for(kFirstRound);
@@ -186,7 +188,7 @@ void SerialTransport::keep_asking() noexcept {
     }
     (void)write(DriveCommand());
     m.first_waits = false;
-    (void)read(m.first); // untouched when nothing came
+    (void)read(m.first); // unchanged when nothing came
     m.first_waits = true;
 }
 
@@ -219,7 +221,7 @@ void SerialTransport::Impl::fill(DeviceReading &reading) noexcept {
             replies.count(reader.board_of[i], static_cast<std::size_t>(motor.motor));
         reading.counts[i] = motor.count_sign < 0 ? -count : count;
     }
-    reading.device_time_us = 0; // the boards have no clock that they tell
+    reading.device_time_us = 0; // the boards report no clock
     reading.sequence =
         static_cast<std::uint16_t>((replies.counters().rounds + lost_seen) % kSequences);
     reading.buttons = 0;
@@ -229,7 +231,7 @@ void SerialTransport::Impl::fill(DeviceReading &reading) noexcept {
             reading.sensors[sensor++] = replies.force(board, i);
         }
     }
-    reading.zeroed = false; // their counts begin anywhere
+    reading.zeroed = false; // the counts have an arbitrary origin
     reading.device_status = guard.allows() ? Status::ok : Status::device_watchdog;
     reading.fault_strings = 0;
 }
@@ -270,11 +272,11 @@ Status SerialTransport::read(DeviceReading &reading) noexcept {
         }
     }
     m.statistics.take(m.replies.counters(), m.replies_seen);
-    // What comes late after all is not lost; the sequence of readings has told its gap by then.
+    // Late answers are not lost; the sequence of readings has already reported the gap.
     const std::uint64_t lost = m.replies.lost(m.asked_seen);
     m.statistics.lost.store(m.lost_before + lost, std::memory_order_relaxed);
     m.lost_seen = std::max(m.lost_seen, lost);
-    if (m.replies.reference_lost(now_us)) { // silent for too long, or a board began anew
+    if (m.replies.reference_lost(now_us)) { // silent for too long, or a board restarted
         m.lose(m.reader.session);
         return Status::read_failed;
     }
@@ -298,7 +300,8 @@ Status SerialTransport::Impl::send(const DriveCommand &command) noexcept {
     const std::int64_t now_ns = monotonic_ns();
     guard.beat(now_ns, last_pulled);
     const bool pull = may_pull(command);
-    // Only what changes nothing for the worse waits for the wire: never the command that stops the pull.
+    // Only commands that change nothing for the worse wait for the wire: never one that stops the
+    // pull.
     if (now_ns < wire_free_ns && pull == last_pulled) {
         SerialStatistics::add(statistics.postponed);
         return Status::ok;
@@ -309,7 +312,8 @@ Status SerialTransport::Impl::send(const DriveCommand &command) noexcept {
     if (!frame.whole()) {
         return Status::write_failed;
     }
-    // Stopped and continued between the guard's word and here: the guard has zeroed the currents meanwhile.
+    // The process may have been stopped and continued since the guard's answer: then the guard has
+    // set the currents to zero.
     if (pull && monotonic_ns() - now_ns > kHeldUp_ns) {
         SerialStatistics::add(statistics.postponed);
         return Status::ok;
@@ -331,7 +335,7 @@ Status SerialTransport::Impl::send(const DriveCommand &command) noexcept {
 Status SerialTransport::write(const DriveCommand &command) noexcept {
     Impl &m = *impl_;
     if (m.write_busy.exchange(true, std::memory_order_acq_rel)) {
-        return Status::write_failed; // under way in another thread
+        return Status::write_failed; // a write runs in another thread
     }
     m.refresh(m.writer, m.link_written, &BoardSession::writer);
     Status status = Status::ok;
@@ -363,7 +367,7 @@ double SerialTransport::highest_rate_hz() const {
     return spidar::highest_rate_hz(boards(), impl_->settings.baud);
 }
 
-// The answer waits for the loop's next cycle. What is made of it then has to go through the wire.
+// The answer waits for the loop's next cycle, and the command computed from it must pass the wire.
 double SerialTransport::latency_s(double rate_hz) const {
     const std::lock_guard<std::mutex> lock(impl_->mutex);
     const double trip_s = impl_->session.round_trip_s;

@@ -1,8 +1,9 @@
-// A SPIDAR behind serial motor boards (docs/reference/serial_boards.md): one to eight of them on a bus of 2 Mbit/s. read() is for the
-// servo loop's thread and never waits; write() waits no longer than kLongestWrite_ms and may run in a thread of its own.
-// Each write asks all boards and gives them their currents; the next read finds the counts that they answered with. The
-// motors pull only while a guard runs that switches them off when this process dies. A device that is unplugged is looked
-// for every 100 ms; its counts are never zeroed.
+// A SPIDAR behind one to eight serial motor boards on a bus of 2 Mbit/s
+// (docs/reference/serial_boards.md). read() belongs to the servo loop's thread and never waits.
+// write() waits at most kLongestWrite_ms and may run in a second thread. Each write sends currents
+// to all boards, and the next read returns the counts that they answered with. The motors pull only
+// while a guard runs, which switches them off when this process dies. An unplugged device is looked
+// for every 100 ms. The counts are never zeroed by the device.
 #pragma once
 
 #include <atomic>
@@ -19,15 +20,17 @@
 namespace spidar {
 
 struct SerialTransportSettings {
-    std::string port; // of the system; empty: the only port of a USB bridge
+    std::string port; // system path; empty: the only port of a USB bridge
     std::uint32_t baud = kBoardBaud;
-    bool motors_in_order = true; // then only the signs of `motors` count; else it is the table
+    // True: boards and motors in order, `motors` gives only signs. False: `motors` is the table.
+    bool motors_in_order = true;
     SerialMotorTable motors{};
-    double units_per_a = kUsualUnitsPerAmpere; // of the boards' currents
-    int most_units =
-        1024; // B5M: 100 % of its driver's reference. It keeps no limit of its own in this mode.
+    double units_per_a = kUsualUnitsPerAmpere; // board units of current per ampere
+    // Largest current in board units. A B5M has no limit of its own in this mode; 1024 is 100 % of
+    // its driver's reference.
+    int most_units = 1024;
     CountLimits counts;
-    std::string guard; // its program; empty: beside the add-on's library
+    std::string guard; // path of its program; empty: beside the add-on's library
 };
 
 class SerialTransport final : public Transport {
@@ -37,36 +40,37 @@ public:
     explicit SerialTransport(const SerialTransportSettings &settings);
     ~SerialTransport() override;
 
-    // no_device, no_permission, device_in_use, protocol_mismatch, invalid_settings, open_failed. One that was opened and
-    // not read yet stays open. Opens without a guard too:
-    // then readings come, and say device_watchdog, so that nothing arms.
+    // Returns no_device, no_permission, device_in_use, protocol_mismatch, invalid_settings or
+    // open_failed. Does nothing to a device that was opened and not read yet. Without a guard the
+    // device opens too: readings then report device_watchdog, so that nothing arms.
     Status open() noexcept override;
-    // The same; ends early with open_failed once another thread sets `give_up`.
+    // Like open(); ends early with open_failed once another thread sets `give_up`.
     Status open_unless(const std::atomic<bool> &give_up) noexcept;
-    // Between open() and the first read(): asks the boards once, so that they are not taken for lost, and keeps what
-    // they answer for that read().
+    // Called between open() and the first read(): asks the boards once, so that they do not count
+    // as lost, and keeps the answer for read().
     void keep_asking() noexcept;
     void close() noexcept override;
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     [[nodiscard]] bool write_may_block() const noexcept override { return true; }
     [[nodiscard]] std::string device_name() const override;
-    // As chosen; empty while it is not open.
+    // The chosen port; empty while not open.
     [[nodiscard]] std::string port() const;
 
-    // From the controlling thread.
+    // Called from the controlling thread, like the functions up to guard_process().
     [[nodiscard]] std::vector<BoardLayout> boards() const;
-    // How often the wire lets all boards be asked (unit: Hz). A loop that is faster leaves commands out, and counts them.
+    // Highest rate that the wire allows (unit: Hz). A faster loop drops commands and counts them.
     [[nodiscard]] double highest_rate_hz() const;
-    // From counts being taken to the currents made from them acting, for a loop of this rate (unit: s). Measured whenever the
-    // boards are found; 0 while it is not known.
+    // Estimated time from the sampling of counts to the currents computed from them, for a loop of
+    // rate_hz (unit: s). Measured whenever the boards are found; 0 while unknown.
     [[nodiscard]] double latency_s(double rate_hz) const;
-    // Why open() failed; empty after a success.
+    // Returns why open() failed; empty after a success.
     [[nodiscard]] std::string problem() const;
-    // What works, but not as it should: no guard, a slow bridge, encoders that are not read. Empty: nothing.
+    // Returns problems that do not prevent operation: no guard, a slow bridge, encoders that are
+    // not read. Empty: none.
     [[nodiscard]] std::string remarks() const;
-    [[nodiscard]] int guard_process() const noexcept; // -1: none
-    // From any thread.
+    [[nodiscard]] int guard_process() const noexcept; // -1: no guard
+    // Called from any thread.
     [[nodiscard]] SerialCounters counters() const noexcept;
 
 private:

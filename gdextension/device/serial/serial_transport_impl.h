@@ -1,4 +1,4 @@
-// The inside of SerialTransport: what its threads (reader, writer, watcher, controlling thread) share and what is theirs.
+// Shared and private state of SerialTransport's threads: reader, writer, watcher, controlling.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@ namespace spidar {
 struct SerialTransport::Impl {
     explicit Impl(const SerialTransportSettings &settings_in) : settings(settings_in) {}
 
-    // What a thread works with, of the present plug-in; null handles when there is none.
+    // Handles and boards of the present plug-in for one thread; null handles without a plug-in.
     struct Borrowed {
         std::shared_ptr<SerialPort> port;
         std::uint32_t session = 0;
         std::vector<BoardLayout> boards;
         SerialMotorTable motors{};
-        std::array<std::size_t, kStringCount> board_of{}; // each string's place in `boards`
+        std::array<std::size_t, kStringCount> board_of{}; // each string's index into `boards`
     };
     [[nodiscard]] Borrowed borrow(std::shared_ptr<SerialPort> BoardSession::*which) const;
     void refresh(Borrowed &mine, std::uint32_t &link_seen,
@@ -40,15 +40,16 @@ struct SerialTransport::Impl {
     void fill(DeviceReading &reading) noexcept;
 
     const SerialTransportSettings settings;
-    std::string problem; // the controlling thread's own
+    std::string problem; // used by the controlling thread
 
-    // Held only to copy or swap; ports are closed outside, by whoever drops the last reference.
+    // Locked only to copy or swap. A port handle's last owner closes the port without the lock.
     mutable std::mutex mutex;
     BoardSession session;
     SerialMotorTable motors{};
     std::string guard_remark;
     std::uint32_t session_number = 0;
-    std::atomic<std::uint32_t> link_number{0}; // counts connects and losses: when to borrow anew
+    // Counts connects and losses: a change means that threads must borrow again.
+    std::atomic<std::uint32_t> link_number{0};
     bool connected = false;
     std::atomic<bool> stop_watcher{false};
     std::condition_variable wake;
@@ -57,21 +58,21 @@ struct SerialTransport::Impl {
 
     SerialStatistics statistics;
     GuardLink guard{statistics};
-    std::atomic<std::uint64_t> asked{0}; // rounds of this session
+    std::atomic<std::uint64_t> asked{0}; // rounds requested in this session
 
-    // Reader's own.
+    // Used by the reader.
     Borrowed reader;
     std::uint32_t link_read = 0;
     std::uint32_t session_read = 0;
     ReplyReader replies;
     ReplyCounters replies_seen;
     std::uint64_t lost_seen = 0;
-    std::uint64_t lost_before = 0; // in earlier sessions
+    std::uint64_t lost_before = 0; // rounds lost in earlier sessions
     std::uint64_t asked_seen = 0;
-    DeviceReading first; // that open() heard
+    DeviceReading first; // reading that open() received
     bool first_waits = false;
 
-    // Writer's own.
+    // Used by the writer.
     std::atomic<bool> write_busy{false};
     Borrowed writer;
     std::uint32_t link_written = 0;

@@ -10,7 +10,7 @@ namespace {
 struct GainName {
     const char *name;
     const char *unit;
-    const char *setting; // that lifts the cap
+    const char *setting; // the setting that raises the cap
 };
 
 // In the order of GainClamp::Gain.

@@ -1,4 +1,4 @@
-// Why a gain was brought down: what was asked, what is given instead, and what set the limit.
+// Report of a gain that was clamped: the requested value, the value used and what set the limit.
 #pragma once
 
 #include <cmath>
@@ -20,28 +20,32 @@ struct GainClamp {
         grasp_stiffness = 5, // N m/rad of grasp_angle
         grasp_damping = 6,   // N m s/rad of grasp_angle
         friction = 7,
-        speed = 8,   // m/s or rad/s, of a plane or proxy
-        force = 9,   // N or N m, of a vibration
-        wrench = 10, // the whole request, scaled: `asked` and `given` in parts of it
+        speed = 8, // speed of a plane or proxy, m/s or rad/s
+        force = 9, // force of a vibration, N or N m
+        // The whole request was scaled; `asked` and `given` are relative to it.
+        wrench = 10,
     };
     enum class Request : std::uint8_t { contact, coupling, effect, wrench };
 
     Gain gain = Gain::none;
     Request request = Request::contact;
-    bool from_latency = false; // latency and rate set the limit, not a setting
-    std::int32_t index = 0;    // contact, effect or DOF
+    // The latency and rate of the loop, not a setting, set the limit.
+    bool from_latency = false;
+    std::int32_t index = 0; // of the contact, effect or DOF
+    // Requested value.
     double asked = 0.0;
+    // Value used instead.
     double given = 0.0;
 
     explicit operator bool() const noexcept { return gain != Gain::none; }
 };
 
-// What no hand can use more of, whatever the settings: a Coulomb coefficient, and the speed of a surface. A faster one is a
-// mistake of the physics engine.
+// Largest Coulomb coefficient, whatever the settings: no hand can use more.
 inline constexpr double kMaxFriction = 10.0;
+// Largest speed of a surface in any settings: a faster one is an error of the physics engine.
 inline constexpr double kMaxSurfaceSpeed_m_s = 10.0;
 
-// Brings |value| down to the cap and notes it; the first note of a request stands.
+// Returns `value` clamped to +-cap. Records the first clamped gain of a request in `clamp`.
 inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_t index,
                      bool from_latency, GainClamp &clamp) noexcept {
     if (std::abs(value) <= cap) {
@@ -57,7 +61,7 @@ inline double capped(double value, double cap, GainClamp::Gain gain, std::int32_
     return std::copysign(cap, value);
 }
 
-// The cap of a gain in one DOF (0-2: x, y, z; 3-5: turns; 6: grasp), and the gain's name there.
+// Largest gain in one DOF (0-2: x, y, z; 3-5: turns; 6: grasp) and the kind of that gain.
 struct DofCap {
     double most = 0.0;
     GainClamp::Gain gain = GainClamp::Gain::none;
@@ -77,11 +81,12 @@ struct DofCap {
                    : DofCap{caps.grasp_damping_nm_s_rad, GainClamp::Gain::grasp_damping};
 }
 
-// One sentence: what was asked, what is given, why, and the remedy. Empty when nothing was clamped. Allocates.
+// Returns one sentence with the requested value, the value used, the reason and the remedy. Empty
+// when nothing was clamped. Allocates.
 [[nodiscard]] std::string describe(const GainClamp &clamp, const RenderSettings &settings,
                                    double rate_hz);
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] inline bool is_sound(const GainClamp &clamp) noexcept {
     return are_flags(clamp.from_latency) && is_one_of(clamp.gain, GainClamp::Gain::wrench) &&
            is_one_of(clamp.request, GainClamp::Request::wrench);

@@ -8,10 +8,10 @@ namespace spidar {
 
 namespace {
 
-// Mean delay of a first-order motor current, as measured amplifiers have it.
+// Mean delay of the motor current, first order, as in measured amplifiers.
 constexpr double kCurrentLag_s = 0.0005;
-// stiffness * (latency + half a period + current lag) may be this much: two thirds of what tests/stress/
-// stiffness_limit finds stable in every hand at latencies of 0.25 to 2 ms.
+// Limit of stiffness * (latency + half a period + current lag): two thirds of what
+// tests/stress/stiffness_limit finds stable in every hand at latencies of 0.25 to 2 ms.
 constexpr double kStableProduct_n_s_m = 2.4;
 constexpr double kStableTurnProduct_nm_s_rad = 4.8e-3;
 constexpr double kStableGraspProduct_nm_s_rad = 1.2e-3;

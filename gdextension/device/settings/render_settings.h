@@ -1,4 +1,4 @@
-// How requests become a wrench: the device's own resonance and delay, and the largest gains that they allow.
+// How requests become a wrench: resonance and delay of the device, and the gain limits they set.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 namespace spidar {
 
 struct RenderSettings {
-    // Resonance of the motors' rotors against the grip on the elastic strings: a little more than
-    // sqrt(EA / (length * rotor mass)) / (2 pi), EA the stiffness of a string (N per unit of strain). This frequency is
-    // taken out of the motion that contacts and coupling see. 0 switches the filter off.
+    // Resonance of the motors' rotors against the grip on the elastic strings, somewhat above
+    // sqrt(EA / (length * rotor mass)) / (2 pi), where EA is the axial stiffness of a string (N). A
+    // filter removes this frequency from the motion that contacts and coupling use. 0: no filter.
     double string_resonance_hz = 112.0;
-    double velocity_cutoff_hz = 300.0; // of the velocity that damping uses
-    // Contacts and coupling use the pose predicted this far ahead, to make up for the delays of the link, of commands that
-    // are held for a cycle, of the motors and of the filter.
+    double velocity_cutoff_hz = 300.0; // of the velocity for damping
+    // Time by which the pose is predicted for contacts and coupling. It compensates the delays of
+    // the link, the hold of one cycle, the motors and the filter.
     double delay_compensation_s = 0.003;
 
-    // What the caps are made from: from an encoder's edge to the motor's current.
+    // Time from encoder edge to motor current. The caps below are lowered according to it.
     double latency_s = 0.001;
-    bool caps_from_latency = true; // false: the caps below alone, for those who measure limits
-    // Caps of one contact's or coupling's stiffness; the effective one is lower where latency and rate ask for it.
+    bool caps_from_latency = true; // false: only the caps below apply, for measuring limits
+    // Largest stiffness of one contact or coupling. Latency and rate may lower it further.
     double max_stiffness_n_m = 2000.0;
     double max_turn_stiffness_nm_rad = 3.0;
     double max_grasp_stiffness_nm_rad = 0.75; // per radian of grasp_angle
@@ -28,19 +28,19 @@ struct RenderSettings {
     double max_turn_damping_nm_s_rad = 0.01;
     double max_grasp_damping_nm_s_rad = 0.003;
 
-    // The controller of the coupling: greatest damping it adds, in parts of the caps of damping. 0: off.
+    // Largest damping of the coupling's passivity controller over the damping caps. 0: off.
     double passivity_share = 2.0;
 
-    // Calibrated options, off by default. The grip's weight is held up by a force of the strings.
+    // Mass of the grip whose weight the strings carry. Off by default; needs a measurement.
     double compensated_mass_kg = 0.0;
     Vec3 gravity_m_s2{0.0, -9.80665, 0.0};
-    // Taken off the tension of a string that is paid out, added to one that is wound in. A share below 1 of what
-    // was measured: a friction that is more than compensated would push by itself.
+    // Compensated motor friction: subtracted from the tension of a string that pays out, added when
+    // it winds in. Must stay below the measured friction, or the grip moves by itself.
     double compensated_friction_n = 0.0;    // Coulomb
-    double compensated_viscous_n_s_m = 0.0; // rotor and back-EMF
+    double compensated_viscous_n_s_m = 0.0; // of rotor and back-EMF
 };
 
-// Largest stable gains for a loop of this latency and rate, never above the settings' caps.
+// Largest stable gains for a loop of this latency and rate; never above the settings' caps.
 struct GainCaps {
     double stiffness_n_m = 0.0;
     double turn_stiffness_nm_rad = 0.0;
@@ -48,11 +48,12 @@ struct GainCaps {
     double damping_n_s_m = 0.0;
     double turn_damping_nm_s_rad = 0.0;
     double grasp_damping_nm_s_rad = 0.0;
-    bool from_latency = false; // latency and rate, not the settings, are the limit of the stiffness
+    // The latency and rate, not the settings, limit the stiffness.
+    bool from_latency = false;
 };
 [[nodiscard]] GainCaps gain_caps(const RenderSettings &settings, double rate_hz) noexcept;
 
-// Empty when usable; else one sentence naming the field, the value, the unit and the remedy.
+// Returns an empty string when usable, else one sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const RenderSettings &settings);
 
 } // namespace spidar

@@ -11,7 +11,7 @@ namespace spidar {
 namespace {
 
 std::string validate_safety(const SafetySettings &safety) {
-    // Upper ends: what still protects a hand; lower ends: what still works.
+    // Upper ends still protect a hand; lower ends still work.
     const ValueRange ranges[] = {
         {"safety.arming_time_s", safety.arming_time_s, "s", 0.001, 60.0},
         {"safety.tension_slew_n_per_ms", safety.tension_slew_n_per_ms, "N/ms", 0.001, 100.0},
@@ -67,7 +67,7 @@ std::string validate_fingers(const FingerSettings &fingers) {
     return problem;
 }
 
-// What single parts cannot know of each other.
+// Checks conditions between parts.
 std::string validate_together(const ServoSettings &settings) {
     if (settings.grip.kind == GripKind::rigid && (settings.tension.dof_mask & kNoGrasp) == 0) {
         return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "

@@ -10,7 +10,8 @@ namespace spidar {
 
 namespace {
 
-// Sums of times like 0.1 s + 0.05 s miss by rounding: half a microsecond belongs to the later side.
+// Sums of times such as 0.1 s + 0.05 s err by rounding: half a microsecond belongs to the later
+// side.
 constexpr double kTimeTolerance_s = 5e-7;
 
 } // namespace

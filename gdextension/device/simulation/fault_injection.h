@@ -1,4 +1,4 @@
-// Faults that a simulated device can be told to have, and when, in simulated time.
+// Faults that a simulated device can be given, with start and duration in simulated time.
 #pragma once
 
 #include <array>
@@ -7,45 +7,51 @@
 namespace spidar {
 
 enum class SimulatedFault : std::uint8_t {
-    output_cut = 0,        // currents never reach the motors
-    frozen_counts = 1,     // the encoders stand still
-    count_jump = 2,        // every count of string `string` is off by kCountJump
-    read_timeout = 3,      // no reports
-    unplugged = 4,         // open, read and write fail; motors without power
-    stuck_encoder = 5,     // one string's count stands still
-    broken_string = 6,     // one string pulls no more
-    hand_released = 7,     // nobody holds the grip
-    jammed_drum = 8,       // one drum is caught: its string goes slack or holds the grip back
-    slipped_string = 9,    // one count creeps away by kSlip_m, and stays off while the fault lasts
-    counts_reset = 10,     // the device restarts: counts and clock begin anew, and stay so
-    reversed_encoder = 11, // one string's count runs the wrong way from here on
+    output_cut = 0,    // currents never reach the motors
+    frozen_counts = 1, // encoder counts stand still
+    count_jump = 2,    // the string's count is off by kCountJump
+    read_timeout = 3,  // no reports
+    unplugged = 4,     // open, read and write fail; the motors have no power
+    stuck_encoder = 5, // one string's count stands still
+    broken_string = 6, // one string no longer pulls
+    hand_released = 7, // nobody holds the grip
+    jammed_drum = 8,   // one drum is blocked: its string slackens or holds the grip back
+    // One count drifts off by kSlip_m and stays off while the fault lasts.
+    slipped_string = 9,
+    // The device restarts: counts and clock start anew, and stay so.
+    counts_reset = 10,
+    reversed_encoder = 11, // one string's count runs backwards from here on
     swapped_encoders = 12, // the counts of this string and the next are exchanged
-    reports_lost = 13,     // one in a hundred
-    reports_repeated = 14, // one in a hundred comes a second time
-    reports_swapped = 15,  // one in fifty is overtaken by the next
+    reports_lost = 13,     // one report in a hundred is lost
+    reports_repeated = 14, // one report in a hundred arrives twice
+    reports_swapped = 15,  // one report in fifty arrives after the next
     late_output = 16,      // currents act 4 ms later
-    blocked_output = 17,   // currents do not arrive; the last ones go on
+    blocked_output = 17,   // new currents do not arrive; the last ones stay
 };
 inline constexpr int kSimulatedFaultCount = 18;
 
+// Final error of a slipped string (unit: m).
 inline constexpr double kSlip_m = 0.020;
+// Speed of the drift of a slipped string.
 inline constexpr double kSlipSpeed_m_s = 0.2;
+// Delay of late_output (unit: s).
 inline constexpr double kLateOutput_s = 0.004;
 inline constexpr std::int32_t kCountJump = 1000; // 25 mm with the paper's pulley
+// Largest number of faults that are pending or active.
 inline constexpr int kMaxFaults = 8;
 
-// A fault that lasts for ever when duration_s <= 0. start_s counts from the call.
+// A fault with its time. start_s counts from the call. duration_s <= 0: without end.
 struct FaultInjection {
     SimulatedFault fault = SimulatedFault::output_cut;
-    int string = 0; // 0-7, where the fault has one
+    int string = 0; // 0-7, for faults of one string
     double start_s = 0.0;
     double duration_s = 0.0;
 };
 
-// False: unknown fault, string outside 0-7, a time that is not finite, or a start before now.
+// Returns false for an unknown fault, string outside 0-7, non-finite time or negative start.
 [[nodiscard]] bool is_usable(const FaultInjection &fault) noexcept;
 
-// A fault with a number that no other has; 0 is an empty place.
+// A fault with a unique number; 0 marks an empty place.
 struct NumberedFault {
     std::uint32_t number = 0;
     FaultInjection injection;
@@ -53,10 +59,11 @@ struct NumberedFault {
 using FaultList = std::array<NumberedFault, kMaxFaults>;
 
 struct ActiveFaults {
-    std::array<std::uint8_t, kSimulatedFaultCount> strings{}; // of each fault; bit i: string i
-    std::array<double, 8> slip_m{};                           // of each string
+    std::array<std::uint8_t, kSimulatedFaultCount> strings{}; // per fault; bit i: string i
+    std::array<double, 8> slip_m{};                           // error of each slipped string
 
-    // Bit i: string i has it. A fault without a string has any bit.
+    // Returns the strings with this fault (bit i: string i). For a fault without a string some bit
+    // is set.
     [[nodiscard]] std::uint8_t mask(SimulatedFault fault) const noexcept {
         return strings[static_cast<std::size_t>(fault)];
     }
@@ -66,13 +73,13 @@ struct ActiveFaults {
     }
 };
 
-// Runs faults on the simulated clock.
+// Decides which faults are active at a simulated time.
 class FaultSchedule {
 public:
-    // The faults that there are now; a number not seen before starts counting from now_s.
+    // Sets the list of faults. A fault with a new number starts counting at now_s.
     void set(const FaultList &faults, double now_s) noexcept;
     [[nodiscard]] ActiveFaults at(double now_s) const noexcept;
-    // Numbers of faults that are over; 0 elsewhere.
+    // Returns the numbers of faults that have ended; 0 elsewhere.
     [[nodiscard]] std::array<std::uint32_t, kMaxFaults> finished(double now_s) const noexcept;
 
 private:

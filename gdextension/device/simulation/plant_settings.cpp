@@ -1,4 +1,5 @@
-// What a plant can be made of: the ranges that keep its integration stable and its counts in 32 bits.
+// Valid ranges of a plant's settings: they keep the integration stable and the counts within 32
+// bits.
 #include "core/base/describe_value.h"
 #include "device/simulation/simulated_plant.h"
 

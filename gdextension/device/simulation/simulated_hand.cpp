@@ -14,12 +14,12 @@ namespace {
 
 // Below this the series of asin is exact to double precision (next term 0.023 n^10 = 2e-15).
 constexpr double kSeriesLimit = 0.05;
-// A path closer to its target than this, and slower, has arrived: far below an encoder count. Snapping to it
-// makes a hand at rest exactly at rest.
+// Distance and speed below which a path has arrived, far below an encoder count. Snapping to the
+// target makes a hand at rest exactly at rest.
 constexpr double kArrivedDistance = 1e-10; // m, rad
 constexpr double kArrivedSpeed = 1e-9;     // m/s, rad/s
 
-// A gram keeps a grip without mass of its own from dividing by zero.
+// A gram keeps a grip without mass from dividing by zero.
 constexpr HandImpedance kNoHand{1e-3, 0.0, 0.0, 1e-6, 0.0, 0.0, 2.5e-7, 0.0, 0.0};
 
 Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
@@ -27,7 +27,7 @@ Vec3 no_longer_than(const Vec3 &v, double limit) noexcept {
     return squared > limit * limit ? v * (limit / std::sqrt(squared)) : v;
 }
 
-// New velocity of a critically damped approach within limits of acceleration and speed.
+// Returns the new velocity of a critically damped approach with limited acceleration and speed.
 Vec3 approach(const Vec3 &error, const Vec3 &velocity, double max_speed, double max_acceleration,
               double dt_s) noexcept {
     const double w = kHandPathRate_rad_s;
@@ -86,7 +86,8 @@ Vec3 rotation_vector(const Quat &rotation) noexcept {
 Quat turned(const Quat &rotation, const Vec3 &angular_rad_s, double dt_s) noexcept {
     const Vec3 half = 0.5 * dt_s * angular_rad_s;
     const Quat next = rotation + Quat(0.0, half.x, half.y, half.z) * rotation;
-    // One Newton step towards unit length: exact to rounding this close to it, and needs no square root.
+    // One Newton step towards unit length: exact to rounding so close to 1, and without a square
+    // root.
     const double norm_squared =
         next.w * next.w + next.x * next.x + next.y * next.y + next.z * next.z;
     return next * (1.5 - 0.5 * norm_squared);

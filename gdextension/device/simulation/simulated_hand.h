@@ -1,5 +1,5 @@
-// A hand that holds the simulated grip: a spring-damper in all seven DOF, with the hand's mass, that
-// carries the grip towards a target.
+// A hand that holds the simulated grip: a spring and damper in all seven DOF, with the hand's mass,
+// that moves the grip towards a target.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,18 @@ using Quat = glm::dquat;
 
 enum class HandFirmness : std::uint8_t { light = 0, normal = 1, firm = 2 };
 
-// Where the hand wants the grip (device frame).
+// Where the hand moves the grip to (device frame).
 struct HandTarget {
     Vec3 position_m{0.0};
     Mat3 rotation{1.0};
     double grasp_angle_rad = 0.0;
 };
 
-// False when a number is not finite or the rotation is not one (orthonormal to kRotationTolerance, det +1).
+// Returns false when a number is not finite or `rotation` is not orthonormal with determinant +1,
+// to kRotationTolerance.
 [[nodiscard]] bool is_usable(const HandTarget &target) noexcept;
-inline constexpr double kRotationTolerance = 1e-3; // a game's single-precision Basis is far inside
+// Tolerance of a rotation matrix. A game's single-precision Basis errs far less.
+inline constexpr double kRotationTolerance = 1e-3;
 
 struct HandImpedance {
     double mass_kg;
@@ -37,10 +39,11 @@ struct HandImpedance {
     double grasp_damping_nm_s_rad;
 };
 
-// Translation: the three hands that the contact gains were tested with; a measured arm (0.55 kg, 6.5 Ns/m,
-// 135 N/m) lies among them. Rotation: the same hand holding at the pole's half length, mass and stiffness times
-// (40 mm)^2. Grasp: the same per radian of half the grasp angle, so a quarter. Their damping is 0.7 of critical
-// with the default grip, as a hand that turns does not ring.
+// Masses and springs of three hands. Translation: the hands with which the contact gains were
+// tested; a measured arm (0.55 kg, 6.5 N s/m, 135 N/m) lies between them. Rotation: mass and
+// stiffness of the same hand times (40 mm)^2, the pole's half length. Grasp: a quarter of that,
+// since each pole turns by half the grasp angle. Rotation and grasp are damped at 0.7 of critical
+// with the default grip, since a turning hand does not oscillate.
 inline constexpr HandImpedance kLightHand{0.05,   50.0, 1.0,  8.0e-5, 0.08,
                                           4.3e-3, 2e-5, 0.02, 1.1e-3};
 inline constexpr HandImpedance kNormalHand{0.3,    300.0,  5.0,  4.8e-4, 0.48,
@@ -48,17 +51,18 @@ inline constexpr HandImpedance kNormalHand{0.3,    300.0,  5.0,  4.8e-4, 0.48,
 inline constexpr HandImpedance kFirmHand{0.8,    700.0,  12.0, 1.28e-3, 1.12,
                                          5.4e-2, 3.2e-4, 0.28, 1.35e-2};
 
-// A value outside the enumeration gives the normal hand.
+// Returns the normal hand for a value outside the enumeration.
 [[nodiscard]] const HandImpedance &impedance_of(HandFirmness firmness) noexcept;
 
-// The fastest that a hand follows a target, so that one that jumps does not launch the grip.
+// Largest speed of a hand that follows a target: a jump of the target must not throw the grip.
 inline constexpr double kHandMaxSpeed_m_s = 1.0;
-inline constexpr double kHandMaxTurnRate_rad_s = 6.0; // rotation and grasp angle
-// How fast it gets there; just above what stopping from full speed takes (speed * path rate / e), so that the
-// limit never makes the path overshoot.
+// Same for rotation and grasp angle.
+inline constexpr double kHandMaxTurnRate_rad_s = 6.0;
+// Largest acceleration of the path. It is just above what stopping from full speed needs (speed *
+// path rate / e), so that the limit causes no overshoot.
 inline constexpr double kHandMaxAcceleration_m_s2 = 30.0;
 inline constexpr double kHandMaxTurnAcceleration_rad_s2 = 180.0;
-// Bandwidth of the path (critically damped, unit: rad/s): a target that comes in 60 Hz steps is followed
+// Bandwidth of the critically damped path (unit: rad/s). A target in 60 Hz steps is followed
 // smoothly, 2 / 60 s behind.
 inline constexpr double kHandPathRate_rad_s = 60.0;
 
@@ -75,21 +79,21 @@ struct HandPath {
 
 class SimulatedHand {
 public:
-    // At rest at the target, path and all. An unusable target changes nothing.
+    // Puts the path at rest at the target. An unusable target changes nothing.
     void reset(const HandTarget &target) noexcept;
-    // An unusable target changes nothing.
+    // Sets the target of the path. An unusable target changes nothing.
     void set_target(const HandTarget &target) noexcept;
     void set_firmness(HandFirmness firmness) noexcept;
-    // Let go: no spring, no damper and next to no mass, until it holds again.
+    // True: the hand lets go, without spring, damper and almost without mass, until it holds again.
     void set_released(bool released) noexcept;
 
-    // Moves the path on.
+    // Advances the path.
     void advance(double dt_s) noexcept;
 
-    // Spring and damper between the path and the grip: what the hand puts on the grip (its own mass aside).
+    // Returns the wrench on the grip: spring and damper between path and grip, no hand mass.
     [[nodiscard]] Wrench wrench(const Vec3 &position_m, const Quat &rotation,
                                 double grasp_angle_rad, const Twist &twist) const noexcept;
-    // Energy in the hand's springs (unit: J).
+    // Returns the energy in the hand's springs (unit: J).
     [[nodiscard]] double spring_energy_j(const Vec3 &position_m, const Quat &rotation,
                                          double grasp_angle_rad) const noexcept;
 
@@ -104,12 +108,12 @@ private:
     Vec3 target_position_m_{0.0};
     Quat target_rotation_{1.0, 0.0, 0.0, 0.0};
     double target_grasp_rad_ = 0.0;
-    bool arrived_ = true; // path at the target and at rest: nothing to do
+    bool arrived_ = true; // the path is at rest at the target
 };
 
-// The shortest rotation vector of a unit quaternion (unit: rad).
+// Returns the shortest rotation vector of a unit quaternion (unit: rad).
 [[nodiscard]] Vec3 rotation_vector(const Quat &rotation) noexcept;
-// `rotation` turned on by angular velocity * dt, kept at unit length.
+// Returns `rotation` turned by angular_rad_s * dt_s, with unit length.
 [[nodiscard]] Quat turned(const Quat &rotation, const Vec3 &angular_rad_s, double dt_s) noexcept;
 
 } // namespace spidar

@@ -8,11 +8,11 @@ namespace spidar {
 
 namespace {
 
-// Rates of the faults: one report in so many.
+// Rates of the faults: one report in this many.
 constexpr std::uint32_t kLostEvery = 100;
 constexpr std::uint32_t kRepeatedEvery = 100;
 constexpr std::uint32_t kSwappedEvery = 50;
-// No delay of the jitter is longer than this many of its mean.
+// Longest jitter delay, in units of its mean.
 constexpr double kLongestJitter = 20.0;
 
 } // namespace
@@ -38,11 +38,11 @@ void SimulatedLink::send(const StringArray &currents_a, double now_s, double ext
     if (jitter_s_ > 0.0) {
         delay_s += jitter_s_ * std::min(kLongestJitter, -std::log(1.0 - random()));
     }
-    if (count_ == kMostOnTheWay) { // the oldest gives way
+    if (count_ == kMostOnTheWay) { // the oldest is dropped
         first_ = (first_ + 1) % kMostOnTheWay;
         --count_;
     }
-    // One wire: nothing overtakes.
+    // On one wire no command overtakes another.
     const double due_s = count_ > 0 ? std::max(last_due_s_, now_s + delay_s) : now_s + delay_s;
     ring_[(first_ + count_) % kMostOnTheWay] = {due_s, currents_a};
     last_due_s_ = due_s;
@@ -67,7 +67,7 @@ bool SimulatedLink::deliver(DeviceReading &report, const ActiveFaults &faults) n
     ++made_;
     if (held_for_ > 0) {
         --held_for_;
-        if (held_for_ == 0) { // the one that was overtaken, in place of this one
+        if (held_for_ == 0) { // delivers the overtaken report instead of this one
             report = held_;
             return true;
         }

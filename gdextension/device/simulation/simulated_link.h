@@ -1,5 +1,5 @@
-// The wire between a simulated device and its host: currents arrive late, reports get lost, repeated or swapped.
-// Deterministic: the same settings and the same order of calls give the same delays.
+// The link between a simulated device and its host: delays currents; loses, repeats or swaps
+// reports. Deterministic: equal settings and calls give equal delays.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace spidar {
 
 class SimulatedLink {
 public:
-    // Commands on their way at once: 64 ms of them at 4 kHz.
+    // Largest number of commands in transit: 64 ms at 4 kHz.
     static constexpr std::size_t kMostOnTheWay = 256;
 
     void configure(const PlantSettings &settings) noexcept;
 
-    // Currents that the host sent now. extra_s: a fault's delay on top.
+    // Sends currents. extra_s: additional delay by a fault.
     void send(const StringArray &currents_a, double now_s, double extra_s) noexcept;
-    // Everything on its way is lost: unplugged.
+    // Unplugged: discards everything in transit.
     void cut() noexcept { count_ = 0; }
-    // When the next currents arrive (unit: s); infinity when none are on their way.
+    // Returns the arrival time of the next currents (unit: s); infinity when none are in transit.
     [[nodiscard]] double next_s() const noexcept;
-    // The currents that arrive next.
+    // Returns the currents that arrive next and removes them.
     StringArray receive() noexcept;
 
-    // A report that the device made: what of it reaches the host. False: nothing this time.
+    // Passes a report on to the host, changed by the faults. Returns false when none arrives.
     bool deliver(DeviceReading &report, const ActiveFaults &faults) noexcept;
 
 private:
@@ -35,7 +35,7 @@ private:
         double due_s = 0.0;
         StringArray currents_a{};
     };
-    double random() noexcept; // 0..1
+    double random() noexcept; // uniform in 0..1
 
     double latency_s_ = 0.0;
     double jitter_s_ = 0.0;
@@ -45,9 +45,10 @@ private:
     std::size_t count_ = 0;
     double last_due_s_ = 0.0;
     std::uint64_t state_ = 1;
-    DeviceReading held_;   // kept back to be delivered late
-    DeviceReading before_; // delivered last
-    int held_for_ = 0;     // reports until it is delivered; 0: none is held
+    DeviceReading held_;   // report that is delivered late
+    DeviceReading before_; // last delivered report
+    // Reports until held_ is delivered; 0: none is held.
+    int held_for_ = 0;
     std::uint32_t made_ = 0;
 };
 

@@ -14,8 +14,9 @@ namespace spidar {
 
 namespace {
 
-// Coulomb friction of an inelastic string has no rotor to stick on: it is proportional below a speed, at most
-// as steep as the explicit step bears with the lightest hand, and no narrower than 1 mm/s.
+// An inelastic string has no rotor that Coulomb friction could hold still. The friction is
+// proportional to speed below this speed or, where that is steeper than the explicit step allows
+// with the lightest hand, with the slope below.
 constexpr double kCoulombBand_m_s = 1e-3;
 constexpr double kCoulombMaxSlope_n_s_m = 50.0;
 
@@ -94,7 +95,7 @@ void SimulatedPlant::set_broken_strings(std::uint8_t mask) noexcept {
     lay_rotors(mended); // a new string is tied on taut
 }
 
-// Rotors of these strings: taut, without tension, at rest.
+// Puts the rotors of these strings at rest, with taut strings without tension.
 void SimulatedPlant::lay_rotors(std::uint8_t mask) noexcept {
     const StringForces now = string_forces();
     for (std::size_t i = 0; i < kStringCount; ++i) {
@@ -117,7 +118,7 @@ void SimulatedPlant::advance(double dt_s) noexcept {
         step();
     }
     if (diverged()) {
-        // Energies keep what they were only if that is a number.
+        // Energies keep their values when these are numbers.
         energy_to_hand_j_ = std::isfinite(energy_to_hand_j_) ? energy_to_hand_j_ : 0.0;
         supplied_energy_j_ = std::isfinite(supplied_energy_j_) ? supplied_energy_j_ : 0.0;
         reset(target_);

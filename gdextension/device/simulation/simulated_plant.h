@@ -1,6 +1,6 @@
-// The physics of a simulated SPIDAR-G: eight strings (elastic or not) with motors, the grip with its hinge,
-// and a hand that holds it. Deliberately independent of core's kinematics and wrench matrix, so that it can
-// contradict them. Semi-implicit Euler at kPlantRate_hz.
+// Physics of a simulated SPIDAR-G: eight strings (elastic or not) with motors, the grip with its
+// hinge, and a hand. Independent of core's kinematics and wrench matrix, so that it can reveal
+// errors in them. Semi-implicit Euler at kPlantRate_hz.
 #pragma once
 
 #include <cstdint>
@@ -16,106 +16,119 @@
 
 namespace spidar {
 
-inline constexpr double kPlantRate_hz = 40000.0; // stable to EA = 30 kN
+// Rate of the integration: stable up to EA = 30 kN.
+inline constexpr double kPlantRate_hz = 40000.0;
 inline constexpr double kPlantStep_s = 1.0 / kPlantRate_hz;
 
 struct PlantSettings {
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;
-    MotorCalibration motors; // the true motors
-    // count = round((length * (1 + gain error) + offset error) / metres_per_count). The length is what the
-    // rotor has paid out (elastic), or the true distance (not elastic).
+    MotorCalibration motors; // true motor parameters
+    // count = round((length * (1 + gain error) + offset error) / metres_per_count). The length is
+    // what the rotor has paid out (elastic) or the true distance (not elastic).
     double metres_per_count = kPaperMetresPerCount;
-    StringArray length_offset_error_m{}; // what a calibration has to find
+    StringArray length_offset_error_m{}; // to be found by a calibration
     StringArray length_gain_error{};     // relative: 0.01 = 1 %
-    // false: strings do not stretch and rotors weigh nothing, so that tension = motor tension and friction
-    // against the string's movement, exactly.
+    // False: strings do not stretch and rotors have no mass. The tension is then exactly the motor
+    // tension plus the friction of the moving string.
     bool elastic = true;
-    double string_stiffness_ea_n = 3000.0; // k = EA / length
+    double string_stiffness_ea_n = 3000.0; // stiffness k = EA / length
     double string_damping_n_s_m = 0.3;
-    // What a string grows by under 10 N held for ever, relative to its length, and how long that takes. Elastic only.
+    // Relative growth of a string under a constant 10 N after a long time. Elastic strings only.
+    // Estimate for a braid: 0.002.
     double creep = 0.0; // an estimate for a braid: 0.002
+    // Time constant of the creep.
     double creep_time_s = 60.0;
-    double winding_growth = 0.0;  // DrumWinding::growth; the paper's drums: 0.046
+    // See DrumWinding::growth; the paper's drums: 0.046.
+    double winding_growth = 0.0;
     double rotor_mass_kg = 0.017; // rotor inertia / radius^2
     double coulomb_friction_n = 0.05;
     double viscous_friction_n_s_m = 0.3;
     double current_lag_s = 0.0005;
     double grip_mass_kg = 0.06;
-    double grip_inertia_kg_m2 = 4e-5;                     // isotropic
-    double grasp_inertia_kg_m2 = 1e-5;                    // about grasp_angle
-    double hinge_open_rad = -80.0 * 0.017453292519943295; // hinge stops, grasp_angle
+    double grip_inertia_kg_m2 = 4e-5;  // isotropic
+    double grasp_inertia_kg_m2 = 1e-5; // about grasp_angle
+    // Hinge stop in grasp_angle, open side.
+    double hinge_open_rad = -80.0 * 0.017453292519943295;
+    // Hinge stop in grasp_angle, closed side.
     double hinge_closed_rad = 80.0 * 0.017453292519943295;
     HandFirmness firmness = HandFirmness::normal;
-    // The link to the host. Currents act this late, plus a random delay of this mean; a share of reports is lost.
+    // Link to the host: constant delay of currents.
     double output_latency_s = 0.0;
+    // Mean of an additional random delay of currents.
     double output_jitter_s = 0.0;
+    // Share of reports that are lost, 0..1.
     double report_loss = 0.0;
 };
 
-// What really is, beside what the encoders say.
+// The true state, besides what the encoders show.
 struct PlantTruth {
     GripPose pose;
     GripFrame frame;
     Twist twist;
-    Wrench strings; // net wrench of the strings on the grip = what the hand feels
-    Wrench hand;    // what the hand puts on the grip
+    // Net wrench of the strings on the grip, which the hand feels.
+    Wrench strings;
+    Wrench hand; // wrench of the hand on the grip
     StringArray tensions_n{};
     StringArray lengths_m{};
     double time_s = 0.0;
-    double energy_to_hand_j = 0.0; // integral of strings . twist since the start
-    std::uint64_t resets = 0; // times the physics diverged and began again at the hand's target
+    double energy_to_hand_j = 0.0; // time integral of strings . twist since the start
+    // How often the physics diverged and restarted at the hand's target.
+    std::uint64_t resets = 0;
 };
 
-// Slack string: without power a real one sags and the counts are lost. Here each spool takes its slack up, so
-// that the pose stays true with the motors off. It pulls on the rotor only, only while there is slack, so the
-// hand feels nothing of it.
-inline constexpr double kTakeUpForce_n =
-    1.0; // follows a hand at 1 m/s against friction and rotor mass
-// Stiff enough that 0.1 N of friction leaves 5 um of slack: less than half a count.
+// Force with which each spool takes up slack string. A real slack string sags and its counts are
+// lost; here the pose stays true with the motors off. It acts on the rotor only, and only while
+// there is slack, so that the hand does not feel it.
+// Lets the spool follow a hand at 1 m/s against friction and rotor mass (unit: N).
+inline constexpr double kTakeUpForce_n = 1.0;
+// Stiffness of the take-up: 0.1 N of friction leaves 5 um of slack, less than half a count.
 inline constexpr double kTakeUpStiffness_n_m = 2.0e4;
-// The hand's arms end here: no target beyond the motors' bounding box less a pole's half length, per axis.
+// Returns the position clamped to the reach of the hand's arm: the motors' bounding box less a
+// pole's half length, per axis.
 [[nodiscard]] Vec3 clamped_to_reach(const PlantSettings &settings, const Vec3 &position_m) noexcept;
-inline constexpr double kMaxAdvance_s = 1.0; // a longer step is cut to this
+// Longest time step (unit: s); longer ones are clamped.
+inline constexpr double kMaxAdvance_s = 1.0;
 
-// Empty when usable; else one sentence naming the field, the value, the unit and the remedy. Allocates.
+// Returns an empty string when usable, else a sentence with field, value, unit and remedy.
 [[nodiscard]] std::string validate(const PlantSettings &settings);
 
-// One thread owns a plant. Starts at the grip's rest pose, hand at rest there, strings taut without tension.
+// The plant, owned by one thread. Starts at rest at the rest pose, strings taut without tension.
 class SimulatedPlant {
 public:
-    // Precondition: validate(settings) is empty.
+    // Requires that validate(settings) is empty.
     explicit SimulatedPlant(const PlantSettings &settings) noexcept;
 
-    // Grip and hand at rest at this pose. An unusable pose changes nothing.
+    // Puts grip and hand at rest at this pose. An unusable pose changes nothing.
     void reset(const HandTarget &pose) noexcept;
-    // Unusable targets change nothing; the position is brought within reach, the angle within the hinge stops.
+    // Sets the hand's target. The position is clamped to the reach, the angle to the hinge stops.
+    // An unusable target changes nothing.
     void set_hand_target(const HandTarget &target) noexcept;
     void set_hand_firmness(HandFirmness firmness) noexcept { hand_.set_firmness(firmness); }
-    // Held until the next call. A current that is not >= 0 gives 0 A; above max_current_a, that.
+    // Sets currents until the next call, clamped to max_current_a. NaN or negative gives 0 A.
     void set_currents(const StringArray &currents_a) noexcept;
-    // The grip alone: the hand puts nothing on it, until it holds it again.
+    // True: the hand exerts nothing on the grip, until it holds it again.
     void set_hand_released(bool released) noexcept { hand_.set_released(released); }
-    // Bit i: the drum of string i is caught: it neither pays out nor winds in.
+    // Bit i: the drum of string i is blocked and neither pays out nor winds in.
     void set_jammed_strings(std::uint8_t mask) noexcept { jammed_ = mask; }
-    // Bit i: string i is broken: it pulls no more, and its motor winds the loose end in.
+    // Bit i: string i is broken. It does not pull, and its motor winds the loose end in.
     void set_broken_strings(std::uint8_t mask) noexcept;
 
-    // Runs the whole steps of 1 / kPlantRate_hz that fit, to the nearest, and carries the rest. Not finite or
-    // not positive: nothing happens.
+    // Runs dt_s in whole steps of 1 / kPlantRate_hz and carries the remainder. Ignores a time that
+    // is not finite or not positive.
     void advance(double dt_s) noexcept;
 
     [[nodiscard]] CountArray counts() const noexcept;
     [[nodiscard]] PlantTruth truth() const noexcept;
     [[nodiscard]] double time_s() const noexcept;
-    // Kinetic energy of grip, hand and rotors and what strings and the hand's springs store (unit: J).
+    // Kinetic energy of grip, hand and rotors plus energy in strings and hand springs (unit: J).
     [[nodiscard]] double mechanical_energy_j() const noexcept;
-    // Work of motors and take-up on the rotors since the start. With a hand at rest, mechanical energy
-    // grows by no more than this (elastic only).
+    // Work of motors and take-up on the rotors since the start (unit: J). With a hand at rest the
+    // mechanical energy grows by no more than this (elastic only).
     [[nodiscard]] double supplied_energy_j() const noexcept { return supplied_energy_j_; }
 
 private:
-    // Poles, tensions and what they do to the grip, at one state.
+    // Poles, string tensions and their wrench on the grip in one state.
     struct StringForces {
         Vec3 r1_m{0.0};
         Vec3 r2_m{0.0};
@@ -131,7 +144,7 @@ private:
     [[nodiscard]] static bool has_bit(std::uint8_t mask, std::size_t string) noexcept {
         return ((mask >> string) & 1U) != 0;
     }
-    // String i without tension.
+    // Returns the length of string i at zero tension.
     [[nodiscard]] double slack_length_m(std::size_t i) const noexcept {
         return rotors_m_[i] * (1.0 + crept_[i]);
     }
@@ -140,28 +153,30 @@ private:
 
     PlantSettings settings_;
     SimulatedHand hand_;
-    HandTarget target_; // brought within reach
+    HandTarget target_; // clamped to the reach
     std::uint8_t broken_ = 0;
     std::uint8_t jammed_ = 0;
 
-    // Precomputed.
+    // Precomputed constants.
     StringArray newtons_per_ampere_{};
-    StringArray home_lengths_m_{};    // where nothing is wound off the drums yet
-    double current_gain_ = 1.0;       // share of the way to the commanded tension in one step
+    // String lengths at which nothing has been paid out.
+    StringArray home_lengths_m_{};
+    // Share of the way to the commanded tension in one step.
+    double current_gain_ = 1.0;
     double rotor_viscous_gain_ = 1.0; // 1 / (1 + b dt / m)
     double coulomb_speed_change_ = 0.0;
     double take_up_damping_n_s_m_ = 0.0;
     double coulomb_slope_n_s_m_ = 0.0;
 
-    // State.
+    // State of the plant.
     Vec3 position_m_{0.0};
     Quat rotation_{1.0, 0.0, 0.0, 0.0};
     double grasp_angle_rad_ = 0.0;
     Twist twist_;
-    StringArray rotors_m_{}; // string paid out
+    StringArray rotors_m_{}; // length of string paid out
     StringArray rotor_speeds_m_s_{};
     StringArray commanded_n_{};
-    StringArray motor_tensions_n_{}; // after the current lag
+    StringArray motor_tensions_n_{}; // after the motors' current lag
     StringArray crept_{};            // strain
     std::uint64_t steps_ = 0;
     double carry_steps_ = 0.0;

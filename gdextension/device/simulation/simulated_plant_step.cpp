@@ -1,4 +1,5 @@
-// One step of the plant's physics: forces of strings and hand, motion of grip and rotors, and whether that is still sane.
+// One step of the plant's physics: forces of strings and hand, motion of grip and rotors, and the
+// check for divergence.
 #include <algorithm>
 #include <cmath>
 
@@ -12,15 +13,16 @@ namespace spidar {
 
 namespace {
 
-// Guards the direction of a string whose two ends meet.
+// Guards the direction of a string whose ends meet.
 constexpr double kShortestString_m = 1e-6;
-// Beyond these no hand and no device goes: the integration has failed.
+// Limits that no hand and no device exceeds: beyond them the integration has failed.
 constexpr double kDivergedDistance_m = 5.0;
 constexpr double kDivergedSpeed_m_s = 50.0;
 constexpr double kDivergedTurnRate_rad_s = 5000.0;
 constexpr double kDivergedRotorSpeed_m_s = 500.0; // a free rotor at full current reaches about 70
 
-// Which way a pole end moves with the grasp angle: r1 = d (sin(g/2) x + cos(g/2) y), r2 = d (cos(g/2) x + sin(g/2) y).
+// Motion of a pole end per grasp angle: r1 = d (sin(g/2) x + cos(g/2) y), r2 = d (cos(g/2) x +
+// sin(g/2) y).
 struct Poles {
     Vec3 r1, r2, dr1, dr2;
 };
@@ -50,7 +52,7 @@ void SimulatedPlant::step() noexcept {
     const HandImpedance &z = hand_.impedance();
     const HandPath &path = hand_.path();
 
-    // The hand's muscles carry the hand's own mass along its path; the springs carry the rest.
+    // The hand's muscles move the hand's own mass along its path; the springs move the rest.
     const Vec3 force = strings.wrench.force_n + hand.force_n + z.mass_kg * path.acceleration_m_s2;
     const Vec3 moment = strings.wrench.moment_nm + hand.moment_nm +
                         z.inertia_kg_m2 * path.angular_acceleration_rad_s2;
@@ -102,8 +104,9 @@ void SimulatedPlant::step_rotors(const StringForces &forces) noexcept {
             continue;
         }
         const double drive = motor_tensions_n_[i] + take_up; // winds in
-        // Friction is implicit: viscous as a factor, Coulomb as the impulse that at most stops the rotor.
-        // So it is stable, holds in stiction, and is exactly nothing when its coefficient is.
+        // Friction is implicit: viscous as a factor, Coulomb as an impulse that at most stops the
+        // rotor. It is therefore stable, holds in stiction, and vanishes exactly with its
+        // coefficient.
         const double free =
             rotor_viscous_gain_ *
             (rotor_speeds_m_s_[i] + kPlantStep_s * inverse_mass * (forces.tensions_n[i] - drive));
@@ -112,7 +115,7 @@ void SimulatedPlant::step_rotors(const StringForces &forces) noexcept {
         rotor_speeds_m_s_[i] = speed;
         rotors_m_[i] += kPlantStep_s * speed;
         supplied_energy_j_ -= kPlantStep_s * drive * speed;
-        if (rotors_m_[i] < 0.0) { // a broken string all wound in
+        if (rotors_m_[i] < 0.0) { // a broken string is fully wound in
             rotors_m_[i] = 0.0;
             rotor_speeds_m_s_[i] = 0.0;
         }
@@ -141,7 +144,7 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
     StringForces out;
     out.r1_m = poles.r1;
     out.r2_m = poles.r2;
-    std::array<Vec3, 2> end_force{Vec3(0.0), Vec3(0.0)}; // signed by which end it pulls at
+    std::array<Vec3, 2> end_force{Vec3(0.0), Vec3(0.0)}; // signed by the end at which it pulls
     for (std::size_t i = 0; i < kStringCount; ++i) {
         const Attachment &tie = settings_.grip.attachments[i];
         const auto pole = static_cast<std::size_t>(tie.pole);
@@ -160,7 +163,7 @@ SimulatedPlant::StringForces SimulatedPlant::string_forces() const noexcept {
         const double rate = -glm::dot(direction, twist_.linear_m_s + velocity);
         double tension = 0.0;
         if (has_bit(broken_, i)) {
-            // Nothing to pull with.
+            // A slack string has no tension.
         } else if (settings_.elastic) {
             const double stretch = length - slack_length_m(i);
             if (stretch > 0.0) {

@@ -11,9 +11,9 @@ namespace spidar {
 
 namespace {
 
-constexpr double kMostSqueeze_rad = 3.2; // what a sensor's 16 bits hold
+constexpr double kMostSqueeze_rad = 3.2; // largest angle in a sensor's 16 bits
 
-// Controlling thread -> device thread.
+// From the controlling thread to the device thread.
 struct Orders {
     HandTarget target;
     std::uint32_t target_number = 0;
@@ -23,7 +23,7 @@ struct Orders {
     FaultList faults{};
 };
 
-// Device thread -> controlling thread.
+// From the device thread to the controlling thread.
 struct News {
     PlantTruth truth;
     std::array<std::uint32_t, kMaxFaults> finished{};
@@ -48,7 +48,7 @@ struct SimulatedTransport::Impl {
         news.truth = plant.truth();
     }
 
-    // Nothing pulls, and what was on its way is lost.
+    // Nothing pulls, and commands in transit are lost.
     void lose_power() noexcept {
         commanded_a = {};
         written = false;
@@ -65,7 +65,7 @@ struct SimulatedTransport::Impl {
     const bool rigid;
     const double metres_per_count;
 
-    // Device thread.
+    // Used by the device thread.
     SimulatedPlant plant;
     const CountArray home_counts;
     SimulatedLink link;
@@ -74,18 +74,18 @@ struct SimulatedTransport::Impl {
     StringArray commanded_a{}; // arrived at the device
     bool written = false;      // something was sent since the last advance()
     StringArray sent_a{};
-    CountArray turned_at{};                  // counts at which encoders began to run the wrong way
-    std::array<bool, kStringCount> turned{}; // which of them do
-    CountArray count_base{};                 // counts begin here since the device restarted
+    CountArray turned_at{};                  // counts at which encoders were reversed
+    std::array<bool, kStringCount> turned{}; // reversed encoders
+    CountArray count_base{};                 // origin of the counts since the device restarted
     double clock_base_s = 0.0;
     bool was_reset = false;
-    DeviceReading made;     // the report as the device made it
-    CountArray held_counts; // what a frozen encoder says
+    DeviceReading made;     // the report before the faults of the link
+    CountArray held_counts; // counts of a frozen encoder
     DeviceReading report;
     bool report_is_new = false;
     bool is_open = false;
 
-    // Controlling thread.
+    // Used by the controlling thread.
     Orders orders;
     News news;
     std::uint32_t last_fault_number = 0;
@@ -152,7 +152,7 @@ void SimulatedTransport::Impl::make_report() noexcept {
     report_is_new = link.deliver(report, faults);
 }
 
-// The plant moves on; currents act when they arrive.
+// Advances the plant; currents act when they arrive.
 void SimulatedTransport::Impl::move_on(double dt_s, const ActiveFaults &faults) noexcept {
     double left_s = dt_s;
     const double end_s = plant.time_s() + dt_s;
@@ -161,7 +161,7 @@ void SimulatedTransport::Impl::move_on(double dt_s, const ActiveFaults &faults) 
                   faults.has(SimulatedFault::late_output) ? kLateOutput_s : 0.0);
         written = false;
     }
-    // The link holds no more commands than this, so the loop ends.
+    // The link holds at most this many commands, so that the loop ends.
     for (std::size_t arrivals = 0; arrivals < SimulatedLink::kMostOnTheWay && link.next_s() < end_s;
          ++arrivals) {
         const double wait_s = link.next_s() - plant.time_s();
@@ -245,7 +245,7 @@ void SimulatedTransport::advance(double dt_s) noexcept {
     m.plant.set_jammed_strings(faults.mask(SimulatedFault::jammed_drum));
     m.plant.set_hand_released(faults.has(SimulatedFault::hand_released));
     if (faults.has(SimulatedFault::unplugged)) {
-        m.lose_power(); // it does not come back with the plug: the next write brings it
+        m.lose_power(); // power returns with the next write, not with the plug
     }
     m.plant.set_currents(faults.has(SimulatedFault::output_cut) ? StringArray{} : m.commanded_a);
     m.move_on(dt_s, faults);

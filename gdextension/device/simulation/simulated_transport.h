@@ -1,5 +1,5 @@
-// A device made of a plant and a hand: a drop-in Transport that needs no hardware. The hand's target and the
-// faults are set from another thread (one at a time); the truth is read from that thread too, wait-free.
+// A Transport made of a simulated plant and hand, without hardware. One other thread sets the
+// hand's target and the faults, and reads the true state wait-free.
 #pragma once
 
 #include <memory>
@@ -10,37 +10,38 @@
 
 namespace spidar {
 
-// A rigid grip of the simulated device has a sensor of how far its hand closes the fingers.
+// Index of the sensor that measures how far the hand closes the fingers of a rigid grip.
 inline constexpr std::size_t kSqueezeSensor = 0;
-inline constexpr double kSqueeze_1_rad = 1e4; // of HandTarget::grasp_angle_rad
+// Sensor units per radian of HandTarget::grasp_angle_rad.
+inline constexpr double kSqueeze_1_rad = 1e4;
 
 class SimulatedTransport final : public Transport {
 public:
-    // Settings that do not validate() are kept out: open() then gives invalid_settings.
+    // Unusable settings are not applied: open() then returns invalid_settings.
     explicit SimulatedTransport(const PlantSettings &settings);
     ~SimulatedTransport() override;
 
     Status open() noexcept override;
-    // Currents to zero. The hand and the grip live on while advance() is called.
+    // Sets the currents to zero. Hand and grip continue to move while advance() is called.
     void close() noexcept override;
-    // One report at open() and one at each advance(): read_timeout when it has been read already.
+    // Returns one report after open() and one after each advance(), else read_timeout.
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     void advance(double dt_s) noexcept override;
     [[nodiscard]] bool simulated() const noexcept override { return true; }
 
-    // The counts at the home pose (rest_pose) of an ideal device, for calibrate_at_home().
+    // Returns the counts of an ideal device at the home pose (rest_pose), for calibrate_at_home().
     [[nodiscard]] CountArray home_counts() const noexcept;
 
-    // From the controlling thread.
-    void set_hand_target(const HandTarget &target) noexcept; // not finite: ignored
+    // Called from the controlling thread, like the next three functions.
+    void set_hand_target(const HandTarget &target) noexcept; // ignored when not finite
     void set_hand_firmness(HandFirmness firmness) noexcept;
-    void set_buttons(std::uint8_t buttons) noexcept; // bit i: button i is held down
-    // False, and nothing happens: not usable, or kMaxFaults are pending or active already. Its time starts at
-    // the next advance(), open() or read().
+    void set_buttons(std::uint8_t buttons) noexcept; // bit i: button i is pressed
+    // Adds a fault whose time starts at the next advance(), open() or read(). Returns false without
+    // effect when the fault is unusable or kMaxFaults are pending or active.
     bool inject(const FaultInjection &fault) noexcept;
     void clear_faults() noexcept;
-    // The plant at the end of the last finished advance().
+    // Returns the plant's state after the last finished advance().
     [[nodiscard]] PlantTruth truth() noexcept;
 
 private:

@@ -1,4 +1,4 @@
-// Where the cycles of a servo loop come from: a device that a game drives, or a recording that is played again.
+// Source of a servo loop's cycles: a device that a game drives, or a recording.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@ namespace spidar {
 
 class ServoStep;
 
-// What one servo cycle is given.
+// Input of one servo cycle.
 struct CycleGiven {
     CycleInput input;
     HapticCommand command;
-    bool command_is_new = false; // may differ from the cycle before
+    // The command may differ from the last cycle's.
+    bool command_is_new = false;
 };
 
 class CycleSource {
@@ -27,39 +28,44 @@ public:
     CycleSource &operator=(const CycleSource &) = delete;
     virtual ~CycleSource() = default;
 
-    // Not from a servo cycle: may allocate and wait. close() is safe when not open.
+    // open() and close() may allocate and wait: never call them from a servo cycle. close() does
+    // nothing when not open.
     virtual Status open() noexcept = 0;
     virtual void close() noexcept = 0;
-    // Each cycle lasts one period exactly, however long it took.
+    // True: each cycle lasts exactly one period, whatever time it took.
     [[nodiscard]] virtual bool simulated() const noexcept = 0;
 
-    // In each cycle, in this order. next() brings `given` up to date; input.dt_s holds the time that the loop
-    // measured. It may set `step` to another state. False: there is no cycle left.
+    // Updates `given` for the next cycle; input.dt_s already holds the measured time. May set
+    // `step` to another state. Returns false when no cycle is left. Each cycle calls next(),
+    // write(), shown() and finish() in this order.
     virtual bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept = 0;
     virtual Status write(const DriveCommand &drive) noexcept = 0;
-    // Between write() and finish(): what a game sees in place of the step's snapshot. Null: the step's snapshot.
+    // Returns the snapshot that the game sees instead of the step's, or null for the step's.
     virtual const ServoSnapshot *shown(const ServoSnapshot & /*snapshot*/) noexcept {
         return nullptr;
     }
     virtual void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                         double dt_s) noexcept = 0;
 
-    // What follows has a meaning for devices only.
-    // Before the first cycle. threaded: cycles come in real time, from a thread of the loop's own.
+    // Prepares the first cycle. threaded: cycles run in real time in the loop's thread. This and
+    // the following functions do nothing for recordings, unless overridden.
     virtual Status begin(bool /*threaded*/) noexcept { return Status::ok; }
-    // After the last cycle.
+    // Called after the last cycle.
     virtual void motors_off() noexcept {}
-    // As Transport::wait_report().
+    // Like Transport::wait_report().
     [[nodiscard]] virtual bool wait_report(std::int64_t /*until_ns*/) noexcept { return false; }
-    // What a game wants. From the controlling thread; the newest command wins. Wait-free.
+    // Publishes the game's command; the newest wins. Called from the controlling thread. Wait-free.
     virtual void publish(const HapticCommand & /*command*/) noexcept {}
-    // Before a start: the newest published command, of which nothing acts any more but a panic stop that still holds.
+    // Called before a start. Returns the newest published command, of which only a latched panic
+    // stop has effect.
     virtual void restart(HapticCommand & /*command*/) noexcept {}
-    // Once open, before the first cycle. True: `step` is as it was before that cycle, which a game may see.
+    // Called once after open(), before the first cycle. Returns true when `step` was set to the
+    // state before that cycle, which a game may see.
     virtual bool recall(ServoStep & /*step*/) noexcept { return false; }
-    // As Transport::device_name(), once open.
+    // Like Transport::device_name(), after open().
     [[nodiscard]] virtual std::string device_name() const { return {}; }
-    // Motors off as soon as can be, and in every later run too until the fault is cleared. From any thread, one atomic.
+    // Switches the motors off as soon as possible, and keeps them off in later runs until the fault
+    // is cleared. Called from any thread; one atomic operation.
     virtual void panic() noexcept {}
 };
 

@@ -1,5 +1,6 @@
-// What a game says by changing a number. Each change of a count triggers its action once. The heartbeat changes with every
-// frame of the game, which shows that the game is alive; a game that leaves it at 0 is not watched.
+// Reads the counters of a game's commands. Each change of a counter triggers its action once. The
+// heartbeat changes with every frame and shows that the game is alive; a game that leaves it at 0
+// is not watched.
 #pragma once
 
 #include <algorithm>
@@ -23,11 +24,12 @@ public:
         *this = GameWatch();
         timeout_s_ = timeout_s;
     }
-    // Counts and beat of this command are old ones.
+    // Takes the counters and the heartbeat of this command as already seen.
     void acknowledge(const HapticCommand &command) noexcept {
         (void)take_edges(command);
         heartbeat_ = command.heartbeat;
     }
+    // Returns the counters that changed since the last call, and takes them as seen.
     Edges take_edges(const HapticCommand &command) noexcept {
         const Edges edges = edges_of(command);
         arm_count_ = command.arm_count;
@@ -43,21 +45,21 @@ public:
                 command.stop_count != stop_count_};
     }
 
-    // Once a cycle, also at rest.
+    // Takes one cycle; called at rest too.
     void listen(const HapticCommand &command, double dt_s) noexcept {
         silent_s_ = beats(command) ? 0.0 : std::min(kLongest_s, silent_s_ + dt_s);
         heartbeat_ = command.heartbeat;
     }
     [[nodiscard]] bool alive() const noexcept { return silent_s_ < timeout_s_; }
-    // Would it be alive after listen()?
+    // Returns whether alive() would be true after listen().
     [[nodiscard]] bool lives_through(const HapticCommand &command, double dt_s) const noexcept {
         return beats(command) || silent_s_ + dt_s < timeout_s_;
     }
-    // Since the last beat.
+    // Time since the last heartbeat (unit: s).
     [[nodiscard]] double silent_s() const noexcept { return silent_s_; }
 
 private:
-    static constexpr double kLongest_s = 1e6; // longer silences are all alike
+    static constexpr double kLongest_s = 1e6; // bound of the silence
 
     [[nodiscard]] bool beats(const HapticCommand &command) const noexcept {
         return command.heartbeat != heartbeat_ || command.heartbeat == 0;

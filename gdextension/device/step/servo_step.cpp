@@ -69,7 +69,7 @@ void ServoStep::take_limits(const HapticCommand &command) noexcept {
 
 void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept {
     if (!parts_.machine.zero_known() && !parts_.machine.checking_zero()) {
-        tracking_ = false; // lengths without a zero mean nothing
+        tracking_ = false; // lengths without a zero have no meaning
         hold_pose(Status::zero_needed, dt_s, true);
         return;
     }
@@ -96,7 +96,8 @@ void ServoStep::solve_pose(const CountArray &counts, bool unchanged, double dt_s
     ++counters.bad_samples;
     ++unsolved_in_row_;
     hold_pose(update.status, dt_s, unsolved_in_row_ >= settings_.safety.max_bad_samples);
-    // Without forces a grip that cannot be located harms nobody: it is reported, and arming waits for it.
+    // Without forces a grip that cannot be located harms nobody: it is reported, and arming waits
+    // for it.
     if (unsolved_in_row_ >= settings_.safety.max_bad_samples && parts_.machine.motors_on()) {
         raise(update.status, -1);
     }
@@ -165,7 +166,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     const Wrench rendered = parts_.renderer.render(parts_.tracker.grip(), parts_.tracker.moved(),
                                                    parts_.fingers.motion(), trusted, dt_s);
     Wrench asked = rendered + parts_.monitor.wall(parts_.tracker.grip());
-    // A rigid grip has no hinge to turn: what was asked of it is left out, and said.
+    // A rigid grip has no hinge: its grasp torque is removed from the request and reported.
     const bool no_grasp = settings_.grip.kind == GripKind::rigid && asked.grasp_torque_nm != 0.0;
     if (no_grasp) {
         asked.grasp_torque_nm = 0.0;
@@ -182,7 +183,7 @@ DriveCommand ServoStep::drive(double dt_s) noexcept {
     snapshot_.counters.faded_ticks += left < 1.0 && parts_.machine.motors_on() ? 1U : 0U;
     const double request_scale =
         factor * parts_.link.scale() * left * parts_.machine.wrench_scale();
-    // A factor of 0 means a sum that is not finite: 0 times it would still be NaN.
+    // A factor of 0 stands for a sum that is not finite, since 0 times it would be NaN.
     const Wrench full = request_scale > 0.0 ? request_scale * asked : Wrench();
 
     const bool taut = parts_.machine.state() == DeviceState::taut;
@@ -262,7 +263,8 @@ DriveCommand ServoStep::step(Status read_status, const DeviceReading &reading,
         clear_fault(usable(read_status));
     }
     if (edges.stop) {
-        // A stop without a reason is a panic: FAULT always says why, or nobody could clear it.
+        // A stop without a reason is a panic: FAULT always needs a reason, or nobody could clear
+        // it.
         raise(usable(command.stop_reason) ? Status::panic_stopped : command.stop_reason, -1);
     }
     if (jumped) {

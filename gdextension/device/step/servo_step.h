@@ -1,5 +1,6 @@
-// One servo cycle between read and write: a deterministic, allocation-free function of
-// (state, reading, command, time step). Same input, same bits: threaded, stepped, tests and replay all call it.
+// One servo cycle between read and write: a deterministic, allocation-free function of (state,
+// reading, command, time step). Equal input gives equal bits in threaded and stepped loops, tests
+// and replay.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -22,55 +23,55 @@
 
 namespace spidar {
 
-// Longer steps than this are a suspended computer, not a servo cycle.
+// Longest time step (unit: s). A longer one means that the computer was suspended.
 inline constexpr double kLongestStep_s = 0.05;
-// Shorter ones than any servo has would make speeds without bound out of one encoder count.
+// Shortest time step (unit: s). A shorter one would turn one encoder count into an unbounded speed.
 inline constexpr double kShortestStep_s = 1e-6;
 
-// Everything that evolves from tick to tick lives in here.
+// Holds all state that evolves from cycle to cycle.
 class ServoStep {
 public:
-    // On a failure the old settings stand; else everything starts afresh. Not from the servo loop.
+    // A negative status keeps the old settings; else all state restarts. Not for the servo loop.
     Status configure(const ServoSettings &settings) noexcept;
 
-    // What the closest points of shapes remember (ProxyMemory): owned by the loop, and kept through configure(). Without it
-    // no shape is felt.
+    // Sets the memory of the shapes' closest points (ProxyMemory). The loop owns it, and
+    // configure() keeps it. Without this memory shapes cannot be felt.
     void use(ProxyMemory *memory) noexcept { parts_.renderer.touch().use(memory); }
     [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.renderer.touch(); }
     [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.renderer.touch(); }
 
-    // Takes this command's edges and requests as already seen: what was asked before a start does not act after it.
+    // Takes this command's edges and requests as seen: earlier requests do not act after a start.
     void acknowledge(const HapticCommand &command) noexcept;
 
-    // read_status: what Transport::read returned. may_arm_itself: simulated devices arm when forces are enabled.
-    // Returns what to write; snapshot() holds the rest.
+    // Runs one cycle. read_status: result of Transport::read(). may_arm_itself: true for simulated
+    // devices, which arm when forces are enabled. Returns what to write; snapshot() holds the rest.
     DriveCommand step(Status read_status, const DeviceReading &reading,
                       const HapticCommand &command, double dt_s, bool may_arm_itself) noexcept;
 
-    // A failed write: counted; device lost.
+    // Reports the result of a write. A failure is counted, and the device is lost.
     void report_write(Status write_status) noexcept;
 
-    // How warm each motor is, as a share of its thermal budget: it outlasts the loop that warmed it (safety/motor_heat.h).
+    // Heat of each motor over its thermal budget. It outlasts the loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return parts_.monitor.heat().heat(); }
     void set_heat(const StringArray &heat) noexcept {
         parts_.monitor.set_heat(heat);
         resting_ = false;
     }
 
-    // The next step skips nothing but kinematics. It changes no output, only the counters tension_skipped and
-    // steps_skipped.
+    // The next step skips only kinematics. The outputs do not change, except the counters
+    // tension_skipped and steps_skipped.
     void forget_settled() noexcept {
         parts_.drive.forget_settled();
         resting_ = false;
     }
 
     [[nodiscard]] const ServoSnapshot &snapshot() const noexcept { return snapshot_; }
-    // What happened in the last step.
+    // Events of the last step.
     [[nodiscard]] std::span<const DeviceEvent> events() const noexcept {
         return parts_.events.events();
     }
 
-    // For whoever asks why a step is not skipped: the parts that are not at rest (awake_mask in contract/rest.h).
+    // Parts that keep a step from being skipped, for diagnosis (awake_mask in contract/rest.h).
     struct Awake {
         std::uint32_t step = 0;
         std::uint32_t renderer = 0;
@@ -79,7 +80,7 @@ public:
     [[nodiscard]] Awake awake_parts() const noexcept {
         return {awake_mask(parts_), parts_.renderer.awake_parts(), parts_.monitor.awake_parts()};
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return spidar::is_sound(settings_) && parts_.events.is_sound() && parts_.drive.is_sound() &&
                parts_.machine.is_sound() && parts_.tracker.is_sound() && parts_.link.is_sound() &&
@@ -98,7 +99,7 @@ private:
     void take_limits(const HapticCommand &command) noexcept;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
-    // False: an old report, or none of this device's.
+    // Returns false for an old report, or one that is not of this device.
     bool accept_report(const DeviceReading &reading) noexcept;
     void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
     void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
@@ -109,12 +110,12 @@ private:
     void advance_state(const HapticCommand &command, const Edges &edges,
                        const DeviceReading &reading, double dt_s) noexcept;
     void tell_state() noexcept;
-    // Does what motor_rule.h says, and tells it when that changes the state.
+    // Applies motor_rule.h, and reports the stop when it changes the state.
     void stop(StopReason reason, Status why, int string) noexcept;
-    // A fault, or a panic.
+    // Latches a fault or a panic stop.
     void raise(Status why, int string) noexcept;
     void lose(Status why) noexcept;
-    // servo_step_rest.cpp: would the next step give what the last one gave?
+    // Whether the next step would give the same result as the last (servo_step_rest.cpp).
     [[nodiscard]] bool comes_to_rest(const Edges &edges) const noexcept;
     [[nodiscard]] bool may_rest(Status read_status, const DeviceReading &reading,
                                 const HapticCommand &command, double dt_s,
@@ -122,15 +123,15 @@ private:
     void rest(const DeviceReading &reading, const HapticCommand &command, double dt_s) noexcept;
     DriveCommand drive(double dt_s) noexcept;
     DriveCommand let_go() noexcept;
-    // The grip with the fingers' angle in place of the one that a rigid grip has not.
+    // The grip with the fingers' angle, which replaces the grasp angle of a rigid grip.
     [[nodiscard]] GripState grip_with_fingers() const noexcept;
     void publish_state() noexcept;
 
     ServoSettings settings_{};
     double nominal_dt_s_ = 0.001;
-    // Everything that evolves from cycle to cycle, beside what commands and readings bring.
+    // All parts that evolve from cycle to cycle, besides what commands and readings bring.
     struct Parts {
-        EventLog events; // first what is seldom at rest: the question ends there
+        EventLog events; // first, since it is at rest least often
         TensionDrive drive;
         DeviceStateMachine machine;
         GripTracker tracker;
@@ -148,18 +149,18 @@ private:
         }
     };
     Parts parts_;
-    // What commands and readings brought last.
+    // What the last command and reading brought.
     GameWatch game_;
     std::uint32_t limits_sequence_ = 0;
     bool forces_enabled_ = false;
     bool simulated_ = false;
     bool device_zeroed_ = true;
-    // Of the last cycle.
-    bool limiting_ = false;   // the sum of all requests was brought down
+    // Results of the last cycle.
+    bool limiting_ = false;   // the sum of all requests was clamped
     bool tracking_ = false;   // the newest sample gave a pose
-    bool fresh_ = false;      // a good sample came in
-    bool moved_ = false;      // with another pose
-    bool rendering_ = false;  // a wrench was asked for
+    bool fresh_ = false;      // a good sample arrived
+    bool moved_ = false;      // the good sample changed the pose
+    bool rendering_ = false;  // a wrench was requested
     int unsolved_in_row_ = 0; // samples without a pose
     DeviceState told_state_ = DeviceState::closed;
     bool resting_ = false;    // the next step may be skipped

@@ -1,10 +1,10 @@
-// The whole step skipped: while all parts are at rest (contract/rest.h) and nothing new comes in, the last answer is the
-// answer, to the bit. What has an age grows older all the same, and heat flows.
+// Skipping of a whole step: while all parts are at rest (contract/rest.h) and nothing new arrives,
+// the last answer holds bit for bit. Ages and the motors' heat still advance.
 #include "device/step/servo_step.h"
 
 namespace spidar {
 
-// After a whole step with the same counts as before.
+// Requires a whole step with the same counts before.
 bool ServoStep::comes_to_rest(const Edges &edges) const noexcept {
     return edges == Edges() && tracking_ && all_at_rest(parts_);
 }
@@ -36,13 +36,13 @@ void ServoStep::rest(const DeviceReading &reading, const HapticCommand &command,
     counters.saturated_ticks += on && parts_.drive.saturated() ? 1U : 0U;
     snapshot_.time_s += dt_s;
     parts_.events.begin_cycle(snapshot_.time_s);
-    // What comes in anew at rest, too.
+    // Inputs that may change at rest.
     game_.listen(command, dt_s);
     parts_.link.advance(dt_s);
     (void)parts_.link.accept(reading);
     parts_.link.used();
     snapshot_.buttons = reading.buttons;
-    // Ages.
+    // Values that age at rest.
     parts_.renderer.advance_at_rest(dt_s);
     parts_.monitor.advance_at_rest(dt_s);
     parts_.monitor.spend(snapshot_.tensions_n, on ? dt_s : nominal_dt_s_);

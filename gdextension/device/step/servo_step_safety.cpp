@@ -1,4 +1,4 @@
-// The part of a servo step that watches and decides: states, zero, faults and their events.
+// Safety part of a servo step: device states, zero, faults and their events.
 #include "device/step/servo_step.h"
 
 #include <algorithm>
@@ -42,11 +42,11 @@ DeviceEventKind kind_of(Status fault) noexcept {
     case Status::device_over_temperature:
         return DeviceEventKind::device_stopped;
     default:
-        return DeviceEventKind::pose_lost; // what the kinematics may say
+        return DeviceEventKind::pose_lost; // the other results of the kinematics
     }
 }
 
-// Of a mask of strings: the first, 0-7, or -1 when it is empty.
+// Returns the first string (0-7) of a mask, or -1 when it is empty.
 int first_string(std::uint8_t mask) noexcept {
     return mask != 0 ? std::countr_zero(mask) : -1;
 }
@@ -69,7 +69,7 @@ void ServoStep::lose(Status why) noexcept {
     }
     parts_.machine.stop(StopReason::device_lost, why);
     parts_.link.expect_anew();
-    // Counts may begin anew where they like. A device that kept its zero says so in its next reading.
+    // Counts may have a new origin. A device that kept its zero reports so in its next reading.
     device_zeroed_ = false;
     parts_.machine.set_zero_known(false);
 }
@@ -83,7 +83,7 @@ void ServoStep::clear_fault(bool answers) noexcept {
     unsolved_in_row_ = 0;
 }
 
-// The computer slept, or its clock is wrong: nothing that evolves in time is worth keeping.
+// The computer slept, or its clock is wrong: all state that evolves in time is discarded.
 void ServoStep::jump_clock(double asked_dt_s) noexcept {
     parts_.events.tell(DeviceEventKind::clock_jumped, -1, asked_dt_s);
     parts_.guard.reset();

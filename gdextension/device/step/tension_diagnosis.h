@@ -1,5 +1,5 @@
-// What the servo loop's tensions give of the request, from a snapshot: for whoever reads snapshots, at that rate. The
-// loop itself pays nothing for it.
+// Splits the error of a servo loop's tensions into its causes, from a snapshot. The reader of
+// snapshots runs it, so that the loop has no cost.
 #pragma once
 
 #include "core/tension/tension_report.h"
@@ -8,11 +8,11 @@
 
 namespace spidar {
 
-// The solver's settings in a servo loop: no string is ever asked for more than its motor gives, so that currents are
-// never cut behind the solver's back.
+// Returns the solver's settings in a servo loop. No string's maximum exceeds what its motor can
+// pull, so that currents are never clamped after the solver.
 [[nodiscard]] TensionSettings solver_settings(const ServoSettings &settings) noexcept;
 
-// In the ramps of arming and fading all is scaled alike. While the motors are off: zeros, status ok.
+// Scales everything alike during the ramps of arming and fading. Motors off: zeros, status ok.
 [[nodiscard]] TensionReport tension_report(const ServoSettings &settings,
                                            const ServoSnapshot &snapshot) noexcept;
 

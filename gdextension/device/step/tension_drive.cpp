@@ -71,7 +71,8 @@ DriveCommand TensionDrive::pull(const GripState &grip, const Wrench &wrench, dou
     if (gate.slewed && ramp >= 1.0) {
         solver_.set_last_tensions(gate.tensions_n);
     }
-    // Stretch follows the tensions of the cycle before: they must be the same to the bit, or the next lengths are not.
+    // Stretch follows the last tensions: they must be equal bit for bit, or the next lengths
+    // differ.
     at_rest_ =
         result.skipped && !gate.slewed && !gate.clamped && gate.tensions_n == snapshot.tensions_n;
     saturated_ = result.status == Status::wrench_limited;
@@ -108,7 +109,7 @@ DriveCommand TensionDrive::hold_pretension(double part, double dt_s,
 DriveCommand TensionDrive::let_go(ServoSnapshot &snapshot) noexcept {
     gate_.shut();
     solver_warm_ = false;
-    at_rest_ = snapshot.tensions_n == StringArray{}; // as in the cycle before
+    at_rest_ = snapshot.tensions_n == StringArray{}; // equal to the last cycle's
     clear_reports(snapshot);
     return {};
 }

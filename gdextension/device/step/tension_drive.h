@@ -1,4 +1,4 @@
-// The wrench that is asked for -> tensions -> motor currents, each cycle: solver, ramp, calibrated compensation, safety gate.
+// Turns the requested wrench into tensions and currents: solver, ramp, compensation, safety gate.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -15,28 +15,29 @@ namespace spidar {
 
 class TensionDrive {
 public:
-    // Of settings that are valid (validate).
+    // Requires settings that validate() accepts.
     Status configure(const ServoSettings &settings) noexcept;
-    // The grip has another pose: its wrench matrix is made anew.
+    // The pose has changed: the wrench matrix is computed again.
     void forget_pose() noexcept { matrix_valid_ = false; }
-    // The next pull() solves even when nothing has changed. It changes no answer.
+    // Makes the next pull() solve even when nothing has changed. The result is the same.
     void forget_settled() noexcept { solver_.forget_settled(); }
 
-    // One of these three a cycle; each fills in the tensions of `snapshot` and what belongs to them.
-    // wrench: before the ramp (0..1), which scales the tensions: pretension and wrench rise together, and A (ramp tau) is
-    // ramp times the wrench, exactly.
+    // Renders a wrench. The ramp (0..1) scales the tensions, so that pretension and wrench rise
+    // together: A (ramp tau) is exactly ramp times the wrench. Call one of pull(),
+    // hold_pretension() and let_go() per cycle; each fills in the tensions of `snapshot` and what
+    // belongs to them.
     DriveCommand pull(const GripState &grip, const Wrench &wrench, double ramp, double dt_s,
                       ServoSnapshot &snapshot, EventLog &events) noexcept;
-    // Every string that is not broken at this part (0..1) of the pretension: no pose is needed.
+    // Sets every string that is not broken to this part (0..1) of the pretension. Needs no pose.
     DriveCommand hold_pretension(double part, double dt_s, ServoSnapshot &snapshot) noexcept;
-    // Motors off, in this very cycle.
+    // Switches the motors off in this cycle, without a ramp.
     DriveCommand let_go(ServoSnapshot &snapshot) noexcept;
 
-    // The last tensions are those of the cycle before, to the bit, and no limit of time changed them.
+    // True when the tensions repeat the last cycle bit for bit and no rate limit changed them.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
-    // Strings at a bound changed the wrench of the last pull().
+    // True when strings at a bound changed the wrench of the last pull().
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(render_.caps_from_latency, matrix_valid_, solver_warm_, at_rest_,
                          saturated_) &&
@@ -62,7 +63,7 @@ private:
     TensionSolver solver_;
     SafetyGate gate_;
     WrenchMatrix matrix_{};
-    bool matrix_valid_ = false; // of the present pose
+    bool matrix_valid_ = false; // matrix_ belongs to the present pose
     bool solver_warm_ = false;  // pull() was called in the last cycle
     bool at_rest_ = false;
     bool saturated_ = false;

@@ -1,5 +1,5 @@
-// Times of a loop, counted in 64 logarithmic buckets: two an octave, 1 ns to 4 s. Written by the servo thread,
-// read by any other at any time; relaxed atomics only.
+// Histogram of a loop's times in 64 logarithmic buckets, two per octave, 1 ns to 4 s. Written by
+// the servo thread, read by any other at any time; relaxed atomics only.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ public:
         const std::uint64_t t = time_ns > 0 ? static_cast<std::uint64_t>(time_ns) : 0;
         buckets_[static_cast<std::size_t>(bucket_of(t))].fetch_add(1, std::memory_order_relaxed);
         if (t > max_ns_.load(std::memory_order_relaxed)) {
-            max_ns_.store(t, std::memory_order_relaxed); // one writer: no race
+            max_ns_.store(t, std::memory_order_relaxed); // single writer: no race
         }
     }
 
@@ -38,8 +38,8 @@ public:
         return all;
     }
 
-    // The time below which this part (0..1) of all samples lies, to a factor of 2^(1/4): the bucket's middle.
-    // 0 when there are no samples; never above max_us().
+    // Returns the time (unit: us) below which this part (0..1) of all samples lies: the middle of
+    // its bucket, within a factor of 2^(1/4). 0 when there are no samples; never above max_us().
     [[nodiscard]] double quantile_us(double part) const noexcept {
         const std::uint64_t all = total();
         if (all == 0) {
@@ -58,13 +58,13 @@ public:
         return std::min(std::exp2(0.5 * index + 0.25) * 1e-3, max_us());
     }
 
-    // Samples in each bucket.
+    // Number of samples in each bucket.
     [[nodiscard]] std::array<std::uint32_t, kBuckets> counts() const noexcept {
         std::array<std::uint32_t, kBuckets> counts{};
         std::copy(buckets_.begin(), buckets_.end(), counts.begin());
         return counts;
     }
-    // Where a bucket begins; the next one ends it.
+    // Lower limit of a bucket (unit: us).
     [[nodiscard]] static double begin_us(int bucket) noexcept {
         return bucket > 0 ? std::exp2(0.5 * bucket) * 1e-3 : 0.0;
     }
@@ -73,7 +73,7 @@ public:
         return static_cast<double>(max_ns_.load(std::memory_order_relaxed)) * 1e-3;
     }
 
-    // floor(2 log2 t), in 0..63.
+    // Returns floor(2 log2 t), limited to 0..63.
     [[nodiscard]] static int bucket_of(std::uint64_t time_ns) noexcept {
         if (time_ns < 2) {
             return 0;
@@ -82,7 +82,7 @@ public:
         if (octave >= kBuckets / 2) {
             return kBuckets - 1;
         }
-        // Upper half of the octave: t^2 >= 2^(2 octave + 1); t < 2^32, so t^2 fits.
+        // The upper half of the octave has t^2 >= 2^(2 octave + 1). t < 2^32, so that t^2 fits.
         const bool upper = time_ns * time_ns >= (std::uint64_t{1} << (2 * octave + 1));
         return 2 * octave + (upper ? 1 : 0);
     }

@@ -1,6 +1,6 @@
-// Marks a function that the servo thread runs between two deadlines: no allocation, lock, exception or waiting call.
-// Clang 20 and later check it at run time with -fsanitize=realtime (./dev stage sanitize_realtime).
-// Written after the parameters: void f() noexcept SPIDAR_NONBLOCKING;
+// Marks a function that the servo thread runs between two deadlines: no allocation, lock, exception
+// or waiting call. Clang 20 and later check it at run time with -fsanitize=realtime (./dev stage
+// sanitize_realtime). Write it after the parameters: void f() noexcept SPIDAR_NONBLOCKING;
 #pragma once
 
 #if defined(__clang__) && defined(__has_cpp_attribute)

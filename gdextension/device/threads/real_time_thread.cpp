@@ -30,13 +30,14 @@ void sleep_until_ns(std::int64_t deadline_ns) noexcept {
     timespec until{};
     until.tv_sec = static_cast<std::time_t>(deadline_ns / kNanosecondsPerSecond);
     until.tv_nsec = static_cast<long>(deadline_ns % kNanosecondsPerSecond);
-    // A signal ends the sleep early; the deadline stands, so this ends at the latest when it has passed.
+    // A signal ends the sleep early; the loop continues it to the deadline.
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
     }
 }
 
 bool request_real_time() noexcept {
-    // Linux rounds wake-ups of ordinary threads by 50 us to save power; 1 ns switches that off.
+    // Linux delays wake-ups of ordinary threads by up to 50 us to save power; 1 ns switches that
+    // off.
     constexpr unsigned long kTimerSlack_ns = 1;
     prctl(PR_SET_TIMERSLACK, kTimerSlack_ns, 0UL, 0UL, 0UL);
     // Above ordinary threads, below the kernel's own interrupt threads (50).

@@ -1,25 +1,26 @@
-// What the servo thread needs from the system: a clock, absolute deadlines, priority, and flushing of denormals.
+// System services of the servo thread: clock, deadlines, priority, flushing of denormals.
 #pragma once
 
 #include <cstdint>
 
 namespace spidar {
 
-// Monotonic (unit: ns).
+// Monotonic clock (unit: ns).
 [[nodiscard]] std::int64_t monotonic_ns() noexcept;
 
-// Returns at or after this instant of monotonic_ns(). Absolute: delays do not add up.
+// Returns at or after deadline_ns (monotonic_ns()). Absolute deadlines accumulate no delay.
 void sleep_until_ns(std::int64_t deadline_ns) noexcept;
 
-// For the calling thread: timers without slack, and real-time priority where the system grants it (no error
-// where it does not: the loop only gets less punctual). True when priority was granted.
+// Requests exact timers and real-time priority for the calling thread. Returns true when priority
+// was granted. Without priority the loop still runs, less punctually.
 bool request_real_time() noexcept;
 
-// What `top -H` and a debugger call the calling thread; at most 15 letters. Linux only.
+// Names the calling thread for `top -H` and debuggers. At most 15 letters. Linux and Windows only.
 void name_thread(const char *name) noexcept;
 
-// While it lives, denormal numbers count as zero in this thread: they cost a hundredfold and mean nothing here.
-// Used around every servo cycle, threaded or stepped, so that both compute the same bits.
+// While an object lives, denormal numbers count as zero in this thread: they cost a hundredfold and
+// carry no information here. Used around every servo cycle, threaded or stepped, so that both
+// compute the same bits.
 class FlushDenormals {
 public:
     FlushDenormals() noexcept;

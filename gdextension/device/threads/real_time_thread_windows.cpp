@@ -1,4 +1,4 @@
-// Timers and priority of Windows. Compiled and started under wine; not tested on Windows itself.
+// Timers and priority on Windows. Compiled, and started under wine; not tested on Windows.
 #include "device/threads/real_time_thread.h"
 
 #if defined(_WIN32)
@@ -20,7 +20,7 @@ namespace spidar {
 
 namespace {
 
-// A system library's function, where the system has it: neither library is a condition for loading the add-on.
+// Returns a function of a system library, or null: the add-on loads without either library.
 template <typename Function>
 Function system_function(const char *library, const char *name) noexcept {
     const HMODULE module = LoadLibraryA(library);
@@ -29,7 +29,8 @@ Function system_function(const char *library, const char *name) noexcept {
                              : nullptr;
 }
 
-// Of one thread. High resolution is 0.5 ms (Windows 10, 1803 on); an ordinary timer needs the system's tick at 1 ms.
+// Timer of one thread. High resolution is 0.5 ms (Windows 10, 1803 and later); an ordinary timer
+// needs the system tick at 1 ms.
 class WaitableTimer {
 public:
     WaitableTimer() noexcept

@@ -1,5 +1,5 @@
-// Queue between one writing and one reading thread. Wait-free on both sides; memory is taken once, at construction.
-// A full queue refuses: the writer decides what that means.
+// Queue between one writing and one reading thread. Wait-free on both sides; memory is allocated
+// once, in the constructor. A full queue refuses elements.
 #pragma once
 
 #include <atomic>
@@ -12,12 +12,13 @@ namespace spidar {
 template <typename T>
 class SpscRing {
 public:
-    // Room for at least this many elements.
+    // Rounds the capacity up to a power of two.
     explicit SpscRing(std::size_t capacity) : slots_(std::bit_ceil(capacity)) {}
 
     [[nodiscard]] std::size_t capacity() const noexcept { return slots_.size(); }
 
-    // Writing thread: where the next element goes, or null when the queue is full. commit() hands it over.
+    // Writing thread: returns the place of the next element, or null when the queue is full.
+    // commit() publishes the element.
     [[nodiscard]] T *free_slot() noexcept {
         const std::size_t tail = tail_.load(std::memory_order_relaxed);
         if (tail - known_head_ >= slots_.size()) {
@@ -32,7 +33,7 @@ public:
         tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 
-    // Reading thread: the oldest element, or null when there is none. pop() gives its place back.
+    // Reading thread: the oldest element, null when the queue is empty. pop() removes it.
     [[nodiscard]] const T *oldest() noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         if (head == known_tail_) {
@@ -47,7 +48,7 @@ public:
         head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 
-    // The same for elements that are small. False: the queue is full, and the element is dropped; or it is empty.
+    // Writing thread: adds a copy of an element. Returns false and drops it when the queue is full.
     bool offer(const T &element) noexcept {
         T *const slot = free_slot();
         if (slot == nullptr) {
@@ -57,6 +58,7 @@ public:
         commit();
         return true;
     }
+    // Reading thread: copies and removes the oldest element. Returns false when there is none.
     bool take(T &element) noexcept {
         const T *const waiting = oldest();
         if (waiting == nullptr) {
@@ -67,7 +69,7 @@ public:
         return true;
     }
 
-    // From either thread: how many elements wait. The other side may be changing it.
+    // Number of waiting elements; callable from either thread. The other side may be changing it.
     [[nodiscard]] std::size_t size() const noexcept {
         const std::size_t head = head_.load(std::memory_order_acquire);
         return tail_.load(std::memory_order_acquire) - head;
@@ -75,7 +77,7 @@ public:
 
 private:
     std::vector<T> slots_;
-    // Each side on cache lines of its own, with what it last saw of the other.
+    // Each side has its own cache lines, with its last view of the other side.
     alignas(64) std::atomic<std::size_t> tail_{0};
     std::size_t known_head_ = 0;
     alignas(64) std::atomic<std::size_t> head_{0};

@@ -9,7 +9,7 @@ namespace spidar {
 
 namespace {
 
-// How often a thread that has nothing to write looks whether the loop still lives, and tries again to switch off.
+// Interval at which an idle thread checks the loop and repeats the off command.
 constexpr std::chrono::milliseconds kLook(5);
 constexpr std::chrono::milliseconds kTryAgain(1);
 
@@ -103,7 +103,7 @@ void WriterThread::look() noexcept {
         return;
     }
     if (!off_is_wanted_ && stands_still()) {
-        // First, so that what the loop posts when it wakes up is not believed either.
+        // Set first, so that posts of a loop that wakes up again are refused too.
         forbidden_.store(true, std::memory_order_release);
         write_off();
         stalled_.store(true, std::memory_order_release);
@@ -117,7 +117,7 @@ void WriterThread::run() noexcept {
     (void)request_real_time();
     while (!stop_asked_.load(std::memory_order_acquire)) {
         (void)posted_.try_acquire_for(kLook);
-        while (posted_.try_acquire()) { // newest only: posts that came meanwhile are one
+        while (posted_.try_acquire()) { // posts that arrived meanwhile count as one
         }
         look();
     }

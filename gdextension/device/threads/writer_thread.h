@@ -1,7 +1,7 @@
-// Writes to a device whose write() may wait for seconds, so that the servo loop never does: a thread of its own with a
-// mailbox that holds only the newest command. It is a watchdog too: when the loop stops posting while the motors may be
-// on, it switches them off itself. The motors count as off only once the device has accepted a command that says so;
-// until then that command is written again and again.
+// Writes to a device whose write() may wait for seconds, in a thread with a mailbox that holds only
+// the newest command. The servo loop never waits. The thread is also a watchdog: when the loop
+// stops posting while the motors may be on, the thread switches them off. Motors count as off only
+// once the device has accepted such a command, which is repeated until then.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,10 @@ namespace spidar {
 
 class WriterThread {
 public:
-    // Motors on and no post for this long: they are switched off from here.
+    // Time without a post, with motors on, after which this thread switches them off.
     static constexpr std::int64_t kStalled_ns = 20'000'000;
-    // A write that waits so long: the device takes no more of them, and its firmware has let go by itself.
+    // Time after which a blocked write means that the device accepts no more: its firmware has
+    // switched off by itself.
     static constexpr std::int64_t kBlockedForGood_ns = 50'000'000;
 
     explicit WriterThread(Transport &transport) noexcept : transport_(transport) {}
@@ -26,27 +27,31 @@ public:
     WriterThread(const WriterThread &) = delete;
     WriterThread &operator=(const WriterThread &) = delete;
 
-    // Begins with an empty mailbox: what was posted before is never written. open_failed: the system has no thread left.
+    // Starts with an empty mailbox: earlier posts are never written. Returns open_failed when the
+    // system can start no thread.
     Status start() noexcept;
-    // Writes motors off, after a write that is still under way, and joins. A device that does not accept it is asked
-    // again for kStopPatience_ns; then its firmware lets go by itself (docs/reference/safety.md, row 34).
+    // Writes motors off, after any write in progress, and joins. Repeats the command for
+    // kStopPatience_ns when the device does not accept it; after that time its firmware switches
+    // off by itself (docs/reference/safety.md, row 34).
     void stop() noexcept;
 
-    // From the servo thread; wait-free. The newest command wins.
+    // Posts a command; the newest wins. Called from the servo thread; wait-free.
     void post(const DriveCommand &command) noexcept;
-    // From any thread: motors off, whatever is posted, until allow().
+    // Keeps the motors off, whatever is posted, until allow(). Called from any thread.
     void forbid() noexcept;
     void allow() noexcept { forbidden_.store(false, std::memory_order_release); }
 
-    // Result of the last posted command whose write ended since the last call; ok when none did.
+    // Returns the result of the last posted command whose write ended since the last call; ok when
+    // none did.
     Status take_result() noexcept;
-    // How long the write under way has been waiting (unit: ns); 0 when none is.
+    // Time for which the current write has been waiting (unit: ns); 0 when there is none.
     [[nodiscard]] std::int64_t blocked_ns(std::int64_t now_ns) const noexcept;
-    // The loop stood still and the motors were switched off, since the last call. They stay off until allow().
+    // True when, since the last call, the loop stalled and the motors were switched off. They stay
+    // off until allow().
     bool take_stalled() noexcept { return stalled_.exchange(false, std::memory_order_acq_rel); }
 
 private:
-    // As long as a firmware waits before it switches the motors off itself.
+    // Time after which a device's firmware switches the motors off by itself.
     static constexpr std::int64_t kStopPatience_ns = 50'000'000;
 
     void run() noexcept;
@@ -67,9 +72,11 @@ private:
     std::atomic<std::int64_t> last_post_ns_{0};
     std::atomic<std::int64_t> writing_since_ns_{0};
     std::atomic<std::int32_t> result_{0};
-    // The thread's own, and kept from one start() to the next: a device that was not told remembers too.
+    // Used by the thread only, and kept between runs: a device that did not accept the off command
+    // still has its motors on.
     bool motors_may_be_on_ = false;
-    bool off_is_wanted_ = false; // by the last command, or by this thread
+    // The last command or this thread wants the motors off.
+    bool off_is_wanted_ = false;
 };
 
 } // namespace spidar

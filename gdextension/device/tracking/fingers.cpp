@@ -7,13 +7,13 @@ namespace spidar {
 
 namespace {
 
-// Closed within 0.2 s of a button's press, as fingers do.
+// Rate of the approach: closed within 0.2 s of a button press.
 constexpr double kPace_1_s = 30.0;
-// Far less than any sensor tells apart.
+// Distance and rate below which the fingers have arrived, far below any sensor's resolution.
 constexpr double kArrived_rad = 1e-9;
 constexpr double kArrived_rad_s = 1e-7;
 
-// 0 for what is not a number.
+// Returns the share clamped to 0..1; 0 for NaN.
 double clamped_share(double share) noexcept {
     return share > 0.0 ? std::min(share, 1.0) : 0.0;
 }
@@ -57,7 +57,7 @@ bool Fingers::has_seen(const DeviceReading &reading, const HapticCommand &comman
            (share_of(reading) == device_share_ && share_of(command) == game_share_);
 }
 
-// Critically damped, solved exactly: no time step makes it overshoot.
+// Critically damped and solved exactly: no time step causes overshoot.
 void Fingers::advance(double dt_s) noexcept {
     if (at_rest()) {
         return;

@@ -1,5 +1,6 @@
-// The fingers of a rigid grip. No string measures how far they are closed: a button, the game or a sensor tells. They follow
-// like fingers, without a jump of angle or speed. Nothing can push them open, so no grasp torque is felt.
+// The fingers of a rigid grip, which no string measures. A button, the game or a sensor closes
+// them. The angle follows smoothly, without jumps of angle or speed. Nothing can push the fingers
+// open, so that no grasp torque is felt.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -15,8 +16,9 @@ class Fingers {
 public:
     void configure(const FingerSettings &settings, GripKind kind) noexcept;
 
-    // A report that is believed, and the command of each cycle.
+    // Takes an accepted report.
     void take(const DeviceReading &reading) noexcept;
+    // Takes the command of a cycle.
     void take(const HapticCommand &command) noexcept;
     void advance(double dt_s) noexcept;
 
@@ -25,10 +27,10 @@ public:
     [[nodiscard]] bool at_rest() const noexcept {
         return motion_.rate_rad_s == 0.0 && motion_.angle_rad == target_rad();
     }
-    // Neither would move them.
+    // True when take() with these arguments would change nothing.
     [[nodiscard]] bool has_seen(const DeviceReading &reading,
                                 const HapticCommand &command) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(motion_.given) && spidar::is_sound(settings_);
     }
@@ -39,9 +41,10 @@ private:
     [[nodiscard]] double target_rad() const noexcept;
 
     FingerSettings settings_;
-    double device_share_ = 0.0; // told by buttons and sensor, 0 open to 1 closed
+    double device_share_ = 0.0; // by buttons and sensor: 0 open to 1 closed
     double game_share_ = 0.0;
-    FingerMotion motion_; // given: not for a crossed grip, whose strings measure it
+    // `given` is false for a crossed grip, whose strings measure the angle.
+    FingerMotion motion_;
 };
 
 } // namespace spidar

@@ -14,9 +14,10 @@ namespace spidar {
 
 namespace {
 
-// Far under what an encoder count in a second is (m/s, rad/s).
+// Speed that counts as zero (m/s, rad/s), far below an encoder count per second.
 constexpr double kRest = 1e-10;
-// In cut-offs of the twist. More lets the chatter of counts through, less is late when the hand turns back.
+// Cut-off of the carrier, relative to that of the twist. Higher values pass the noise of counts,
+// lower ones lag when the hand turns back.
 constexpr double kCarrierCutoff = 2.5;
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
@@ -75,7 +76,7 @@ void GripTracker::filter_twist(const Twist &raw, double dt_s) noexcept {
     approach(carrier_, raw, carrier_filter_.share(dt_s));
 }
 
-// The pose did not change: the twist falls to exactly nothing.
+// The pose did not change: the twist falls to exactly zero.
 void GripTracker::come_to_rest(double dt_s) noexcept {
     if (at_rest()) {
         return;
@@ -104,7 +105,7 @@ void GripTracker::carry_on(double time_s) noexcept {
     GripFrame &frame = grip_.frame;
     const Vec3 position_m = grip_.pose.position_m + time_s * twist.linear_m_s;
     frame.rotation = rotation_exp(time_s * twist.angular_rad_s) * frame.rotation;
-    if (geometry_.kind == GripKind::crossed) { // not beyond where the poles lie on each other
+    if (geometry_.kind == GripKind::crossed) { // not beyond parallel poles
         frame.grasp_angle_rad =
             std::clamp(frame.grasp_angle_rad + time_s * twist.grasp_rate_rad_s, -kHalfPi, kHalfPi);
         frame.crossing_angle_rad = kHalfPi - frame.grasp_angle_rad;
@@ -159,7 +160,7 @@ GripTracker::Update GripTracker::update(const CountArray &counts, bool unchanged
     if (!has_pose_) {
         grip_.twist = Twist();
         carrier_ = Twist();
-    } else if (!solution.cold_start) { // a difference to a pose found anew would be no velocity
+    } else if (!solution.cold_start) { // the difference to a pose from a search is not a velocity
         const Displacement step = between(measured_, measured_frame_, solution.pose, frame);
         filter_twist(
             {step.linear_m / elapsed_s, step.angular_rad / elapsed_s, step.grasp_rad / elapsed_s},
@@ -199,7 +200,7 @@ bool GripTracker::hold(Status why, double dt_s, bool stale) noexcept {
 }
 
 double GripTracker::fastest_point_m_s() const noexcept {
-    // Both ends of a pole at once: |v + c| and |v - c|, c what its turning adds.
+    // Both ends of a pole at once: |v + c| and |v - c|, where c is the velocity by turning.
     const Vec3 &v = grip_.twist.linear_m_s;
     const auto ends_square = [&](ContactTarget end) {
         const Vec3 c = grip_point_velocity(grip_, end) - v;

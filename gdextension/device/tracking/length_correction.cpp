@@ -7,7 +7,7 @@ namespace spidar {
 
 namespace {
 
-// Nearer than this the tension counts as reached: 0.01 um of stretch.
+// Distance at which the followed tension has arrived: 0.01 um of stretch.
 constexpr double kReached_n = 1e-4;
 
 bool any(const StringArray &values) noexcept {

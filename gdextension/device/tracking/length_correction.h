@@ -1,7 +1,6 @@
-// Counts -> lengths in the servo loop, with what the calibration knows of
-// winding and stretch. The stretch follows the commanded tensions slowly: it
-// takes the sag out of a held force, and adds nothing to the loop that keeps a
-// wall still.
+// Converts counts to lengths in the servo loop, corrected for winding and stretch. The stretch
+// follows the commanded tensions slowly. It removes the error of a held force and does not affect
+// the stability of a stiff wall.
 #pragma once
 
 #include "core/base/one_pole.h"
@@ -15,15 +14,16 @@ public:
     void configure(const StringCalibration &strings, const LengthCorrections &corrections) noexcept;
     void set_zero(const CountArray &counts) noexcept { strings_.zero_count = counts; }
 
-    // Once a cycle. tensions_n: commanded in the last one. True when the lengths
-    // of unchanged counts change.
+    // Takes one cycle. tensions_n: commanded in the last cycle. Returns true when the lengths of
+    // unchanged counts change.
     bool follow(const StringArray &tensions_n, double dt_s) noexcept;
     [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(wound_, stretched_); }
 
 private:
-    // A wall of 2000 N/m on strings of 12 kN/m in series would become 1.2 times as stiff at once; below this it does.
+    // Cut-off at which the stretch follows. If it followed at once, a wall of 2000 N/m on strings
+    // of 12 kN/m in series would become 1.2 times as stiff.
     static constexpr double kFollow_hz = 5.0;
 
     StringCalibration strings_{};
@@ -31,7 +31,7 @@ private:
     bool wound_ = false;
     bool stretched_ = false;
     OnePole follow_{kFollow_hz};
-    StringArray tensions_n_{}; // followed
+    StringArray tensions_n_{}; // low-pass filtered
 };
 
 } // namespace spidar

@@ -8,13 +8,14 @@ namespace spidar {
 namespace {
 
 constexpr double kMicrosecondsPerSecond = 1e6;
-// A report comes in no later than this after the one before, by either clock, and both clocks agree to that; else one of
-// them was set or stopped, and the count of the lag starts again.
+// Longest plausible time between two reports, and largest disagreement of the two clocks over it.
+// Beyond either, one clock was set or stopped, and the lag is measured anew.
 constexpr double kMostApart_s = 0.05;
 
 } // namespace
 
-// Since the report before, by the device's clock where that can be believed, else by the host's.
+// Returns the time since the last report, by the device's clock where it is used, else by the
+// host's.
 double ReportClock::made_after_s(std::uint64_t device_us) const noexcept {
     if (!believed_ || !known_ || device_us <= device_us_) {
         return since_arrival_s_;
@@ -54,7 +55,7 @@ void ReportClock::end_stretch() noexcept {
     const double left_s = stretch_s_ - least_at_s_;
     double slope = 0.0;
     if (has_before_) {
-        // Two that follow each other closely say nothing of the rate.
+        // Two minima close together do not determine a rate.
         const double apart_s = std::max(before_ago_s_ + least_at_s_, 0.5 * kStretch_s);
         slope = std::clamp((least_s_ - before_s_) / apart_s, -kMostDrift, kMostDrift);
     }

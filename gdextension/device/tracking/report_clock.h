@@ -1,9 +1,11 @@
-// How old the newest report is, by the device's own clock, and how long apart two reports were made. So a report that is
-// lost, late or overtaken, or a device whose clock is not the host's, changes no velocity and no pose of now.
+// Age of the newest report and time between two reports, by the device's clock. A report that is
+// lost, late or superseded, or a device clock that differs from the host's, therefore changes
+// neither the velocity nor the present pose.
 //
-// A report comes in some time after it was made. The shortest such delay counts as none: it is part of the link's latency,
-// which prediction takes care of. What comes later than that is old by the difference. Both clocks run at their own rate,
-// so the shortest delay is looked for in each stretch of kStretch_s, and what it grows by is the drift.
+// A report arrives some time after it was made. The shortest delay counts as zero, since prediction
+// covers it as part of the link's latency. Any longer delay is the age of the report. The two
+// clocks run at different rates: the shortest delay is found in each interval of kStretch_s, and
+// its growth is the drift.
 #pragma once
 
 #include <cstdint>
@@ -14,59 +16,61 @@ namespace spidar {
 
 class ReportClock {
 public:
-    // A report that seems older than this is a clock that is wrong, not a pose to be carried on so far.
+    // Largest age that is used (unit: s). A larger one comes from a wrong clock.
     static constexpr double kOldest_s = 0.003;
-    // Clocks of crystals differ by less than this. Else the device's times are not believed.
+    // Largest drift between two crystal clocks. Beyond it the device's times are not used.
     static constexpr double kMostDrift = 0.02;
 
     void reset() noexcept { *this = ReportClock(); }
 
-    // Once a cycle, before its report. dt_s: of the host's clock.
+    // Takes one cycle, before its report. dt_s: by the host's clock.
     void advance(double dt_s) noexcept { since_arrival_s_ += dt_s; }
-    // A new report came in. device_us: when it was made; 0 each time when the device has no clock.
+    // Takes a new report. device_us: device time at which the report was made; always 0 when the
+    // device has no clock.
     void arrived(std::uint64_t device_us) noexcept;
-    // The report that came in last gave a pose.
+    // Notes that the last report gave a pose.
     void used() noexcept { since_used_s_ = 0.0; }
 
-    // From when the report that was used last was made to when the newest was.
+    // Time between the making of the last used report and that of the newest (unit: s).
     [[nodiscard]] double since_used_s() const noexcept { return since_used_s_; }
-    // From when the report before was made to when the newest was.
+    // Time between the making of the last two reports (unit: s).
     [[nodiscard]] double apart_s() const noexcept { return apart_s_; }
-    // From when the newest report was made to now, 0 to kOldest_s. In cycles with a report.
+    // Age of the newest report, 0 to kOldest_s. Valid in cycles with a report.
     [[nodiscard]] double age_s() const noexcept { return age_s_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(known_, believed_, has_before_);
     }
 
 private:
     static constexpr double kStretch_s = 0.25;
-    // Steps of the device's clock are as fine as this.
+    // Resolution of the device's clock.
     static constexpr double kGrain_s = 2e-6;
-    // Two reports are not made closer together than this, whatever their times say.
+    // Shortest time between two reports, whatever their times are.
     static constexpr double kClosest_s = 1e-4;
 
     [[nodiscard]] double made_after_s(std::uint64_t device_us) const noexcept;
     void end_stretch() noexcept;
 
     std::uint64_t device_us_ = 0;
-    bool known_ = false;   // any report yet
-    bool believed_ = true; // the device's clock
+    bool known_ = false;   // a report has arrived
+    bool believed_ = true; // the device's clock is used
     double since_arrival_s_ = 0.0;
     double since_used_s_ = 0.0;
     double apart_s_ = 0.0;
     double age_s_ = 0.0;
-    // Host's time less the device's time stretched by the drift, from the first report on; and the least it can be now.
+    // Host time minus the device time corrected for drift, since the first report.
     double lag_s_ = 0.0;
+    // The smallest value that lag_s_ can have now.
     double floor_s_ = 0.0;
-    double to_come_s_ =
-        0.0; // of a change of the floor that is made little by little: a step would be felt
+    // Part of a change of the floor that is still to be made, in small steps: a jump would be felt.
+    double to_come_s_ = 0.0;
     double drift_ = 0.0;
-    // This stretch: its length so far, the least lag in it and when that was.
+    // The current interval: its length so far, its smallest lag and the time of that lag.
     double stretch_s_ = 0.0;
     double least_s_ = 0.0;
     double least_at_s_ = 0.0;
-    // The least lag of the stretch before, on today's scale, and how long before this stretch it was.
+    // Smallest lag of the previous interval on today's scale, and its time before this interval.
     bool has_before_ = false;
     double before_s_ = 0.0;
     double before_ago_s_ = 0.0;

@@ -1,4 +1,5 @@
-// The reports of a device as they come in: their order, the device's own clock, and how the wrench fades while none come.
+// The incoming reports of a device: their order, the device's clock, and the fade of the wrench
+// while none arrive.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace spidar {
 
 class ReportLink {
 public:
-    // A device clock that went back by more than this is not a late report but a new start.
+    // A device clock that goes back by more than this has restarted; less is a late report.
     static constexpr std::uint64_t kClockBack_us = 50'000;
 
     void configure(const SafetySettings &safety, double nominal_dt_s) noexcept {
@@ -22,18 +23,18 @@ public:
         lost_s_ = safety.read_timeout_fault_s;
         slack_s_ = 0.5 * nominal_dt_s;
     }
-    // The device may count its reports anew.
+    // The device may restart its report numbers.
     void expect_anew() noexcept {
         order_.reset();
         clock_.reset();
     }
-    // A fault was cleared: what was missed is forgotten.
+    // A fault was cleared: missed reports are forgotten.
     void forgive() noexcept {
         expect_anew();
         since_report_s_ = 0.0;
     }
 
-    // The device's clock began anew, which this report shows.
+    // Returns true when this report shows that the device's clock restarted.
     bool restarted(const DeviceReading &reading) noexcept {
         if (reading.device_time_us + kClockBack_us >= device_time_us_) {
             return false;
@@ -42,7 +43,7 @@ public:
         expect_anew();
         return true;
     }
-    // False: an old report, not to be used.
+    // Returns false for an old report, which must not be used.
     bool accept(const DeviceReading &reading) noexcept {
         if (!order_.accept(reading.sequence, reading.overtaken)) {
             return false;
@@ -51,21 +52,21 @@ public:
         device_time_us_ = std::max(device_time_us_, reading.device_time_us);
         return true;
     }
-    // Would accept() take it with nothing to tell?
+    // Returns whether accept() would take this report without missing any.
     [[nodiscard]] bool follows(const DeviceReading &reading) const noexcept {
         return reading.device_time_us + kClockBack_us >= device_time_us_ &&
                order_.follows(reading.sequence);
     }
-    // Lost before the report accepted last.
+    // Reports lost before the last accepted one.
     [[nodiscard]] int missed() const noexcept { return order_.missed(); }
 
-    // Once a cycle, first of all. dt_s: of the host's clock.
+    // Takes one cycle, before all other calls. dt_s: by the host's clock.
     void advance(double dt_s) noexcept { clock_.advance(dt_s); }
-    // The report accepted last gave a pose.
+    // Notes that the last accepted report gave a pose.
     void used() noexcept { clock_.used(); }
     [[nodiscard]] const ReportClock &clock() const noexcept { return clock_; }
 
-    // Once a cycle: a report that is used came in, or none did.
+    // Takes a cycle in which a usable report arrived. Call arrived() or absent() once per cycle.
     void arrived(double dt_s) noexcept {
         answered_ = true;
         since_report_s_ = 0.0;
@@ -76,23 +77,24 @@ public:
         scale_ = stale() ? std::max(0.0, scale_ - dt_s / kFade_s) : scale_;
     }
     [[nodiscard]] double since_report_s() const noexcept { return since_report_s_; }
-    // The newest report is too old to go by. Half a step of slack: sums of time steps carry rounding.
+    // True when the newest report is too old. Half a time step covers rounding of summed steps.
     [[nodiscard]] bool stale() const noexcept { return since_report_s_ + slack_s_ >= stale_s_; }
-    // A device that answered before does so no more.
+    // True when a device that sent reports sends no more.
     [[nodiscard]] bool lost() const noexcept {
         return answered_ && since_report_s_ + slack_s_ >= lost_s_;
     }
-    // Of the wrench, 0..1.
+    // Scale of the wrench, 0..1.
     [[nodiscard]] double scale() const noexcept { return scale_; }
     [[nodiscard]] bool at_rest() const noexcept { return scale_ >= 1.0; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(answered_) && order_.is_sound() && clock_.is_sound();
     }
 
 private:
-    // The wrench falls to zero in this time when reports fail to come, and returns in that.
+    // Time in which the wrench falls to zero without reports.
     static constexpr double kFade_s = 0.020;
+    // Time in which the wrench returns.
     static constexpr double kRecovery_s = 0.050;
 
     double stale_s_ = 0.0;
@@ -101,7 +103,7 @@ private:
     ReportOrder order_;
     ReportClock clock_;
     std::uint64_t device_time_us_ = 0;
-    bool answered_ = false; // any reading yet
+    bool answered_ = false; // a report has arrived
     double since_report_s_ = 0.0;
     double scale_ = 1.0;
 };

@@ -1,5 +1,5 @@
-// Reports carry a number that grows by one, 0 to 0xFFFE and round again: missing ones are counted, repeated and late ones
-// left out.
+// Order of numbered reports. Numbers grow by one from 0 to 0xFFFE, then start again at 0. Missing
+// reports are counted; repeated and late ones are refused.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,18 @@ namespace spidar {
 
 class ReportOrder {
 public:
-    // Old reports in a row after which the device is believed to count anew.
+    // Old reports in a row after which the device is taken to have restarted its numbers.
     static constexpr int kAnew = 20;
 
     void reset() noexcept { *this = ReportOrder(); }
-    // True: use the report. A device that gives no numbers says 0 each time. overtaken: so many came in since the report
-    // before, and were left unread for this one.
+    // Returns true when the report must be used. A device without numbers sends 0 each time.
+    // overtaken: reports that arrived since the last one and were superseded unread.
     bool accept(std::uint16_t sequence, int overtaken = 0) noexcept {
         missed_ = 0;
         const auto step = static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - last_));
         const bool first = !known_ || (sequence == 0 && last_ == 0);
         if (first || step > 0 || ++old_in_row_ > kAnew) {
-            const int round = sequence < last_ ? 1 : 0; // 0xFFFF is no number
+            const int round = sequence < last_ ? 1 : 0; // 0xFFFF is never used
             missed_ = !first && step > 1 ? std::max(0, step - 1 - round - overtaken) : 0;
             known_ = true;
             last_ = sequence;
@@ -31,15 +31,15 @@ public:
         }
         return false;
     }
-    // Would this one be accepted with none missing?
+    // Returns whether accept() would take this report with none missing.
     [[nodiscard]] bool follows(std::uint16_t sequence) const noexcept {
         const bool unnumbered = sequence == 0 && last_ == 0;
         const bool round = sequence == 0 && last_ == kLast;
         return known_ && (unnumbered || round || static_cast<std::uint16_t>(sequence - last_) == 1);
     }
-    // Lost before the report accepted last.
+    // Reports lost before the last accepted one.
     [[nodiscard]] int missed() const noexcept { return missed_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(known_) && is_tally(missed_) && is_tally(old_in_row_);
     }

@@ -39,7 +39,7 @@ SampleGuard::Verdict SampleGuard::check(const CountArray &counts, double dt_s) n
         elapsed_s_ = 0.0;
         return Verdict::unchanged;
     }
-    // The host may fetch two reports closer together than the device took them.
+    // The host may fetch two reports closer together than the device sampled them.
     const double limit_m = max_speed_m_s_ * std::max(elapsed_s_, nominal_dt_s_);
     double worst_m = limit_m;
     int worst = -1;

@@ -1,5 +1,6 @@
-// Are these encoder counts possible? A string cannot move faster than a hand can pull it, so a larger step is a
-// glitch of the encoder or the link. One bad sample is skipped; several in a row mean that the zero is lost.
+// Checks whether encoder counts are plausible. A string cannot move faster than a hand can pull it:
+// a larger step is a glitch of the encoder or the link. One bad sample is skipped; several in a row
+// mean that the zero is lost.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -14,23 +15,25 @@ public:
         good,      // new counts
         unchanged, // the same counts as the last good sample
         bad,       // hold the last good sample
-        jumped,    // bad for max_bad_samples in a row, now or earlier: until reset()
+        // Bad for max_bad_samples in a row, now or earlier. Lasts until reset().
+        jumped,
     };
 
     void configure(const StringCalibration &strings, double max_speed_m_s, int max_bad_samples,
                    double nominal_dt_s) noexcept;
-    // The next sample becomes the reference, whatever it is.
+    // Takes the next sample as the reference, whatever its counts.
     void reset() noexcept;
 
-    // dt_s: time since the last call to check() or advance_without_reading(). Counts wrap at 32 bits.
+    // Checks a sample. dt_s: time since the last call of check() or advance_without_reading().
+    // Counts wrap at 32 bits.
     Verdict check(const CountArray &counts, double dt_s) noexcept;
-    // No sample came in this tick.
+    // Takes a cycle without a sample.
     void advance_without_reading(double dt_s) noexcept { elapsed_s_ += dt_s; }
     [[nodiscard]] bool at_rest() const noexcept { return has_reference_ && bad_in_row_ == 0; }
 
-    // The string that moved too fast in the last bad sample (0-7), -1 before any.
+    // The string (0-7) that moved too fast in the last bad sample; -1 before any.
     [[nodiscard]] int bad_string() const noexcept { return bad_string_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(has_reference_) && is_tally(max_bad_samples_) && is_tally(bad_in_row_) &&
                is_string_or_none(bad_string_);

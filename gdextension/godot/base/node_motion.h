@@ -1,5 +1,5 @@
-// How the node moves through the scene. What moves along with the node is at rest for the device, so the node's own velocity
-// is taken off the velocities of the scene before they reach the device.
+// Motion of the node through the scene. Objects that move with the node are at rest for the device.
+// The node's velocity is therefore subtracted from scene velocities before they reach the device.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -12,7 +12,7 @@ namespace spidar {
 
 class NodeMotion {
 public:
-    // Takes the node's newest place, tick_s after the one before.
+    // Takes the newest pose of the node, tick_s after the previous one.
     void note(const WorldFrame &place, double tick_s) noexcept {
         if (known_) {
             const Mat3 turn = place.rotation * glm::transpose(place_.rotation);
@@ -22,16 +22,16 @@ public:
         place_ = place;
         known_ = true;
     }
-    // Velocity of a point that is fixed to the node (unit: scene m/s). from_origin: from the node's origin to the point, in the
-    // axes of the scene.
+    // Returns the velocity of a point that is fixed to the node (unit: scene m/s). from_origin:
+    // vector from the node's origin to the point, in scene axes.
     [[nodiscard]] Vec3 velocity_at(const Vec3 &from_origin) const noexcept {
         return linear_.steady + glm::cross(angular_.steady, from_origin);
     }
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_.steady; }
 
 private:
-    // The part of a velocity that two ticks in a row share: a node that a script puts elsewhere has a velocity in one tick
-    // alone.
+    // The part of a velocity that two consecutive ticks share. A node that a script teleports has a
+    // velocity in one tick only, which is ignored.
     struct Rate {
         Vec3 seen{0.0};
         Vec3 steady{0.0};

@@ -1,4 +1,4 @@
-// The project's physics ticks. An engine that is told a rate of none takes its default.
+// Returns the project's physics ticks per second, or the engine's default when it reports none.
 #pragma once
 
 #include <cstdint>

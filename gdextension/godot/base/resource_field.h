@@ -1,12 +1,14 @@
-// A field of a Resource with its setter and getter: unchanged values return early, changed ones emit `changed`.
-// (Written as a macro because each accessor must be a named member for ClassDB::bind_method.)
+// Macros for fields of a Resource with setter and getter. Setting an unchanged value returns early;
+// a changed value emits `changed`. They are macros because ClassDB::bind_method needs named
+// members.
 #pragma once
 
 #include <cstdint>
 
 #include "godot/base/strict.h"
 
-// In the class, before its fields: counts the changes of what only a device that is opened anew takes over.
+// Placed in the class before its fields. Counts changes that an open device cannot take over: it
+// must be opened again.
 #define SPIDAR_G_REVISION                                                                          \
 public:                                                                                            \
     [[nodiscard]] std::uint64_t revision() const noexcept {                                        \
@@ -34,11 +36,11 @@ private:                                                                        
     m_type m_name##_ = m_default
 
 #define SPIDAR_G_FIELD(m_type, m_name, m_default) SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 1U)
-// One that an open device takes over at once.
+// A field whose changes an open device takes over at once.
 #define SPIDAR_G_LIVE_FIELD(m_type, m_name, m_default)                                             \
     SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 0U)
 
-// The same for values that are handed over by reference (packed arrays, strings).
+// A field that is passed by reference (packed arrays, strings). Every set counts as a change.
 #define SPIDAR_G_ARRAY_FIELD(m_type, m_name)                                                       \
 public:                                                                                            \
     void set_##m_name(const m_type &p_value) {                                                     \

@@ -4,7 +4,7 @@ namespace spidar {
 
 namespace {
 
-// Long enough for a transform; a message is no dump of a whole array.
+// Longest value in a message: enough for a transform, but not a whole array.
 constexpr std::int64_t kLongestValue = 100;
 
 } // namespace

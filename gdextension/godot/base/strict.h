@@ -1,6 +1,7 @@
-// Arguments of bound methods that are checked by the add-on itself. A binding may convert what a script gives to the
-// type that a method wants: the text "off" becomes true, null becomes a force of zero. Nothing that can move a motor may
-// lean on that, so a Strict<T> sees the value as it was given and says what it was when it does not fit.
+// Arguments of bound methods, checked by the add-on. A binding may convert a script's argument to
+// the method's type: the text "off" becomes true, null becomes a force of zero. That is unsafe
+// where motors can move. Strict<T> sees the original value and describes it when its type does not
+// fit.
 #pragma once
 
 #include <cmath>
@@ -28,10 +29,11 @@ template <class T>
 struct Strict {
     using BoundAs = T;
     T value{};
-    std::string misfit; // empty, or what was given in its place, with its type
+    // Empty, or the passed value with its type when it does not fit.
+    std::string misfit;
 };
 
-// A value for messages: short, with its type, texts in quotes.
+// Returns a value for messages: short, with its type, strings in quotes.
 [[nodiscard]] std::string describe_value(const godot::Variant &value);
 
 namespace strict {
@@ -49,7 +51,7 @@ inline constexpr bool kWhole = std::is_enum_v<T> ||
 
 template <class T>
 [[nodiscard]] bool take_whole(std::int64_t given, T &value) {
-    // Enums cross as 32 bits: a method checks which of its values it knows.
+    // Enums are passed as 32 bits: the method checks which of the values it knows.
     using Narrow = std::conditional_t<std::is_enum_v<T>, std::int32_t, T>;
     if (given < static_cast<std::int64_t>(std::numeric_limits<Narrow>::min()) ||
         given > static_cast<std::int64_t>(std::numeric_limits<Narrow>::max())) {
@@ -59,7 +61,7 @@ template <class T>
     return true;
 }
 
-// A number of a script's array: for whole numbers only those that lose nothing.
+// True for int and float. all_int32() below also requires whole numbers in range.
 [[nodiscard]] inline bool is_number(const godot::Variant &value) {
     return value.get_type() == godot::Variant::INT || value.get_type() == godot::Variant::FLOAT;
 }
@@ -123,7 +125,7 @@ template <class T>
             return true;
         }
         value = T(given);
-        // A null object is none; an object of another class is refused.
+        // A null object gives a null reference; an object of another class is refused.
         return value.is_valid() ||
                (type == Variant::OBJECT && static_cast<godot::Object *>(given) == nullptr);
     } else {
@@ -135,7 +137,7 @@ template <class T>
     }
 }
 
-// What fits, for messages.
+// Returns the accepted type, for messages.
 template <class T>
 [[nodiscard]] std::string wanted() {
     using godot::Variant;
@@ -164,7 +166,7 @@ template <class T>
 template <std::size_t kSize>
 struct FixedText {
     char text[kSize]{};
-    // Implicit: a template argument is written as a literal.
+    // Implicit, since a template argument is written as a literal.
     constexpr FixedText(const char (&literal)[kSize]) { // NOLINT(google-explicit-constructor)
         for (std::size_t i = 0; i < kSize; ++i) {
             text[i] = literal[i];
@@ -172,10 +174,10 @@ struct FixedText {
     }
 };
 
-// "forces_enabled" of a setter "set_forces_enabled" with one argument; else "method: argument".
+// Returns "forces_enabled" for the setter "set_forces_enabled", else "method: argument".
 [[nodiscard]] std::string name_of(std::string_view method, std::string_view argument,
                                   bool is_setter);
-// " in N" of "0,40,0.1,suffix:N"; empty where the hint names no unit.
+// Returns " in N" for "0,40,0.1,suffix:N"; empty when the hint has no unit.
 [[nodiscard]] std::string unit_of(std::string_view hint);
 
 template <class M>
@@ -231,8 +233,9 @@ private:
 
 } // namespace strict
 
-// Binds a method whose arguments are checked by Strict. The class needs SPIDAR_G_CHECKED_CALLS and a member
-// refuse(const std::string &). kHint: the hint string of the property that it sets, for its unit; or "".
+// Binds a method whose arguments Strict checks. The class needs SPIDAR_G_CHECKED_CALLS and a member
+// refuse(const std::string &). kHint: hint string of the property that a setter sets, for its unit;
+// else "".
 template <auto kMethod, strict::FixedText kHint, strict::FixedText kName,
           strict::FixedText... kArguments, class... Defaults>
 void bind_checked(const Defaults &...defaults) {
@@ -256,7 +259,7 @@ struct VariantCaster<spidar::Strict<T>> {
     }
 };
 
-// The engine has checked the type; whole numbers come with 64 bits.
+// Conversion of typed calls: the engine has checked the type, but passes whole numbers as 64 bits.
 template <class T>
 struct PtrToArg<spidar::Strict<T>> {
     static spidar::Strict<T> convert(const void *address) {
@@ -273,7 +276,8 @@ struct PtrToArg<spidar::Strict<T>> {
     }
 };
 
-// Shown as the type that it stands for. The binding must not insist on that type, for its refusal names nothing.
+// The method appears with the underlying type, but the type check of the binding is disabled: its
+// message would not name the argument.
 template <class T>
 struct GetTypeInfo<spidar::Strict<T>> : GetTypeInfo<T> {
     static constexpr auto VARIANT_TYPE =
@@ -282,7 +286,7 @@ struct GetTypeInfo<spidar::Strict<T>> : GetTypeInfo<T> {
 
 } // namespace godot
 
-// In a class: lets bind_checked() put its check before a method of this class.
+// Placed in a class: lets bind_checked() put its check before a method of the class.
 #define SPIDAR_G_CHECKED_CALLS                                                                     \
 public:                                                                                            \
     template <class Call, class Result, class... Values>                                           \

@@ -1,4 +1,4 @@
-// Every conversion between Godot's types and the core's, in one place.
+// All conversions between Godot's types and the core's.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@
 
 namespace spidar {
 
-// A counter, as Godot's int.
+// Converts a counter to Godot's int.
 [[nodiscard]] inline std::int64_t whole(std::uint64_t count) noexcept {
     return static_cast<std::int64_t>(count);
 }
 
-// float, or double where Godot is built so.
+// float, or double in a double-precision build of Godot.
 using GodotReal = decltype(godot::Vector3::x);
 
 [[nodiscard]] inline Vec3 to_core(const godot::Vector3 &v) noexcept {
@@ -31,7 +31,7 @@ using GodotReal = decltype(godot::Vector3::x);
     return {static_cast<GodotReal>(v.x), static_cast<GodotReal>(v.y), static_cast<GodotReal>(v.z)};
 }
 
-// Godot's Basis stores rows; glm stores columns.
+// Converts a Basis, which stores rows, to a glm matrix, which stores columns.
 [[nodiscard]] inline Mat3 to_core(const godot::Basis &basis) noexcept {
     return {to_core(basis.get_column(0)), to_core(basis.get_column(1)),
             to_core(basis.get_column(2))};
@@ -66,7 +66,7 @@ template <std::size_t kSize>
     return packed;
 }
 
-// Texts are UTF-8: names of nodes and devices are part of messages.
+// Converts UTF-8 text.
 [[nodiscard]] inline godot::String to_godot(const std::string &text) {
     return godot::String::utf8(text.c_str(), static_cast<std::int64_t>(text.size()));
 }

@@ -1,5 +1,5 @@
-// Scene coordinates <-> device frame: x_world = origin + scale * rotation * x_device.
-// Forces and moments turn with the node but are not scaled.
+// Conversion between scene coordinates and the device frame: x_world = origin + scale * rotation *
+// x_device. Forces and moments are rotated but not scaled.
 #pragma once
 
 #include <cmath>
@@ -16,9 +16,9 @@ namespace spidar {
 struct WorldFrame {
     Mat3 rotation{1.0};
     Vec3 origin{0.0};
-    double scale = 1.0; // scene metres per device metre
+    double scale = 1.0; // scene meters per device meter
 
-    // False for a node that is flat or stands nowhere.
+    // Returns false for a flat node and for an origin that is not finite.
     [[nodiscard]] bool usable() const noexcept {
         constexpr double kRoundingOfFloats = 1e-3;
         const double turn = std::abs(glm::determinant(rotation));
@@ -26,8 +26,8 @@ struct WorldFrame {
                std::isfinite(origin.x + origin.y + origin.z);
     }
 
-    // A node that is scaled or mirrored still gives a rotation: what is not a rotation is warned about and left out.
-    // mirrored_axis: the axis that is turned over (0 to 2) of a mirrored node.
+    // Returns the frame of a node. Node scale and mirroring are removed (the node warns about
+    // them). mirrored_axis: the axis (0 to 2) to flip back in a mirrored node, or -1.
     static WorldFrame of(const godot::Transform3D &node, double workspace_scale,
                          int mirrored_axis) {
         Mat3 rotation = to_core(node.basis.orthonormalized());
@@ -38,8 +38,9 @@ struct WorldFrame {
         }
         return {rotation, to_core(node.origin), workspace_scale};
     }
-    // -1 for a node that is not mirrored. Else a mirrored node could be any of three: its axis is the one whose turning
-    // over leaves the least turn, so that a scene that is only mirrored is not turned as well.
+    // Returns -1 for a node that is not mirrored. Any of three axes can explain a mirrored node;
+    // the returned axis leaves the smallest remaining rotation, so that a scene that is only
+    // mirrored is not rotated.
     static int mirrored_axis_of(const godot::Transform3D &node) {
         const Mat3 axes = to_core(node.basis.orthonormalized());
         if (!(glm::determinant(axes) < 0.0)) {
@@ -58,7 +59,7 @@ struct WorldFrame {
     [[nodiscard]] Vec3 point_to_device(const Vec3 &world) const noexcept {
         return glm::transpose(rotation) * (world - origin) / scale;
     }
-    // Forces, moments, normals, angular velocities.
+    // Rotates forces, moments, normals and angular velocities.
     [[nodiscard]] Vec3 turn_to_world(const Vec3 &device) const noexcept {
         return rotation * device;
     }
@@ -78,12 +79,12 @@ struct WorldFrame {
         return {turn_to_device(world.force_n), turn_to_device(world.moment_nm),
                 world.grasp_torque_nm};
     }
-    // fx fy fz mx my mz grasp_torque, world axes.
+    // Returns fx fy fz mx my mz grasp_torque in world axes.
     [[nodiscard]] DofLanes wrench_to_world(const Wrench &device) const noexcept {
         return lanes(turn_to_world(device.force_n), turn_to_world(device.moment_nm),
                      device.grasp_torque_nm);
     }
-    // A plane dot(normal, x) >= offset of the scene as one of the device. The grasp stop is the same in both.
+    // Converts a plane dot(normal, x) >= offset from scene to device. A grasp stop is unchanged.
     [[nodiscard]] ContactPlane contact_to_device(ContactPlane contact) const noexcept {
         if (contact.target == ContactTarget::grasp_stop) {
             return contact;
@@ -91,7 +92,7 @@ struct WorldFrame {
         if (contact.target == ContactTarget::turn_stop) {
             contact.normal = turn_to_device(contact.normal);
             contact.velocity_m_s = turn_to_device(contact.velocity_m_s);
-            return contact; // the angle is the same in both
+            return contact; // the angle is the same in both frames
         }
         contact.offset_m = (contact.offset_m - glm::dot(contact.normal, origin)) / scale;
         contact.normal = turn_to_device(contact.normal);

@@ -30,7 +30,7 @@ std::unique_ptr<Transport> open_serial(const CalibrationTarget &target, Calibrat
     auto transport = open_serial_device(target.serial, kOwner, opened.claim, status, problem);
     problem = SpidarGConfig::told_of(problem);
     opened.real = transport != nullptr;
-    opened.counts_restart = true; // the boards tell 16 bits of a count that begins at power-up
+    opened.counts_restart = true; // the boards report 16 bits of a count that starts at power-up
     opened.remarks = transport ? transport->remarks() : std::string();
     return transport;
 }

@@ -1,5 +1,5 @@
-// Which device a calibration opens, by the same choice as the SpidarG node. Called in the rig's own thread, so it takes
-// plain values and touches nothing of the engine.
+// Selects and opens the device of a calibration, by the same rules as the SpidarG node. Called in
+// the rig's thread: takes plain values and uses nothing of the engine.
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,29 @@
 namespace spidar {
 
 struct CalibrationTarget {
-    bool try_hid = true;       // Automatic and Device
-    bool try_serial = false;   // Serial
-    bool try_simulated = true; // Automatic and Simulated
+    bool try_hid = true;       // for Automatic and Device
+    bool try_serial = false;   // for Serial
+    bool try_simulated = true; // for Automatic and Simulated
     HidTransportSettings hid;
     SerialTransportSettings serial;
     PlantSettings plant;
     std::string simulated_name; // SpidarGConfig.device_name
 };
 
-// What was opened. Written before the rig's state becomes open.
+// The opened device. Written before the rig's state becomes open.
 struct CalibrationOpened {
     DeviceClaim claim;
     bool real = false;
-    bool counts_restart = false;       // from elsewhere, whenever the device was lost
-    std::uint32_t counts_per_turn = 0; // real: as the device says; 0: it does not
-    std::string fallback;              // why the simulated device stands in
-    std::string remarks;               // serial boards: what works, but not as it should
+    // The counts have a new origin after each loss of the device.
+    bool counts_restart = false;
+    // As a real device reports; 0: it does not.
+    std::uint32_t counts_per_turn = 0;
+    std::string fallback; // why the simulated device is used instead
+    // Problems of serial boards that do not prevent operation.
+    std::string remarks;
 };
 
-// Null: none could be opened; `problem` says why.
+// Returns null when no device could be opened, with the reason in `problem`.
 [[nodiscard]] std::unique_ptr<Transport> open_for_calibration(const CalibrationTarget &target,
                                                               CalibrationOpened &opened,
                                                               std::string &problem);

@@ -1,4 +1,4 @@
-// The device of a calibration: opened, watched, its tasks.
+// SpidarGCalibrator: opens and watches the device and runs the calibration's tasks.
 #include "godot/calibration/spidar_g_calibrator.h"
 
 #include <godot_cpp/variant/utility_functions.hpp>
@@ -20,7 +20,7 @@ static_assert(static_cast<int>(spidar::HandScript::place) == SpidarGCalibrator::
 
 namespace {
 
-// What a real device may do while it is calibrated (unit: mN, mN/ms, mm/s).
+// Limits of a real device during calibration (unit: mN, mN/ms, mm/s).
 constexpr std::uint16_t kMilliPerUnit = 1000;
 constexpr double kSimulatedUnwatched_s = 20.0;
 
@@ -71,7 +71,7 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
         return reject("open: the system has no thread left. " + rig_->problem());
     }
     const bool polled = poll();
-    return polled || !stepped; // a device that a thread cannot open is told by a later poll()
+    return polled || !stepped; // a failure to open is reported by a later poll()
 }
 
 std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &config,
@@ -110,15 +110,15 @@ std::string SpidarGCalibrator::read_target(const godot::Ref<SpidarGConfig> &conf
     start_.grip = settings.grip;
     start_.strings = settings.strings;
     corrections_ = settings.corrections;
-    // The drums stay as they are wound; stretch is the same in all poses of a light hand.
+    // The winding of the drums is kept; stretch is the same in all poses of a light hand.
     start_.corrections = {};
     start_.corrections.winding_curvature_1_m = corrections_.winding_curvature_1_m;
     motors_ = settings.motors;
     return {};
 }
 
-// Where the calibration says nothing: the ideal device of the kind that was opened. False: the calibration was spoilt
-// while the device opened, which closes again.
+// Fills what the calibration leaves open with the ideal device of the opened kind. Returns false
+// and closes the device when the calibration became unusable meanwhile.
 bool SpidarGCalibrator::begin_sheet() {
     const double scale = spidar::metres_per_count(
         opened_->counts_per_turn, motors_.effective_radius_m[0], target_.plant.metres_per_count);
@@ -176,7 +176,7 @@ bool SpidarGCalibrator::poll() {
     return true;
 }
 
-// What was read before the loss no longer fits what is read after it.
+// Readings from before the loss no longer fit those after it.
 void SpidarGCalibrator::forget_lost_counts() {
     sheet_.clear_zero();
     for (std::size_t string = 0; string < spidar::kStringCount; ++string) {
@@ -196,7 +196,7 @@ bool SpidarGCalibrator::advance(double seconds) {
     if (!is_open()) {
         return reject("advance: no device is open.");
     }
-    constexpr double kSlice_s = 0.1; // an order in each: somebody is watching
+    constexpr double kSlice_s = 0.1; // each slice sends an order, so that the rig counts as watched
     if (!(seconds > 0.0 && seconds <= 60.0)) {
         return reject("advance: seconds = " + std::to_string(seconds) +
                       " s: give more than 0 and up to 60.");

@@ -1,5 +1,5 @@
-// SpidarGCalibrator: opens a device for calibration alone and turns what is measured into a SpidarGCalibration.
-// The class reference is gdextension/doc_classes/SpidarGCalibrator.xml.
+// SpidarGCalibrator: opens a device for calibration alone and turns the measurements into a
+// SpidarGCalibration. The class reference is gdextension/doc_classes/SpidarGCalibrator.xml.
 #pragma once
 
 #include <atomic>
@@ -46,7 +46,7 @@ public:
 
     ~SpidarGCalibrator() override;
 
-    // An argument of a type that the method does not take: told by get_problem() and in the output.
+    // Reports an argument of the wrong type, by get_problem() and in the output.
     void refuse(const std::string &message) const;
 
     // Device (spidar_g_calibrator.cpp).
@@ -81,7 +81,7 @@ public:
     [[nodiscard]] godot::Dictionary get_result() const;
     [[nodiscard]] godot::Ref<SpidarGCalibration> make_calibration();
 
-    // What serial motor boards keep in their flash (spidar_g_calibrator_boards.cpp).
+    // Flash of serial motor boards (spidar_g_calibrator_boards.cpp).
     bool read_boards(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] bool is_using_boards() const { return board_job_ != nullptr; }
     [[nodiscard]] godot::Array get_boards() const;
@@ -93,7 +93,7 @@ protected:
     static void _bind_methods();
 
 private:
-    // The computation, in a thread of its own: it works on copies, and hands over when `done` is set.
+    // The computation in its own thread, on copies. The results are valid once `done` is set.
     struct Job {
         spidar::CalibrationWorksheet sheet;
         spidar::SelfCalibrationResult result;
@@ -108,13 +108,13 @@ private:
         }
     };
 
-    // Reads the boards, or writes one number and reads it back, in a thread of its own.
+    // Reads the boards, or writes one number and reads it back, in its own thread.
     struct BoardJob {
         bool writes = false;
         std::string port;
         spidar::FlashChange change;
-        std::vector<spidar::BoardFlash> boards; // read
-        spidar::BoardFlash after;               // written
+        std::vector<spidar::BoardFlash> boards; // result of reading
+        spidar::BoardFlash after;               // result of writing
         spidar::Status status = spidar::Status::ok;
         std::string problem;
         std::atomic<bool> give_up{false};
@@ -148,13 +148,16 @@ private:
     [[nodiscard]] spidar::DeviceModel model() const;
     [[nodiscard]] bool may_measure(const char *method, int string);
 
-    mutable std::string problem_; // a refused question is a problem too
+    mutable std::string problem_; // mutable: a refused call of a const method is reported too
     spidar::CalibrationTarget target_;
     spidar::DeviceModel start_;
     spidar::MotorCalibration motors_;
-    godot::Ref<SpidarGCalibration> given_;  // until the device is open
-    spidar::LengthCorrections corrections_; // those given: kept
-    bool began_ = false;                    // the sheet, for the device that is open
+    // The calibration passed to open(), until the device is open.
+    godot::Ref<SpidarGCalibration> given_;
+    // Corrections of that calibration; they are kept.
+    spidar::LengthCorrections corrections_;
+    // The sheet has begun for the open device.
+    bool began_ = false;
     std::shared_ptr<spidar::CalibrationOpened> opened_;
     std::unique_ptr<spidar::CalibrationRig> rig_;
     spidar::RigOrders orders_;
@@ -169,13 +172,13 @@ private:
     spidar::StringArray after_m_{};
 
     std::unique_ptr<BoardJob> board_job_;
-    std::string boards_port_; // where boards_ were read
+    std::string boards_port_; // the port from which boards_ were read
     std::vector<spidar::BoardFlash> boards_;
-    bool is_proposed_ = false; // proposal_ waits for its confirmation
+    bool is_proposed_ = false; // proposal_ waits for confirmation
     spidar::FlashChange proposal_;
     godot::Dictionary board_result_;
 
-    spidar::ForwardKinematics kinematics_; // of the live view
+    spidar::ForwardKinematics kinematics_; // for the live view
     spidar::KinematicsResult live_;
     spidar::StringArray live_lengths_m_{};
     bool model_changed_ = true;

@@ -1,4 +1,4 @@
-// What serial motor boards keep in their flash: shown, and changed by a proposal and its confirmation.
+// Flash of serial motor boards: shown, and changed by a proposal and its confirmation.
 #include "godot/calibration/spidar_g_calibrator.h"
 
 #include <system_error>
@@ -77,7 +77,7 @@ void SpidarGCalibrator::finish_board_job() {
         board_result_["value_before"] = static_cast<int>(spidar::value_before(job->change));
         board_result_["value_wanted"] = static_cast<int>(job->change.value);
         board_result_["value_found"] = static_cast<int>(spidar::value_before(found));
-        boards_.clear(); // as they were: they are read again before anything else is written
+        boards_.clear(); // outdated: they are read again before the next write
     } else {
         boards_port_ = job->port;
         boards_ = job->boards;
@@ -102,7 +102,7 @@ godot::Array SpidarGCalibrator::get_boards() const {
     return list;
 }
 
-// Sends nothing.
+// Sends nothing to the board.
 godot::Dictionary SpidarGCalibrator::propose_board_parameter(int board_id, BoardParameter parameter,
                                                              int value) {
     godot::Dictionary told;

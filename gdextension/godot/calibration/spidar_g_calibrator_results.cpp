@@ -1,4 +1,4 @@
-// What a calibration has measured, what follows from it, and the names GDScript sees.
+// Measurements of a calibration, their results, and the names for GDScript.
 #include "godot/calibration/spidar_g_calibrator.h"
 
 #include <system_error>
@@ -54,7 +54,7 @@ bool SpidarGCalibrator::take_zero() {
     if (!problem.empty()) {
         return reject(problem);
     }
-    has_result_ = false; // it began at another zero
+    has_result_ = false; // the result belongs to another zero
     sheet_.clear_poses();
     model_changed_ = true;
     return true;

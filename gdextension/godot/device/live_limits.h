@@ -1,4 +1,4 @@
-// The limits that change while a device is open, out of its settings and back.
+// Returns the limits that may change while a device is open.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,8 @@ namespace spidar {
             settings.render.max_grasp_stiffness_nm_rad};
 }
 
-// As those, and no gain above what latency and rate of the settings allow: the open device may have been told of another.
+// Returns live_limits() with gains clamped to what latency and rate of the settings allow, since
+// the open device may use another latency.
 [[nodiscard]] inline LiveLimits limits_by_latency(const ServoSettings &settings) noexcept {
     const GainCaps caps = gain_caps(settings.render, settings.rate_hz);
     LiveLimits limits = live_limits(settings);
@@ -27,7 +28,7 @@ namespace spidar {
     return limits;
 }
 
-// share 0: a, 1: b.
+// Interpolates: share 0 gives a, 1 gives b.
 [[nodiscard]] inline LiveLimits between(const LiveLimits &a, const LiveLimits &b,
                                         double share) noexcept {
     return {std::lerp(a.max_force_n, b.max_force_n, share),

@@ -14,7 +14,7 @@ std::map<std::string, std::string> &places() {
     return all;
 }
 
-// The same file has one name, whatever links and dots lead to it.
+// Returns one name per file, whatever links and dots lead to it.
 std::string plain(const std::string &path) {
     std::error_code error;
     const std::filesystem::path place =

@@ -1,4 +1,4 @@
-// One writer a file, within this process: a second recording into a file that grows would destroy the first.
+// One recording per file within this process: a second one would destroy the first.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@ public:
     RecordingPlace(const RecordingPlace &) = delete;
     RecordingPlace &operator=(const RecordingPlace &) = delete;
 
-    // False when another recording of this process writes into that file; owner_of(path) says whose.
+    // Returns false when another recording of this process writes to the file; owner_of(path) then
+    // names its owner.
     bool take(const std::string &path, const std::string &owner);
     void release() noexcept;
     [[nodiscard]] static std::string owner_of(const std::string &path);

@@ -1,5 +1,5 @@
-// The numbers of contacts in a replay. A snapshot says which contact pushed by the number that the device knew it by, and
-// a game that runs anew numbers its contacts anew: the reports of a replay get the numbers of the game that runs now.
+// Contact ids in a replay. A snapshot identifies contacts by the ids of the recorded game, but a
+// game that runs again assigns new ids. The reports of a replay get the ids of the running game.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace spidar {
 
 class ReplayContacts {
 public:
-    // After each set of contacts that the game asked for.
+    // Called after each set of contacts that the game requests.
     void note(const HapticCommand &command) noexcept {
         Set &set = sets_[command.contacts_sequence % kSets];
         set.sequence = command.contacts_sequence;
@@ -22,8 +22,8 @@ public:
         }
     }
 
-    // The snapshot is of the recorded set that was `sets_ago` sets old when the recorded game read it. A scene that
-    // repeats has asked for the same contacts so many sets ago, in the same order.
+    // The snapshot belongs to the set that was `sets_ago` sets old when the recorded game read it.
+    // A scene that repeats has requested the same contacts so many sets ago, in the same order.
     void renumber(std::uint64_t newest_sequence, std::uint64_t sets_ago,
                   ServoSnapshot &snapshot) const noexcept {
         const std::uint64_t sequence = newest_sequence - sets_ago;
@@ -38,7 +38,8 @@ public:
     }
 
 private:
-    // A game reads the newest cycle, whose contacts are those of its last tick or the one before.
+    // Number of remembered sets. A game reads the newest cycle, whose contacts belong to its last
+    // tick or the one before.
     static constexpr std::size_t kSets = 32;
     struct Set {
         std::uint64_t sequence = 0;

@@ -1,5 +1,6 @@
-// The numbers of shapes in a replay. A snapshot says what touched by the number that the recorded game gave it, and a game
-// that runs anew numbers its shapes anew: each recorded shape gets the number of the one that stands where it stood.
+// Shape ids in a replay. A snapshot identifies touched shapes by the ids of the recorded game, but
+// a game that runs again assigns new ids. Each recorded shape gets the id of the shape that now
+// stands at its place.
 #pragma once
 
 #include <array>
@@ -17,11 +18,11 @@ namespace spidar {
 
 class ReplayTouches {
 public:
-    // What the game that runs now would have published.
+    // Takes the scene that the running game would have published.
     void note(std::shared_ptr<const TouchScene> live) { live_ = std::move(live); }
     void forget() { live_.reset(); }
 
-    // recorded: the scene that the snapshot's report is of. What has no counterpart gets number 0, which nothing has.
+    // recorded: the scene of the snapshot's report. A part without counterpart has id 0 (no shape).
     void renumber(const TouchScene &recorded, TouchReport &report) const noexcept {
         std::array<bool, kMaxSceneParts> used{};
         std::array<std::int32_t, kMaxSceneParts> numbers{};
@@ -45,8 +46,9 @@ public:
     }
 
 private:
-    // Two scenes are a physics tick or two apart.
+    // Largest distance of two corresponding parts: the scenes are one or two physics ticks apart.
     static constexpr double kApart_m = 0.03;
+    // Largest difference of the bounding boxes of two corresponding parts.
     static constexpr double kSameSize_m = 1e-4;
 
     [[nodiscard]] std::int32_t number_of(const ScenePart &part,

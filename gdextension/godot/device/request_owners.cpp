@@ -19,7 +19,7 @@ RequestOwners::Owner &RequestOwners::owner_named(const std::string &name) {
     return owners_.back();
 }
 
-// 1 for the duration of a wrench, then down to 0.
+// Returns 1 for the duration of a wrench, then a fade to 0.
 double RequestOwners::share(const Owner &owner, double now_s) const noexcept {
     if (!owner.has_wrench) {
         return 0.0;
@@ -53,7 +53,7 @@ void RequestOwners::write_wrench(HapticCommand &command, double now_s) {
         sum.force_n += part * owner.wrench.force_n;
         sum.moment_nm += part * owner.wrench.moment_nm;
         sum.grasp_torque_nm += part * owner.wrench.grasp_torque_nm;
-        const bool is_new = owner.wrench_set_s == now_s; // then without a rounding
+        const bool is_new = owner.wrench_set_s == now_s; // a new wrench has no rounding error
         left_s = std::max(left_s, is_new ? owner.wrench_duration_s : owner.wrench_ends_s - now_s);
     }
     command.wrench = sum;
@@ -68,7 +68,7 @@ bool RequestOwners::wrench_changes(double now_s) const noexcept {
         acting += owner.has_wrench ? 1 : 0;
         over = over || (owner.has_wrench && owner.wrench_ends_s < now_s);
     }
-    return acting > 1 && over; // one alone is faded by the device
+    return acting > 1 && over; // the device fades a single wrench by itself
 }
 
 bool RequestOwners::is_fresh(const Owner &owner, double now_s) const noexcept {
@@ -109,7 +109,7 @@ void RequestOwners::set_contacts(const std::string &name, const ContactPlane *pl
     }
     owner.plane_count = count;
     owner.planes_at_s = now_s;
-    // Those of the set before stay known for one set more.
+    // Ids of the previous set stay known for one more set.
     constexpr std::size_t kMostNumbers = 2 * kMaxContacts;
     numbers.insert(numbers.end(), owner.numbers.begin(), owner.numbers.end());
     numbers.resize(std::min(numbers.size(), kMostNumbers));

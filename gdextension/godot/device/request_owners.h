@@ -1,5 +1,5 @@
-// Who asks for what. The device renders one wrench and one set of contacts; a scene has several that ask: a hand, a
-// script, another script. Each owner replaces only what it asked for itself, and the device gets the sum.
+// Requests by owner. The device renders one wrench and one set of contacts, but a hand and several
+// scripts may request some. Each owner replaces only its own requests; the device gets the sum.
 #pragma once
 
 #include <array>
@@ -13,41 +13,41 @@ namespace spidar {
 
 class RequestOwners {
 public:
-    // Times are those of the snapshot (unit: s).
+    // Forgets all owners. All times of this class are snapshot times (unit: s).
     void clear() noexcept { owners_.clear(); }
-    // After its duration a wrench fades over this time, as the device's own does; a set of contacts older than the
-    // second is forgotten, as the device fades it.
+    // wrench_fade_s: time over which a wrench fades after its duration. contacts_gone_s: age at
+    // which contacts are forgotten. Both equal those of the device.
     void configure(double wrench_fade_s, double contacts_gone_s) noexcept {
         wrench_fade_s_ = wrench_fade_s;
         contacts_gone_s_ = contacts_gone_s;
     }
 
-    // Checked before: finite, duration in range; device frame.
+    // Requires finite values and a duration in range; device frame.
     void set_wrench(const std::string &owner, const Wrench &wrench, double duration_s,
                     double now_s);
-    // The sum of all, full for the longest time that is left, into `command`.
+    // Writes the sum of all wrenches to `command`, at full strength for the longest time left.
     void write_wrench(HapticCommand &command, double now_s);
-    // True while the sum changes by itself: one of several wrenches ends or fades.
+    // True while the sum changes by itself, because one of several wrenches ends or fades.
     [[nodiscard]] bool wrench_changes(double now_s) const noexcept;
 
-    // How many of the device's contacts the others leave to `owner`.
+    // Returns how many contacts of the device the other owners leave to `owner`.
     [[nodiscard]] int free_contacts(const std::string &owner, double now_s) const noexcept;
-    // At most free_contacts(owner) planes; each keeps its id's number of the device.
+    // Requires at most free_contacts(owner) planes. Each keeps the device id of its own id.
     void set_contacts(const std::string &owner, const ContactPlane *planes, int count,
                       double now_s);
-    // The sets of all, moved on by their velocities to `now_s`.
+    // Writes the contacts of all owners into `command`, extrapolated to now_s by their velocities.
     void write_contacts(HapticCommand &command, double now_s);
-    // The owner's own id of a contact of the device; false when it is not one of its.
+    // Finds the owner's id of a device contact. Returns false when the contact is not the owner's.
     [[nodiscard]] bool id_of(const std::string &owner, std::int32_t device_id,
                              std::int32_t &id) const noexcept;
 
-    // "script: 2.0 N, SpidarGHand: 1.1 N": what of the wrenches is asked for now.
+    // Returns the present wrenches: "script: 2.0 N, SpidarGHand: 1.1 N".
     [[nodiscard]] std::string describe_wrenches(double now_s) const;
 
 private:
     struct Numbered {
-        std::int32_t id = 0;        // the owner's
-        std::int32_t device_id = 0; // of all owners
+        std::int32_t id = 0;        // id of the owner
+        std::int32_t device_id = 0; // unique among all owners
     };
     struct Owner {
         std::string name;
@@ -59,7 +59,7 @@ private:
         std::array<ContactPlane, kMaxContacts> planes{};
         int plane_count = 0;
         double planes_at_s = 0.0;
-        // Of this set and the one before: impulses come back a little later.
+        // Ids of this set and of the last one, since impulses come back a little later.
         std::vector<Numbered> numbers;
     };
     [[nodiscard]] Owner &owner_named(const std::string &name);

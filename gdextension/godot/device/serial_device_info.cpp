@@ -37,7 +37,7 @@ void describe_serial(const SerialTransport &transport, double rate_hz, godot::Di
 void list_serial_ports(godot::Array &list) {
     for (const SerialPortInfo &port : list_serial_ports()) {
         if (!port.usb) {
-            continue; // no board is on a port of the computer's own
+            continue; // ports of the computer itself carry no boards
         }
         godot::Dictionary shown;
         shown["kind"] = "serial";

@@ -1,4 +1,4 @@
-// What a game is told of serial motor boards and of the ports that they may be on.
+// Information about serial motor boards and their ports for a game.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace spidar {
 
-// "B5M with id 1, B3M with id 2".
+// Returns "B5M with id 1, B3M with id 2".
 [[nodiscard]] std::string serial_boards_text(const SerialTransport &transport);
-// The fields of SpidarG.get_device_info() that only serial boards have.
+// Adds the fields of SpidarG.get_device_info() that only serial boards have.
 void describe_serial(const SerialTransport &transport, double rate_hz, godot::Dictionary &info);
 // Appends an entry of SpidarG.list_devices() for each port of a USB bridge.
 void list_serial_ports(godot::Array &list);

@@ -1,4 +1,4 @@
-// Life of the node: resources, opening and closing the device, the tick, signals on edges.
+// Life cycle of the node: resources, opening and closing the device, ticks, signals on edges.
 #include "godot/device/spidar_g.h"
 
 #include <cmath>
@@ -22,13 +22,13 @@ using spidar::Status;
 
 namespace {
 
-// Scenes from a pollen grain to a town; beyond, a float has no room for the digits of a position.
+// Range of the workspace scale: from a pollen grain to a town.
 constexpr double kLeastWorkspaceScale = 1e-3;
 constexpr double kMostWorkspaceScale = 1e3;
-// 100 s at 1 kHz. A script that asks for more has mistaken its unit, and the game would stand still.
+// Largest number of cycles per call: 100 s at 1 kHz. More is a unit error.
 constexpr int kMostCycles = 100000;
 
-// No resources have that many changes.
+// Revision that no resource reaches.
 constexpr std::uint64_t kNeverOpened = ~std::uint64_t{0};
 
 [[nodiscard]] bool in_editor() {
@@ -79,7 +79,7 @@ void SpidarG::set_calibration(const Ref<SpidarGCalibration> &calibration) {
 }
 
 void SpidarG::resource_changed() {
-    const spidar::StringCalibration strings = settings_.strings; // of the device that is open
+    const spidar::StringCalibration strings = settings_.strings; // of the open device
     const std::string problem = read_resources();
     if (change_live(problem)) {
         settings_.strings = strings;
@@ -88,7 +88,7 @@ void SpidarG::resource_changed() {
         return;
     }
     problem_ = problem;
-    // Several fields are often set in a row: the device restarts once, at the next tick, and arms anew.
+    // Several fields are often set in a row: the device restarts once, at the next tick.
     restart_pending_ = true;
     update_configuration_warnings();
     update_gizmos();
@@ -146,14 +146,14 @@ void SpidarG::open_device() {
     const bool again = std::exchange(trying_again_, false);
     close_device("The device is opened anew.");
     if (!may_run()) {
-        return; // a listener to what closing tells has changed its mind
+        return; // a listener to the closing signals has changed its mind
     }
     restart_pending_ = false;
     read_project();
     set_process_input(options_.panic_key != 0);
     watch_panic_key(true);
     problem_ = read_resources();
-    // Even a refused device is retried when a resource changes.
+    // A refused device is tried again when a resource changes.
     set_physics_process_internal(true);
     if (!replay_path_.empty()) {
         open_replay();
@@ -175,7 +175,7 @@ void SpidarG::open_device() {
         return;
     }
     change_loop(std::make_unique<spidar::ServoLoop>(std::move(transport)));
-    // Counters of an earlier run say nothing to the new loop.
+    // Counters of an earlier run have no meaning for the new loop.
     command_.wrench_sequence = 0;
     command_.contacts_sequence = 0;
     command_.contact_count = 0;
@@ -213,7 +213,7 @@ void SpidarG::refuse_to_open(Status status, const std::string &message) {
     problem_ = message;
     const String text = named("the device stays closed. " + message);
     UtilityFunctions::push_error(text);
-    // Later in this frame: a node that opens as its scene enters the tree is not connected to anything yet.
+    // Deferred: a node that opens as its scene enters the tree is not connected yet.
     call_deferred("emit_signal", "fault_raised", static_cast<int>(status), text);
 }
 
@@ -232,7 +232,7 @@ void SpidarG::refuse_device(Status status, const std::string &message, bool agai
     call_deferred("emit_signal", "device_event", describe_event(event));
 }
 
-// Tells the end of all that was told to have begun.
+// Emits the closing counterpart of every signal that was emitted.
 void SpidarG::close_device(const char *why) {
     const bool told = is_connected_told_;
     const spidar::ServoSnapshot before = snapshot_;
@@ -383,7 +383,7 @@ spidar::WorldFrame SpidarG::world() const {
     const godot::Transform3D place = is_inside_tree() ? get_global_transform() : get_transform();
     const int mirrored = spidar::WorldFrame::mirrored_axis_of(place);
     if ((mirrored < 0) != (mirrored_axis_ < 0)) {
-        mirrored_axis_ = mirrored; // and stays, however the node turns: the grip must not jump
+        mirrored_axis_ = mirrored; // kept while the node turns: the grip must not jump
     }
     const spidar::WorldFrame now = spidar::WorldFrame::of(place, workspace_scale_, mirrored_axis_);
     if (now.usable()) {

@@ -1,6 +1,6 @@
-// SpidarG: the node that owns a device. Opens it when it enters a running tree, drives the servo loop
-// (own thread, or stepped by the physics tick), hands requests down and the newest snapshot up.
-// The class reference is gdextension/doc_classes/SpidarG.xml.
+// SpidarG: the node that owns a device. Opens it when the node enters a running tree, drives the
+// servo loop (in a thread, or by the physics tick), passes requests on and publishes snapshots. The
+// class reference is gdextension/doc_classes/SpidarG.xml.
 #pragma once
 
 #include <atomic>
@@ -64,7 +64,7 @@ public:
         CONTACT_GRASP_STOP,
         CONTACT_TURN_STOP
     };
-    // The node's own axes.
+    // Axes of the node.
     enum DofMask {
         DOF_X = 1,
         DOF_Y = 2,
@@ -124,9 +124,9 @@ public:
         return _get_configuration_warnings();
     }
 
-    // "SpidarG "name": message", as every message of the node begins.
+    // Returns a message with the prefix of this node: "SpidarG "name": message".
     [[nodiscard]] godot::String named(const std::string &message) const;
-    // Tells what was not taken: by request_rejected and in the output.
+    // Reports a refused argument, by request_rejected and in the output.
     void refuse(const std::string &message) const;
 
     // Device (spidar_g.cpp).
@@ -177,15 +177,15 @@ public:
     [[nodiscard]] godot::String get_clamp_text() const;
     [[nodiscard]] godot::PackedFloat64Array get_injected_energy() const;
 
-    // For SpidarGHand, in C++ alone: what its tool can touch and what it carries, from the next cycle on. The scene's
-    // state_time_s is set here. Null: nothing any more. While a recording is played it is not taken.
+    // For SpidarGHand, in C++ only: sets what the tool can touch and carry; null: nothing. Sets the
+    // scene's state_time_s. Ignored during a replay.
     void publish_touch(std::shared_ptr<spidar::TouchScene> touch);
-    // The newest that the device told, device frame.
+    // The newest snapshot of the device, device frame.
     [[nodiscard]] const spidar::ServoSnapshot &snapshot() const { return snapshot_; }
     [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] const spidar::ServoSettings &servo_settings() const { return settings_; }
 
-    // State (spidar_g_state.cpp). World coordinates.
+    // State (spidar_g_state.cpp), in world coordinates.
     [[nodiscard]] State get_state() const;
     [[nodiscard]] godot::String get_state_text() const;
     [[nodiscard]] godot::String get_fault_text() const;
@@ -233,7 +233,7 @@ public:
     bool set_simulated_buttons(int mask);
 
     void _notification(int what);
-    // The project's panic key.
+    // Watches the project's panic key.
     void _input(const godot::Ref<godot::InputEvent> &event) override;
 
 protected:
@@ -250,25 +250,25 @@ private:
     static void bind_enums();
 
     void resource_changed();
-    // What an open device takes over of a changed config; false: it has to be opened anew.
+    // Applies a changed config to the open device. Returns false when it must be opened again.
     bool change_live(const std::string &problem);
     void want_limits(const spidar::LiveLimits &limits);
     void watch_latency();
     void move_limits(double dt_s);
     [[nodiscard]] std::uint64_t resources_revision() const;
-    // The project's settings as they are now; they count from the next opening on.
+    // Reads the project's settings, which apply from the next opening on.
     void read_project();
-    // Reads config and calibration into settings_. Empty: fine; else the problem, and settings_ keep their values.
+    // Reads config and calibration into settings_. Returns the problem (settings_ unchanged) or "".
     std::string read_resources();
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
-    // Why the node's place in the scene is none that a device can have; or empty.
+    // Returns why no device can have the node's transform, or an empty string.
     [[nodiscard]] std::string transform_problem() const;
     [[nodiscard]] bool may_run() const;
     void open_device();
     void open_replay();
     void close_device(const char *why);
     void forget_player();
-    // Null, with the reason: none.
+    // Returns null when there is none, with the reason.
     std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
                                                         std::string &problem);
     std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
@@ -283,30 +283,28 @@ private:
     [[nodiscard]] bool looks_for_serial() const; // when no boards were found
     void watch_serial_search();
     [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
-    // Of the device that was opened: its counts at the home pose.
+    // Sets the strings of the opened device. home_counts: its counts at the home pose.
     void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
     void emit_buttons(std::uint8_t before);
-    // A button that is down when the device opens is none until it was released: the press belongs to the scene before.
+    // Ignores buttons that were down when the device opened, until they are released.
     void mask_buttons(const spidar::ServoSnapshot &before);
     void refuse_to_open(spidar::Status status, const std::string &message);
-    // A real device that did not open is tried again each second; `again`: this was such a try, and only another problem
-    // is told.
+    // Reports a device that did not open. again: a later try, which reports only a new problem.
     void refuse_device(spidar::Status status, const std::string &message, bool again);
     void physics_tick();
-    // At the end of a physics tick, when every node has moved: the coming physics step sees the node here.
+    // Called at the end of a physics tick: stores where the next physics step sees the node.
     void note_place();
-    // The velocities of this plane of the scene as seen from the node.
+    // Returns the plane with its velocities relative to the moving node.
     [[nodiscard]] spidar::ContactPlane seen_from_node(spidar::ContactPlane plane) const;
-    // Takes the newest snapshot and emits the signals of the edges it shows.
-    // recorded: what this read repeats in a replay.
+    // Takes the newest snapshot and emits its signals. recorded: the read repeated in a replay.
     void pull_snapshot(bool physics_tick, const spidar::GameRead *recorded = nullptr);
-    // One physics tick of a replay: what the recorded game read in its tick, and since the tick before.
+    // Takes one tick of a replay: repeats the reads of the recorded game since its last tick.
     void replay_tick();
     void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
     [[nodiscard]] godot::Dictionary describe_event(const spidar::DeviceEvent &event);
-    [[nodiscard]] std::string limited_request() const; // who asked for how much, and to what
+    [[nodiscard]] std::string limited_request() const; // who requested how much
     void tell_limited(const spidar::ServoSnapshot &before);
     void beat();
     void follow_grasp_action();
@@ -314,16 +312,16 @@ private:
     void set_away(bool away);
     void publish_wrench();
     void publish_contacts();
-    // What the devices of a fallback were tried for, and a look for those that are plugged in later.
+    // Looks for devices that are plugged in later; those already tried are skipped.
     void watch_for_devices();
     void tell_choice(const std::string &reason);
     [[nodiscard]] std::string why_simulated() const;
     void watch_panic_key(bool watch);
     void poll_panic_key();
     void publish_forces();
-    // The only place where loop_ changes: panic_stop() may use it from another thread meanwhile.
+    // The only function that changes loop_, which panic_stop() may use from another thread.
     void change_loop(std::unique_ptr<spidar::ServoLoop> loop);
-    // A recording that cannot go on, a replay that has ended.
+    // Ends recordings that cannot continue and replays at their end.
     void watch_recordings();
     void tell_recording_failed();
     bool reject(const std::string &message);
@@ -332,62 +330,62 @@ private:
     [[nodiscard]] std::string name_for_messages() const;
 
     godot::Ref<SpidarGConfig> config_;
-    godot::Ref<SpidarGConfig>
-        default_config_; // stands in when there is none: the project's, or the paper's device
-    spidar::ProjectOptions options_; // as they were when the device was opened
+    // Used when config_ is null: the project's, or the paper's device.
+    godot::Ref<SpidarGConfig> default_config_;
+    spidar::ProjectOptions options_; // read when the device was opened
     godot::Ref<SpidarGCalibration> calibration_;
     bool enabled_ = true;
     DriveMode drive_mode_ = DRIVE_THREADED;
     double workspace_scale_ = 1.0;
-    mutable spidar::WorldFrame
-        last_world_; // in place of a transform that nothing can be computed with
+    // Replaces a transform that cannot be used.
+    mutable spidar::WorldFrame last_world_;
     mutable bool world_told_ = false;
-    mutable int mirrored_axis_ = -1; // of a node that is mirrored
+    mutable int mirrored_axis_ = -1; // of a mirrored node
     spidar::NodeMotion motion_;
 
     spidar::ServoSettings settings_;
     spidar::PlantSettings plant_;
     std::string problem_;              // why the device is not open
-    std::string problem_when_refused_; // why the last try to open a real device failed
+    std::string problem_when_refused_; // reason of the last failed try to open a real device
     bool trying_again_ = false;        // the next opening is such a try
     bool restart_pending_ = false;
     bool forces_wanted_ = false;
     bool release_on_focus_loss_ = true;
     bool is_connected_told_ = false;
-    std::uint8_t stale_buttons_ = 0; // down since before the device was opened
+    std::uint8_t stale_buttons_ = 0; // down since before the device opened
     bool panic_key_down_ = false;
-    std::atomic<bool> panicked_{false}; // by panic_stop(), until clear_fault()
-    bool waits_for_arm_ = false; // after a panic: a device that is opened anew does not arm itself
-    std::mutex loop_guard_;      // of the pointer loop_, for panic_stop()
-    bool away_ = false;          // the application has lost the focus, or was put aside
-    double limited_told_s_ = -1.0; // snapshot time
-    bool stall_told_ = false;      // the loop stands still, and that was told
+    std::atomic<bool> panicked_{false}; // set by panic_stop(), cleared by clear_fault()
+    bool waits_for_arm_ = false;        // after a panic: a device that opens does not arm itself
+    std::mutex loop_guard_;             // guards the pointer loop_ for panic_stop()
+    bool away_ = false;                 // the application is in the background
+    double limited_told_s_ = -1.0;      // snapshot time
+    bool stall_told_ = false;           // a stalled loop was reported
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
     spidar::HidTransport *hid_ = nullptr;                   // owned by loop_
     spidar::SerialTransport *serial_ = nullptr;             // owned by loop_
     std::unique_ptr<spidar::SerialSearch> serial_search_;   // while the boards are not found
-    std::unique_ptr<spidar::SerialTransport> found_serial_; // by it, until the device opens
+    std::unique_ptr<spidar::SerialTransport> found_serial_; // until the device opens
     std::vector<spidar::HidDeviceInfo> tried_;              // plugged in when the device was chosen
-    std::string fallback_; // why the simulated device stands in for a real one
-    spidar::SimulatedTransport *simulated_ = nullptr; // owned by loop_
-    std::string replay_path_;                         // in place of a device, unless empty
-    spidar::Replay *replay_ = nullptr;                // owned by loop_
+    std::string fallback_;                                  // why the simulated device is used
+    spidar::SimulatedTransport *simulated_ = nullptr;       // owned by loop_
+    std::string replay_path_;          // played instead of a device, unless empty
+    spidar::Replay *replay_ = nullptr; // owned by loop_
     bool replay_end_told_ = false;
     spidar::ReplayContacts replay_contacts_;
     spidar::ReplayTouches replay_touches_;
     std::unique_ptr<spidar::HidWatch> hid_watch_; // while the real device is not open
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;
-    std::uint64_t opened_revision_ = 0; // of config and calibration, when the device was opened
-    spidar::LiveLimits limits_from_;    // limits move from these to those wanted, so that nobody
-    spidar::LiveLimits limits_wanted_;  // feels a step
-    double limits_share_ = 1.0;         // of the way
+    std::uint64_t opened_revision_ = 0; // revision of config and calibration when the device opened
+    spidar::LiveLimits limits_from_;    // limits move smoothly from here
+    spidar::LiveLimits limits_wanted_;  // to here
+    double limits_share_ = 1.0;         // progress, 0..1
     spidar::HapticCommand command_;
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()
     std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time
     spidar::ServoSnapshot snapshot_;
-    double earlier_time_s_ = 0.0; // device time of the loops before this one
+    double earlier_time_s_ = 0.0; // device time of earlier loops
 };
 
 VARIANT_ENUM_CAST(SpidarG::DriveMode);

@@ -1,4 +1,4 @@
-// The names GDScript sees. Order here is the order of the inspector.
+// The names for GDScript, in the order of the inspector.
 #include "godot/device/spidar_g.h"
 
 using godot::ClassDB;
@@ -7,7 +7,7 @@ using godot::MethodInfo;
 using godot::PropertyInfo;
 using godot::Variant;
 
-// Godot's enums are the core's, number for number.
+// Godot's enums have the numbers of the core's.
 static_assert(static_cast<int>(spidar::DeviceState::calibrated) == SpidarG::STATE_CALIBRATED);
 static_assert(static_cast<int>(spidar::GraspPhase::over_closed) == SpidarG::GRASP_OVER_CLOSED);
 static_assert(static_cast<int>(spidar::ContactTarget::turn_stop) == SpidarG::CONTACT_TURN_STOP);
@@ -115,7 +115,7 @@ void SpidarG::bind_state() {
 }
 
 void SpidarG::bind_requests() {
-    const godot::String script; // the owner that a script need not name
+    const godot::String script; // the owner when a script names none
     spidar::bind_checked<&SpidarG::request_wrench, "", "request_wrench", "force", "moment",
                          "grasp_torque", "duration_s", "owner">(0.05, script);
     spidar::bind_checked<&SpidarG::set_contacts, "", "set_contacts", "contacts", "owner">(script);

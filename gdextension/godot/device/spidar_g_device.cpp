@@ -1,4 +1,5 @@
-// Which device the node opens: a real one behind USB HID, or the simulated one in its place; and what a real one adds.
+// Selection of the node's device (a real one behind USB HID, or the simulated one), and functions
+// of real devices.
 #include "godot/device/spidar_g.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace {
 constexpr double kMilli = 1e-3;
 constexpr double kPerMilli = 1e3;
 constexpr int kButtons = 8;
-// A device that does not open is tried again this often.
+// Interval at which a device that does not open is tried again.
 constexpr std::chrono::milliseconds kTryAgain(1000);
 
 [[nodiscard]] std::uint16_t to_millis(double value) {
@@ -64,14 +65,14 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         return serial_transport(status, problem);
     }
     if (choice != Choice::TRANSPORT_SIMULATED && drive_mode_ != DRIVE_STEPPED) {
-        // Before it is opened: what comes later is new to the watch.
+        // Listed before opening: devices that appear later are new to the watch.
         (void)spidar::find_devices(*spidar::system_hid_bus(), config_or_default().hid_filter(),
                                    tried_);
         auto transport = spidar::open_free_device(spidar::system_hid_bus(), hid_settings(),
                                                   name_for_messages(), claim_, status, problem);
         if (transport) {
             hid_ = transport.get();
-            // Counts are 0 at the home pose, and the device knows how many make a turn.
+            // Counts are 0 at the home pose, and the device reports its counts per turn.
             use_strings({}, spidar::metres_per_count(hid_->capabilities().counts_per_turn,
                                                      settings_.motors.effective_radius_m[0],
                                                      plant_.metres_per_count));
@@ -87,7 +88,7 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
             return nullptr;
         }
         fallback_ = problem;
-        if (status != Status::no_device) { // no device is the ordinary case of most who develop
+        if (status != Status::no_device) { // having no device is normal during development
             UtilityFunctions::push_warning(named("the simulated device is used. " + problem));
         }
     }
@@ -128,7 +129,7 @@ String SpidarG::get_device_text() const {
     return replay_ != nullptr ? "Replay of a recording." : "No device is open.";
 }
 
-// In this frame, but after the scene's _ready().
+// Deferred to the end of this frame, after the scene's _ready().
 void SpidarG::tell_choice(const std::string &reason) {
     const String device = get_device_text();
     UtilityFunctions::print(named("") + device + String(" ") + spidar::to_godot(reason));
@@ -144,7 +145,8 @@ void SpidarG::watch_for_devices() {
             config_or_default().serial_settings(), name_for_messages());
     } else if (!loop_ && config_or_default().get_transport() == SpidarGConfig::TRANSPORT_DEVICE &&
                drive_mode_ != DRIVE_STEPPED) {
-        // No device was opened: also one that was tried, as its access rights may change.
+        // No device was opened. Devices that were tried count as new too, since their access rights
+        // may change.
         hid_watch_ = std::make_unique<spidar::HidWatch>(
             spidar::system_hid_bus(), config_or_default().hid_filter(),
             std::vector<spidar::HidDeviceInfo>{}, kTryAgain);

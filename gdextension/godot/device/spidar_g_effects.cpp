@@ -1,4 +1,5 @@
-// Coupling and effects as a game asks for them: checked here, with a message that names the field, then published.
+// A game's requests for coupling and effects: validated here, with a message that names the field,
+// then published.
 #include "godot/device/spidar_g.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using spidar::Status;
 
 namespace {
 
-// Empty, or what is wrong with seven gains.
+// Returns the problem of seven gains, or an empty string.
 std::string read_gains(const char *method, const char *field,
                        const godot::PackedFloat64Array &values, spidar::DofGains &gains) {
     if (values.size() != spidar::kDofCount) {
@@ -42,7 +43,7 @@ spidar::DofGains same_gains(double linear, double angular, double grasp) {
     return {linear, linear, linear, angular, angular, angular, grasp};
 }
 
-// What of an effect makes no sense, with the remedy.
+// Returns the problem of an effect with its remedy.
 std::string effect_problem(const Effect &effect, int dof_mask) {
     if (dof_mask < 1 || dof_mask > static_cast<int>(spidar::kAllDof)) {
         return "dof_mask = " + std::to_string(dof_mask) +
@@ -132,7 +133,7 @@ bool SpidarG::set_coupling(const godot::Transform3D &target, double grasp_angle,
     coupling.twist.angular_rad_s =
         frame.turn_to_device(spidar::to_core(angular_velocity) - motion_.angular_rad_s());
     coupling.twist.grasp_rate_rad_s = grasp_rate;
-    coupling.state_time_s = snapshot_.time_s; // the game saw this one
+    coupling.state_time_s = snapshot_.time_s; // the snapshot that the game saw
     coupling.dof_mask = static_cast<std::uint8_t>(dof_mask);
     const Status status = spidar::validate_coupling(coupling);
     if (!spidar::usable(status)) {
@@ -172,7 +173,7 @@ bool SpidarG::take_effect(const char *method, Effect effect, int dof_mask) {
         ++place;
     }
     const double now_s = snapshot_.time_s;
-    if (place == count && count == effects.size()) { // full: in place of one that is over
+    if (place == count && count == effects.size()) { // full: replaces an expired effect
         place = 0;
         while (place < count && effect_ends_s_[place] > now_s) {
             ++place;
@@ -211,7 +212,7 @@ bool SpidarG::set_force_effect(int id, const godot::Vector3 &force, const godot:
     Effect effect;
     effect.kind = EffectKind::constant;
     effect.id = id;
-    // A force to give, or a wave's height, stands in the row of the gains.
+    // A force, or the amplitude of a wave, is stored in the gains.
     effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.duration_s = duration_s;
@@ -240,7 +241,7 @@ bool SpidarG::set_vibration_effect(int id, const godot::Vector3 &force,
     Effect effect;
     effect.kind = EffectKind::vibration;
     effect.id = id;
-    // A force to give, or a wave's height, stands in the row of the gains.
+    // A force, or the amplitude of a wave, is stored in the gains.
     effect.gain.values = spidar::lanes(
         world().wrench_to_device({spidar::to_core(force), spidar::to_core(moment), grasp_torque}));
     effect.frequency_hz = frequency_hz;

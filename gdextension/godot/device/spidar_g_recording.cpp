@@ -1,4 +1,4 @@
-// Recording what the servo loop does, and playing a recording in place of a device.
+// Recording of the servo loop, and replay of a recording in place of a device.
 #include "godot/device/spidar_g.h"
 
 #include <godot_cpp/classes/project_settings.hpp>
@@ -13,7 +13,7 @@ using spidar::Status;
 
 namespace {
 
-// user:// and res:// as the system knows them; UTF-8.
+// Returns user:// and res:// paths as system paths, UTF-8.
 [[nodiscard]] std::string system_path(const String &path) {
     return godot::ProjectSettings::get_singleton()->globalize_path(path).utf8().get_data();
 }
@@ -135,7 +135,8 @@ void SpidarG::open_replay() {
     replay_touches_.forget();
     replay_ = replay.get();
     change_loop(std::make_unique<spidar::ServoLoop>(std::move(replay)));
-    const Status status = loop_->start_stepped(settings_); // by the game's ticks: replay_tick()
+    const Status status =
+        loop_->start_stepped(settings_); // driven by the game's ticks: replay_tick()
     if (!spidar::usable(status)) {
         replay_ = nullptr;
         change_loop(nullptr);
@@ -159,7 +160,7 @@ void SpidarG::replay_tick() {
     if (replay_ == nullptr) {
         return;
     }
-    // The recorded game read no more: what is left passes at the clock's pace.
+    // The recorded game read no more: the rest runs in real time.
     loop_->advance(1, spidar::physics_ticks_per_second());
     pull_snapshot(true);
 }

@@ -1,4 +1,5 @@
-// What a game asks the device to render: checked here, with a message that names the field, then published.
+// A game's requests for contacts and wrenches: validated here, with a message that names the field,
+// then published.
 #include "godot/device/spidar_g.h"
 
 #include <cmath>
@@ -14,9 +15,9 @@ using spidar::Status;
 
 namespace {
 
-// What the eleventh and twelfth numbers of a contact may be.
+// Ranges of the eleventh and twelfth numbers of a contact.
 constexpr int kLastContactTarget = static_cast<int>(spidar::ContactTarget::turn_stop);
-// Identifiers are counted in doubles on their way here: beyond this they would not be exact in an int32.
+// Largest id: ids arrive as doubles, and larger ones would not fit an int32.
 constexpr double kLargestContactId = 2147483647.0;
 
 struct ContactField {
@@ -34,7 +35,8 @@ std::string field_problem(std::int64_t plane, int field, double value, const cha
            " = " + std::to_string(value) + " " + kContactFields[field].unit + ": " + remedy;
 }
 
-// The twelve numbers as a plane of the world; the problem, or an empty string.
+// Reads the twelve numbers as a plane in world coordinates. Returns the problem, or an empty
+// string.
 std::string read_plane(const double *values, std::int64_t index, ContactPlane &plane) {
     for (int field = 0; field < SpidarG::CONTACT_STRIDE; ++field) {
         if (!std::isfinite(values[field])) {
@@ -121,7 +123,7 @@ void SpidarG::publish_touch(std::shared_ptr<spidar::TouchScene> touch) {
 }
 
 void SpidarG::publish_contacts() {
-    requests_.write_contacts(command_, snapshot_.time_s); // the game saw this one
+    requests_.write_contacts(command_, snapshot_.time_s); // the snapshot that the game saw
     replay_contacts_.note(command_);
     if (loop_) {
         loop_->publish(command_);
@@ -139,7 +141,7 @@ ContactPlane SpidarG::seen_from_node(ContactPlane plane) const {
     if (plane.target == ContactTarget::turn_stop) {
         plane.velocity_m_s -= motion_.angular_rad_s();
     } else if (plane.target != ContactTarget::grasp_stop) {
-        // Where the target is nearest.
+        // Velocity where the target is nearest.
         const spidar::WorldFrame frame = world();
         spidar::Vec3 at =
             frame.point_to_world(spidar::grip_point(snapshot_.grip.pose, plane.target));

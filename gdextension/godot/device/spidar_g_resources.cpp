@@ -1,4 +1,4 @@
-// What a SpidarG is told by its resources and by the project, and what the editor says of it.
+// Settings of a SpidarG from its resources and the project, and the editor's warnings.
 #include "godot/device/spidar_g.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using godot::UtilityFunctions;
 
 namespace {
 
-// A node scale this near to 1 is rounding, not intent.
+// Largest deviation of the node's scale from 1 that counts as rounding.
 constexpr double kNodeScaleTolerance = 1e-3;
 
 } // namespace
@@ -67,8 +67,8 @@ void SpidarG::want_limits(const spidar::LiveLimits &limits) {
     limits_share_ = 0.0;
 }
 
-// A link that is slower than the config says makes every wall softer; a faster one makes none stiffer, as the device's own
-// delays are not in what its echoes tell.
+// A link that is slower than the config states makes every wall softer. A faster one makes none
+// stiffer, since its echoes do not include the device's own delays.
 void SpidarG::watch_latency() {
     constexpr double kNoticed = 1.1;
     if ((hid_ == nullptr && serial_ == nullptr) || !loop_ || !settings_.render.caps_from_latency) {

@@ -1,4 +1,4 @@
-// Safety as the game sees it: panic stop, zero, signs of life, hand-off when the player looks away, events.
+// Safety for the game: panic stop, zero, heartbeat, release on focus loss, events.
 #include "godot/device/spidar_g.h"
 
 #include <array>
@@ -14,14 +14,16 @@
 
 namespace {
 
-// A loop that stands still for longer than any busy desktop makes it wait.
+// Time without a cycle after which a loop counts as stalled: longer than any busy desktop delays
+// it.
 constexpr double kStalled_s = 0.1;
 
-// The input action that stops every device. It exists while a panic key is set; a game may give it further events.
+// The input action that stops every device. It exists while a panic key is set; a game may add
+// events to it.
 constexpr const char *kPanicAction = "spidar_g_panic";
 
 void set_panic_key(int key) {
-    static int added = 0; // the key that the action has from us
+    static int added = 0; // the key that we added to the action
     godot::InputMap *const map = godot::InputMap::get_singleton();
     const godot::StringName action(kPanicAction);
     if (key != 0 && !map->has_action(action)) {
@@ -50,7 +52,7 @@ void set_panic_key(int key) {
 } // namespace
 
 void SpidarG::panic_stop() {
-    panicked_.store(true); // also for a device that is closed now: it opens stopped
+    panicked_.store(true); // also for a closed device: it opens stopped
     const std::lock_guard<std::mutex> lock(loop_guard_);
     if (loop_) {
         loop_->panic_stop();
@@ -62,14 +64,14 @@ void SpidarG::change_loop(std::unique_ptr<spidar::ServoLoop> loop) {
         const std::lock_guard<std::mutex> lock(loop_guard_);
         loop_.swap(loop);
     }
-    // From here on panic_stop() finds the new loop; a stop that came earlier holds for it too.
+    // From here on panic_stop() finds the new loop; an earlier stop holds for it too.
     if (loop_ && panicked_.load()) {
         loop_->panic_stop();
     }
 }
 
-// The key is looked for in the state of the input, each frame of the scene tree: a pause, another viewport or window,
-// and nodes that mark events as handled change nothing of that.
+// The key is read from the input state in each frame of the scene tree. Pause, another viewport or
+// window, and nodes that mark events as handled do not affect that state.
 void SpidarG::watch_panic_key(bool watch) {
     godot::SceneTree *const tree = get_tree();
     const godot::Callable listener = callable_mp(this, &SpidarG::poll_panic_key);
@@ -96,13 +98,14 @@ void SpidarG::poll_panic_key() {
     const godot::Input *const input = godot::Input::get_singleton();
     const bool was_down = panic_key_down_;
     panic_key_down_ = input->is_action_pressed(action);
-    // A tap that is over within one frame is only in the second. A key that is down as the device opens stops it too.
+    // A tap that ends within one frame shows only in the second condition. A key that is down as
+    // the device opens stops the device too.
     if ((panic_key_down_ && !was_down) || input->is_action_just_pressed(action)) {
         panic_stop();
     }
 }
 
-// What is pushed into the node's own viewport by a script and is not in the state of the input.
+// Handles events that a script pushes into the node's viewport and that are not in the input state.
 void SpidarG::_input(const godot::Ref<godot::InputEvent> &event) {
     const godot::Ref<godot::InputEventKey> key{godot::Variant(event)};
     if (key.is_valid() && key->is_pressed() && !key->is_echo() &&
@@ -136,7 +139,8 @@ void SpidarG::set_release_on_focus_loss(bool release) {
     }
 }
 
-// The player looks elsewhere: forces go as with forces_enabled = false, and come back as when it is set again.
+// Handles focus loss: forces end as with forces_enabled = false, and return as when it is set
+// again.
 void SpidarG::set_away(bool away) {
     away_ = away;
     publish_forces();
@@ -166,7 +170,8 @@ void SpidarG::follow_grasp_action() {
     }
 }
 
-// Each physics tick of a threaded device. Simulated time needs no watch: it stands still with the game.
+// Called in each physics tick of a threaded device. Simulated time needs no watch: it stops with
+// the game.
 void SpidarG::beat() {
     if (drive_mode_ == DRIVE_STEPPED) {
         command_.heartbeat = 0;
@@ -185,14 +190,14 @@ void SpidarG::watch_loop() {
         event.value = loop_->since_last_cycle_s();
         tell(event);
         if (simulated_ == nullptr) {
-            loop_
-                ->panic_stop(); // what can be done from here; the firmware's watchdog does the rest
+            loop_->panic_stop(); // the firmware's watchdog does the rest
         }
     }
     stall_told_ = stalled;
 }
 
-// What happened after the newest snapshot is told with the next one: a replay tells it in the same tick.
+// Events after the newest snapshot are emitted with the next one, so that a replay emits them in
+// the same tick.
 void SpidarG::emit_events() {
     spidar::DeviceEvent event;
     while (loop_ && loop_->next_event(event, snapshot_.time_s)) { // a listener may close the device
@@ -219,7 +224,8 @@ std::string SpidarG::limited_request() const {
     return owners + text.data();
 }
 
-// The loop tells of a sum that is limited; of a single request or gain it only counts. Once a second, as events are.
+// The loop emits an event for a limited sum, but only counts limited single requests and gains.
+// This function reports those, at most once per second.
 void SpidarG::tell_limited(const spidar::ServoSnapshot &before) {
     constexpr double kApart_s = 1.0;
     const bool limited = snapshot_.counters.clamped_requests > before.counters.clamped_requests;

@@ -1,4 +1,4 @@
-// A node on serial motor boards.
+// Serial motor boards of a node.
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "godot/base/type_conversions.h"
@@ -11,7 +11,7 @@ bool SpidarG::looks_for_serial() const {
            drive_mode_ != DRIVE_STEPPED;
 }
 
-// What the search found is opened in this tick; a new reason why it finds nothing is told.
+// Opens boards that the search has found; reports a new reason why it finds none.
 void SpidarG::watch_serial_search() {
     if (!serial_search_ || restart_pending_) {
         return;
@@ -35,7 +35,7 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
         transport = spidar::open_serial_device(config_or_default().serial_settings(),
                                                name_for_messages(), claim_, status, problem);
     } else if (!claim_.take(transport->device_name(), name_for_messages())) {
-        transport.reset(); // another node took it since; the search goes on
+        transport.reset(); // another node took it meanwhile; the search continues
         status = Status::device_in_use;
         problem = spidar::describe(status);
     }
@@ -45,7 +45,7 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
     }
     serial_ = transport.get();
     use_strings({},
-                plant_.metres_per_count); // counts are 0 at the home pose, once it was zeroed there
+                plant_.metres_per_count); // counts are 0 at the home pose once zeroed there
     tell_choice("transport = Serial.");
     if (const std::string remarks = transport->remarks(); !remarks.empty()) {
         godot::UtilityFunctions::push_warning(named(remarks));

@@ -1,4 +1,4 @@
-// What the node tells: signals on the edges that the newest snapshot shows, faults in words, refusals.
+// Signals on the edges of the newest snapshot, fault texts, and refusals.
 #include "godot/device/spidar_g.h"
 
 #include <godot_cpp/variant/utility_functions.hpp>
@@ -44,7 +44,7 @@ void SpidarG::pull_snapshot(bool physics_tick, const spidar::GameRead *recorded)
     watch_recordings();
 }
 
-// A listener may close or open the device: what is told next is taken from copies.
+// A listener may close or open the device: later signals use copies.
 void SpidarG::emit_edges(const spidar::ServoSnapshot &before, const String &reason) {
     const spidar::ServoSnapshot after = snapshot_;
     const DeviceState now = after.state;
@@ -113,7 +113,8 @@ String SpidarG::named(const std::string &message) const {
 void SpidarG::refuse(const std::string &message) const {
     const String text = named(message);
     UtilityFunctions::push_error(text);
-    const_cast<SpidarG *>(this)->emit_signal("request_rejected", text); // changes nothing of ours
+    const_cast<SpidarG *>(this)->emit_signal("request_rejected",
+                                             text); // changes no member of this class
 }
 
 bool SpidarG::reject(const std::string &message) {

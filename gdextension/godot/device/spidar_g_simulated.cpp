@@ -1,4 +1,4 @@
-// The simulated device: where its hand goes, what really happens, what is made to fail.
+// The simulated device: target of its hand, true state, and faults.
 #include "godot/device/spidar_g.h"
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace {
 
-// A hand beyond these is a mistake of units; the simulated arm would be torn to numbers without end.
+// Largest values of a hand target: larger ones are unit errors and would make the simulation
+// diverge.
 constexpr double kFarthestHand_m = 10.0;
 constexpr double kWidestGrasp_rad = 3.2;
 
@@ -39,7 +40,7 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
 
 bool SpidarG::set_simulated_hand_target(const godot::Transform3D &target, double grasp_angle) {
     if (simulated_ == nullptr) {
-        return false; // other transports have a hand of their own
+        return false; // other transports have a real hand
     }
     const spidar::WorldFrame frame = world();
     const spidar::Vec3 origin = spidar::to_core(target.origin);
@@ -80,10 +81,10 @@ godot::Dictionary SpidarG::get_simulated_truth() const {
     const spidar::PlantTruth plant = simulated_->truth();
     const spidar::WorldFrame frame = world();
     truth["grip_transform"] = frame.pose_to_world(plant.pose.position_m, plant.frame.rotation);
-    // Positions as doubles too: a Vector3 rounds at some tens of nanometres.
+    // Positions as doubles too: a Vector3 rounds at some tens of nanometers.
     truth["position_m"] = spidar::to_godot(std::array<double, 3>{
         plant.pose.position_m.x, plant.pose.position_m.y, plant.pose.position_m.z});
-    // A rigid grip has fingers beside the strings, which nothing holds up.
+    // The fingers of a rigid grip are not held by strings.
     truth["grasp_angle"] = settings_.grip.kind == spidar::GripKind::rigid
                                ? get_grasp_angle()
                                : plant.frame.grasp_angle_rad;

@@ -1,4 +1,4 @@
-// What the newest snapshot says, in world coordinates.
+// State of the newest snapshot in world coordinates.
 #include "godot/device/spidar_g.h"
 
 #include <cmath>
@@ -54,7 +54,8 @@ godot::Transform3D SpidarG::get_pole_transform(int pole) const {
     const spidar::GripState &grip = snapshot_.grip;
     const Vec3 along = glm::normalize(pole == 0 ? grip.pose.r1_m : grip.pose.r2_m);
     const Vec3 normal = grip.frame.rotation[2];
-    // r lies in the grip's x-y plane; when the poles are parallel the held normal may not be exactly across it.
+    // r lies in the grip's x-y plane; with parallel poles the held normal may not be exactly
+    // perpendicular to it.
     const Vec3 across = glm::normalize(glm::cross(normal, along));
     return world().pose_to_world(grip.pose.position_m,
                                  spidar::Mat3(along, across, glm::cross(along, across)));

@@ -19,25 +19,29 @@ namespace {
 
 using godot::PhysicsServer3D;
 
-// A push makes a body at most this much faster than the tool, and carries it at most this far ahead of the tool before the
-// next push, nor much further than the device is pressed in. Without a limit a light body would be thrown: in truth the force is
-// gone once the body moves, here it is held for a whole frame.
+// Limits of a push. It makes a body at most this much faster than the tool, moves it at most this
+// far ahead of the tool before the next push, and not much further than the device is pressed in.
+// Without limits a light body would be thrown: a real force ends when the body moves, but here it
+// is held for a whole frame.
 constexpr double kMostLead_m_s = 0.5;
 constexpr double kMostLead_m = 0.0085;
 constexpr double kMostPressed = 1.5;
-// A body answers a push a frame late, which gives it more energy in each swing between tool and spring. This part of the
-// speed between tool and body is taken away in a frame; half the ratio of stiffness to mass / frame^2 would just be enough.
+// Share of the speed between tool and body that is removed per frame. A body answers a push one
+// frame late, which adds energy in each swing between tool and spring; half the ratio of stiffness
+// to mass / frame^2 would just suffice.
 constexpr double kDamped = 0.6;
 constexpr double kMostShare = 2.0;
 
-// Scene axes and metres; the impulse acts at `origin`, the part's own, and the angular impulse beside it.
+// Scene axes and meters. The impulse acts at `origin`, the part's origin; the angular impulse is
+// additional.
 struct Push {
     Vec3 origin{0.0};
     Vec3 impulse_ns{0.0};
     Vec3 angular_nms{0.0};
 };
 
-// Of the tool where it touches this part: weighted by force. Scene m/s of device time.
+// Returns the tool's velocity where it touches this part, weighted by force. Scene m/s of device
+// time.
 Vec3 tool_velocity(const TouchReport &report, std::int32_t part, const BodyPushes::Terms &terms) {
     Vec3 sum(0.0);
     double weight = 0.0;
@@ -59,7 +63,8 @@ Vec3 tool_velocity(const TouchReport &report, std::int32_t part, const BodyPushe
     return terms.frame.velocity_to_world(velocity) + terms.node_m_s;
 }
 
-// How much of the push the body gets. tool_m_s: of the tool where it pushes, scene metres a second of the game's time.
+// Returns the share of the push that the body gets. tool_m_s: velocity of the tool where it pushes,
+// scene meters per second of game time.
 double share_of(const Push &push, const godot::PhysicsDirectBodyState3D &state,
                 const BodyPushes::Terms &terms, const Vec3 &tool_m_s, double stiffness_n_m) {
     const double tick_s = terms.time_scale * terms.since_s; // of the game's time
@@ -74,7 +79,7 @@ double share_of(const Push &push, const godot::PhysicsDirectBodyState3D &state,
     double share = 1.0;
     if (size_ns > 0.0) {
         const Vec3 along = push.impulse_ns / size_ns;
-        // Where the line of the impulse passes the centre of mass nearest.
+        // The point on the line of the impulse that is nearest to the center of mass.
         const Vec3 lever = glm::cross(push.impulse_ns, moment) / (size_ns * size_ns);
         const Vec3 velocity = to_core(state.get_linear_velocity()) +
                               glm::cross(to_core(state.get_angular_velocity()), lever);
@@ -89,7 +94,7 @@ double share_of(const Push &push, const godot::PhysicsDirectBodyState3D &state,
         }
         share = std::min(share, terms.most_n * tick_s / size_ns);
     }
-    // The same of a turn, where the body is as far out as its inertia says.
+    // Same for a turn, at the body's radius of gyration.
     const double trace = inverse_inertia[0][0] + inverse_inertia[1][1] + inverse_inertia[2][2];
     const double spin = glm::length(turns);
     if (trace > 0.0 && spin > 0.0) {

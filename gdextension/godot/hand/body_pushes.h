@@ -1,4 +1,5 @@
-// Newton's third law at game rate: bodies get back what the tool gave them since the tick before. Main thread only.
+// Applies the tool's impulses of the last tick to the bodies that it touched: Newton's third law at
+// game rate. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +15,18 @@ namespace spidar {
 class BodyPushes {
 public:
     struct Terms {
-        WorldFrame frame;        // as the bodies stand in the scene
+        WorldFrame frame;        // of the device's node at the last physics step
         double most_n = 8.0;     // the device's own limit
-        double since_s = 0.0;    // device time since the tick before
+        double since_s = 0.0;    // device time since the last tick
         double time_scale = 1.0; // Engine.time_scale
-        // How the tool moves: of the device, in its frame, and of its node in the scene (unit: m/s).
+        // Motion of the tool, device frame. node_m_s: motion of the device's node in the scene.
         Jaws jaws;
         ToolPose pose;
         Twist twist;
         Vec3 node_m_s{0.0};
     };
 
-    // Takes the sums of the report, and pushes by what they grew.
+    // Stores the sums of the report and pushes the bodies by their growth.
     void push(const TouchReport &report, const TouchedBodies &bodies, const Terms &terms);
     void clear() noexcept { sums_.clear(); }
 
@@ -34,7 +35,7 @@ private:
         Vec3 impulse_ns{0.0};
         Vec3 angular_impulse_nms{0.0};
     };
-    std::unordered_map<std::int32_t, Sum> sums_; // by part of the scene, since its id appeared
+    std::unordered_map<std::int32_t, Sum> sums_; // by id of the scene's part, since the id appeared
 };
 
 } // namespace spidar

@@ -1,5 +1,6 @@
-// The device's time between the physics ticks of a hand. Forces, impulses and velocities of a device are in its own time: it
-// goes on when Engine.time_scale slows the game, and stands still between physics ticks that share one drawn frame.
+// Device time between a hand's physics ticks. Forces, impulses and velocities refer to device time.
+// It continues when Engine.time_scale slows the game, and does not change between physics ticks
+// that share a drawn frame.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace spidar {
 
 class DeviceClock {
 public:
-    // Once a physics tick of tick_s. now_s: the device's time.
+    // Called once per physics tick of tick_s. now_s: device time.
     void read(double now_s, double tick_s) noexcept {
         if (!known_) {
             read_s_ = now_s;
@@ -24,14 +25,16 @@ public:
         read_s_ = now_s;
         apart_s_ = elapsed_s_;
     }
-    // Device time between the pose that this tick reads and the last one that was read, s; 0: it is still the same pose.
+    // Device time between the pose of this tick and the last one that was read (unit: s). 0: the
+    // pose is the same.
     [[nodiscard]] double elapsed_s() const noexcept { return elapsed_s_; }
 
 private:
-    // Two poses count as one when they are nearer in time than this part of the last interval, or of a physics tick. Ticks that
-    // share a drawn frame are some milliseconds apart, and differences over so short a time are mostly noise.
+    // Two poses count as one when their times differ by less than this share of the last interval
+    // or of a physics tick. Ticks that share a drawn frame are milliseconds apart, and differences
+    // over so short a time are mostly noise.
     static constexpr double kLeastPart = 0.5;
-    // The device fades scenes that are older than this.
+    // Longest interval (unit: s): the device fades older scenes.
     static constexpr double kLongest_s = 0.1;
 
     bool known_ = false;

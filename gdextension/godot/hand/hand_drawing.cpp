@@ -30,16 +30,17 @@ using godot::Color;
 constexpr double kNormal_m = 0.004;
 constexpr double kNormalRing_m = 0.002;
 constexpr double kForce_m_n = 0.015;
-constexpr double kLeastForce_n = 1e-3; // an arrow of less has no direction to show
+constexpr double kLeastForce_n = 1e-3; // smallest force that gets an arrow
 constexpr double kArrowHead = 0.25;    // of the arrow's length
 constexpr double kLongestHead_m = 0.004;
 constexpr double kBeyond_m = 0.03; // faces of meshes are drawn within this distance of the tool
 constexpr int kSectors = 24;
-// Alpha of meshes, so that they do not drown what touches them.
+// Alpha of meshes, so that contacts stay visible.
 constexpr float kOfManyEdges = 0.4F;
 
-// A line is a strip of two triangles: NORMAL is its direction, UV.x its side and UV.y its width. Thin lines lie a little
-// nearer to the eye than thick ones, and all nearer than the surfaces that they lie on.
+// A line is a strip of two triangles: NORMAL is its direction, UV.x its side and UV.y its width.
+// Thin lines are drawn slightly nearer to the eye than thick ones, and all of them nearer than the
+// surfaces they lie on.
 constexpr const char *kDepthTested = "depth_draw_never";
 constexpr const char *kPaleOverAll = "depth_draw_never, depth_test_disabled";
 std::string shader_code(const char *depth, const char *alpha) {
@@ -78,7 +79,7 @@ godot::Ref<godot::ShaderMaterial> material_of(const char *depth, const char *alp
     return material;
 }
 
-// From the grip's centre to what of the tool is farthest from it.
+// Returns the distance from the grip center to the farthest point of the tool.
 double reach_of(const HandPicture &picture) {
     double reach_m = 0.5 * picture.jaws.gap_m(picture.proxy.grasp_rad) +
                      pad_thickness_m(picture.jaws) + pad_radius_m(picture.jaws);
@@ -154,7 +155,7 @@ void HandDrawing::ring(const Placement &at, double radius_m, const Pen &pen) {
     }
 }
 
-// Its head has four sides, so that some are seen from anywhere.
+// The head has four sides, so that some are visible from anywhere.
 void HandDrawing::arrow(const Vec3 &from_m, const Vec3 &along_m, const Pen &pen) {
     const double length = glm::length(along_m);
     const Vec3 ahead = along_m / length;
@@ -181,7 +182,7 @@ void HandDrawing::shapes(const HandPicture &picture) {
     }
 }
 
-// Both faces of each pad, and the way from the grip's centre to them.
+// Draws both faces of each pad, and the line from the grip center to them.
 void HandDrawing::tool(const ToolPose &pose, const Jaws &jaws, const Pen &pen) {
     for (int side = 0; side < 2; ++side) {
         const Placement inner = Pads::face(side, jaws, pose);

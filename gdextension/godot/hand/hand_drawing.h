@@ -1,6 +1,6 @@
-// Lines in the scene that show what a hand works with: the shapes in its reach, where it touches them and with which force,
-// the tool's proxy and the device. They have the same width on the screen at any distance; what something hides is drawn pale.
-// Main thread only.
+// Lines in the scene for debugging a hand: shapes in reach, contacts with their forces, the tool's
+// proxy and the device. Lines have the same width on the screen at any distance; hidden parts are
+// drawn pale. Main thread only.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class MeshInstance3D;
 
 namespace spidar {
 
-// What is to be seen in a tick. Device frame.
+// What to draw in a tick. Device frame.
 struct HandPicture {
     WorldFrame frame;
     const std::vector<NearShape> &shapes;
@@ -36,15 +36,15 @@ struct HandPicture {
 
 class HandDrawing {
 public:
-    // Makes its mesh, an internal child of `hand`, when there is none.
+    // Draws into a mesh, an internal child of `hand` that is created when missing.
     void draw(godot::Node3D &hand, const HandPicture &picture);
     void hide();
 
 private:
-    // How lines look.
+    // Look of lines.
     struct Pen {
         godot::Color color;
-        double width_px; // on a screen 720 pixels high; more on a higher one
+        double width_px; // up to a screen height of 720 pixels; proportional above
     };
 
     void prepare(godot::Node3D &hand);

@@ -33,7 +33,7 @@ bool has_device(const SpidarGHand &hand) {
     return Object::cast_to<SpidarG>(hand.get_parent()) != nullptr;
 }
 
-// Of the hands under one device.
+// Returns whether the hand is the first one under its device.
 bool is_first(const SpidarGHand &hand) {
     const godot::Node *const parent = hand.get_parent();
     for (int i = 0; i < parent->get_child_count(); ++i) {

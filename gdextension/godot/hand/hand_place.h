@@ -1,4 +1,5 @@
-// Where in the scene a hand acts: under a SpidarG, as the first hand there. Elsewhere it says why it does not.
+// Decides where in the scene a hand acts: under a SpidarG, as the first hand there. Elsewhere it
+// reports why the hand does not act.
 #pragma once
 
 #include <godot_cpp/variant/packed_string_array.hpp>
@@ -9,12 +10,12 @@ namespace spidar {
 
 class HandPlace {
 public:
-    // For the editor.
+    // Returns the warnings for the editor.
     [[nodiscard]] static godot::PackedStringArray warnings(const SpidarGHand &hand);
 
-    // In a running scene: under a new parent.
+    // Called in a running scene when the hand gets a new parent.
     void entered(const SpidarGHand &hand);
-    // Each physics frame under a device. What keeps a hand from acting is told once.
+    // Called in each physics frame under a device. Reports once what keeps the hand from acting.
     [[nodiscard]] bool may_act(const SpidarGHand &hand);
 
 private:

@@ -6,7 +6,7 @@ namespace spidar {
 
 namespace {
 
-// The disc's axis is its Y, the jaws' axis the grip's x.
+// Rotation from the disc's axis Y to the jaws' axis, the grip's x.
 const Mat3 kDiscAlongX(Vec3(0.0, -1.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0));
 
 } // namespace
@@ -38,7 +38,7 @@ Tool Pads::tool(const Jaws &jaws) const noexcept {
 
 Placement Pads::face(int side, const Jaws &jaws, const ToolPose &pose) noexcept {
     const double outward = side == 0 ? -1.0 : 1.0;
-    // Side 0 looks the other way: half a turn about y.
+    // Side 0 faces the other way: half a turn about y.
     const Mat3 turn =
         side == 0 ? Mat3(-pose.rotation[0], pose.rotation[1], -pose.rotation[2]) : pose.rotation;
     const double along_m = 0.5 * outward * jaws.gap_m(pose.grasp_rad);

@@ -1,4 +1,4 @@
-// The finger pads: two discs with rounded edges whose flat faces look at each other along the grip's x axis.
+// Finger pads: two discs with rounded edges, flat faces opposed along the grip's x axis.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,11 @@
 
 namespace spidar {
 
-// In proportion to the open jaws: those of 80 mm have pads of 24 mm across and 6 mm thick.
+// Radius in proportion to the open jaws: jaws of 80 mm have pads 24 mm across.
 [[nodiscard]] inline double pad_radius_m(const Jaws &jaws) noexcept {
     return 0.15 * jaws.open_m;
 }
+// Thickness in proportion to the open jaws: 6 mm for jaws of 80 mm.
 [[nodiscard]] inline double pad_thickness_m(const Jaws &jaws) noexcept {
     return 0.075 * jaws.open_m;
 }
@@ -20,19 +21,19 @@ class Pads {
 public:
     Pads() { fit(Jaws()); }
 
-    // Makes their shape anew when the jaws are others.
+    // Makes the pads' shape again when the jaws have changed.
     void fit(const Jaws &jaws);
     [[nodiscard]] const std::shared_ptr<const ToolShape> &shape() const noexcept { return shape_; }
 
-    // The tool of the bare pads.
+    // Returns the tool that consists of the pads only.
     [[nodiscard]] Tool tool(const Jaws &jaws) const noexcept;
 
-    // x outward from the middle of the inner face; side 0 at -x of the grip.
+    // Frame of a pad's inner face, x outward from its center. Side 0 lies at -x of the grip.
     [[nodiscard]] static Placement face(int side, const Jaws &jaws, const ToolPose &pose) noexcept;
 
 private:
     std::shared_ptr<const ToolShape> shape_;
-    double open_m_ = 0.0; // of the jaws that they fit
+    double open_m_ = 0.0; // opening of the jaws that the pads fit
 };
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// What a script asks a hand, and where the hand stands in the scene tree.
+// Functions of a hand for scripts, and its place in the scene tree.
 #include "godot/hand/spidar_g_hand.h"
 
 #include <cmath>
@@ -55,7 +55,7 @@ void SpidarGHand::_enter_tree() {
 }
 
 void SpidarGHand::_ready() {
-    // Again: the engine turns physics processing on just before this.
+    // Repeated, since the engine turns physics processing on just before this.
     set_physics_process(spidar_ != nullptr && !godot::Engine::get_singleton()->is_editor_hint());
 }
 
@@ -91,7 +91,7 @@ ToolPose SpidarGHand::device_pose() const {
 
 ToolPose SpidarGHand::proxy_pose() const {
     const spidar::TouchReport &touch = spidar_->snapshot().touch;
-    // Before the first scene is rendered, and for as long as none is wanted.
+    // Before the first scene is rendered, and while none is wanted.
     if (touch.sequence == 0 || published_ == Published::nothing) {
         return device_pose();
     }
@@ -109,7 +109,7 @@ Transform3D SpidarGHand::get_wanted_pose() const {
     if (!hold_.holds() || spidar_ == nullptr) {
         return {};
     }
-    // Below the device by as much as its weight bends the tool's springs.
+    // Below the device by the distance to which the weight bends the tool's springs.
     const spidar::TouchReport &touch = spidar_->snapshot().touch;
     spidar::DofLanes bent = spidar::lanes(pull_.own);
     for (std::size_t dof = 0; dof < bent.size(); ++dof) {

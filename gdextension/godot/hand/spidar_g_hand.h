@@ -1,6 +1,7 @@
-// SpidarGHand: the tool that a SPIDAR-G holds in a scene, two finger pads that touch, grasp and carry. Each physics tick it
-// reads what the device told of the last scene, decides what is held, and publishes the shapes near the tool; the servo loop
-// renders them. Main thread only. The class reference is gdextension/doc_classes/SpidarGHand.xml.
+// SpidarGHand: the tool of a SPIDAR-G in a scene, two finger pads that touch, grasp and carry. Each
+// physics tick it reads the device's report on the last scene, decides what is held, and publishes
+// the shapes near the tool, which the servo loop renders. Main thread only. The class reference is
+// gdextension/doc_classes/SpidarGHand.xml.
 #pragma once
 
 #include <array>
@@ -34,7 +35,7 @@
 #include "godot/hand/surface_news.h"
 #include "godot/hand/touch_scenes.h"
 
-// A number with its setter and getter. What makes no sense is refused with an error.
+// A number with setter and getter. A value that makes no sense is refused with an error.
 #define SPIDAR_G_HAND_NUMBER(m_name, m_default, m_least, m_most, m_unit)                           \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \
@@ -63,7 +64,7 @@ class SpidarGHand : public godot::Node3D {
     GDCLASS(SpidarGHand, godot::Node3D)
     SPIDAR_G_CHECKED_CALLS
 
-    // The inspector offers less; a script may go so far.
+    // Ranges for scripts; the inspector offers less.
     SPIDAR_G_HAND_NUMBER(contact_margin, 0.04, 0.001, 1.0, "m");
     SPIDAR_G_HAND_NUMBER(contact_stiffness, 0.0, 0.0, 1.0e4, "N/m");
     SPIDAR_G_HAND_NUMBER(contact_damping, 2.0, 0.0, 100.0, "N s/m");
@@ -84,10 +85,10 @@ public:
     void set_debug_draw(bool wanted);
     [[nodiscard]] bool is_debug_draw() const { return debug_draw_; }
 
-    // Told in the output: an argument of a type that a method does not take.
+    // Reports an argument of the wrong type in the output.
     void refuse(const std::string &message) const;
 
-    // What is held.
+    // The held body.
     [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
     [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
     [[nodiscard]] double get_held_width() const;
@@ -124,11 +125,11 @@ protected:
 
 private:
     static void bind_properties();
-    // `value`, or `old` with an error for one that makes no sense.
+    // Returns `value`, or `old` with an error when `value` makes no sense.
     [[nodiscard]] double checked_number(const char *name, double value, double old, double least,
                                         double most, const char *unit) const;
 
-    // The tick, in this order (spidar_g_hand_tick.cpp).
+    // Parts of a tick, in this order (spidar_g_hand_tick.cpp).
     void read_device(double since_s);
     void watch_pinch(double since_s);
     void watch_hold();
@@ -136,14 +137,14 @@ private:
     void attach(godot::RigidBody3D &body);
     void carry(double delta_s);
     void push_bodies(double since_s);
-    // Where the held body goes, when the grip alone would have it at `mine`: other hands may hold it, too.
+    // Returns the held body's target. mine: by this hand alone; other hands may hold it too.
     [[nodiscard]] godot::Transform3D agree_on(const godot::Transform3D &mine);
     void add_joints(spidar::Tool &tool);
     void remember_place();
     void tell_held();
     void note_node(godot::Node *node);
 
-    // What is published (spidar_g_hand_scene.cpp).
+    // Publishing (spidar_g_hand_scene.cpp).
     void gather();
     void publish();
     void withdraw();
@@ -157,9 +158,9 @@ private:
 
     [[nodiscard]] spidar::Jaws jaws() const;
     [[nodiscard]] spidar::ToolPose device_pose() const;
-    // Device frame: the tool as it is shown, in no surface.
+    // Pose of the shown tool, device frame: outside all surfaces.
     [[nodiscard]] spidar::ToolPose proxy_pose() const;
-    // Where the tool is shown in the world: with what it holds.
+    // Pose of the shown tool in the world, with what it holds.
     [[nodiscard]] godot::Transform3D shown_grip() const;
     [[nodiscard]] bool is_open() const;
     [[nodiscard]] const spidar::WorldFrame &stepped() const { return stepped_ ? *stepped_ : now_; }
@@ -179,8 +180,8 @@ private:
     spidar::SurfaceNews news_;
 
     spidar::Pinch pinch_;
-    double pinch_age_s_ = 0.0; // since both pads lay on it last
-    double resting_s_ = 0.0;   // since they closed no further
+    double pinch_age_s_ = 0.0; // time since both pads lay on the body
+    double resting_s_ = 0.0;   // time for which the width has rested
     double squeeze_nm_ = 0.0;
     spidar::GraspJudge judge_;
 

@@ -1,4 +1,4 @@
-// What Godot sees of SpidarGHand.
+// The names of SpidarGHand for Godot.
 #include "godot/hand/spidar_g_hand.h"
 
 #include "godot/base/resource_field.h"

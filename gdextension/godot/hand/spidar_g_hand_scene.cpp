@@ -1,4 +1,4 @@
-// What a hand publishes to its device, and what it tells of that.
+// Publishing of a hand's scene to its device, and reports about it.
 #include "godot/hand/spidar_g_hand.h"
 
 #include <cmath>
@@ -25,11 +25,12 @@ using spidar::Vec3;
 
 namespace {
 
-// The reaction on a pushed body comes one game frame late; a stiffness above this many times mass / frame^2 would
-// let a light body bounce between the tool's push and its own answer. In fast motion a frame is long in the game's time.
+// Limit of a stiffness relative to mass / frame^2. The reaction on a pushed body comes one game
+// frame late; above the limit a light body would bounce between the tool's push and its own answer.
+// In fast motion a frame is long in game time.
 constexpr double kPushedStiffnessRatio = 0.5;
 
-// A box round the tool on its way from the device's pose to the proxy's.
+// Returns a box around the tool on its way from the device's pose to the proxy's.
 spidar::SearchVolume spanned(const Placement &proxy, const Vec3 &device_m, const Vec3 &half_m) {
     spidar::SearchVolume volume;
     const Vec3 apart = device_m - proxy.origin_m;
@@ -134,13 +135,13 @@ spidar::HandFeel SpidarGHand::feel() const {
     feel.squeeze_nm_rad = hold_.holds() ? held_squeeze_nm_rad_ : pinch_.facts.squeeze_nm_rad;
     const double per_frame = spidar::physics_ticks_per_second() /
                              std::max(Engine::get_singleton()->get_time_scale(), 1.0);
-    // Stiffness is per device metre, the body moves in scene metres.
+    // Stiffness is per device meter, but the body moves in scene meters.
     feel.pushed_n_m_kg =
         kPushedStiffnessRatio * per_frame * per_frame * spidar_->get_workspace_scale();
     return feel;
 }
 
-// Looked at with each new pose alone: ticks that share a drawn frame ask for the same.
+// Evaluated for each new pose only: ticks that share a drawn frame get the same result.
 void SpidarGHand::look_at_held() {
     const godot::RigidBody3D *const body = hold_.body();
     const auto *const state =
@@ -157,12 +158,11 @@ void SpidarGHand::look_at_held() {
 
 spidar::HeldLoad::Pull SpidarGHand::load_of_held() const {
     spidar::HeldLoad::Terms terms;
-    // Hands that hold it together share it.
+    // Hands that hold a body together share its load.
     const auto others = spidar::other_holds(hold_.body_id(), get_instance_id()).size();
     terms.gain = weight_scale_ / (1.0 + static_cast<double>(others));
     terms.max_force_n = spidar_->get_effective_config()->get_max_force();
-    terms.with_weight =
-        render_weight_ && !hold_.is_detained(); // what has snapped in is carried by its socket
+    terms.with_weight = render_weight_ && !hold_.is_detained(); // a socket carries what snapped in
     terms.with_inertia = render_inertia_ && !hold_.is_detained();
     return load_.pull(held_, terms);
 }
@@ -208,7 +208,7 @@ void SpidarGHand::publish() {
     spidar_->publish_touch(std::move(touch));
 }
 
-// Of the scene's joints and of other hands that hold the body, as many as there is room for.
+// Takes as many joints of the scene and ties to other hands as there is room for.
 void SpidarGHand::add_joints(spidar::Tool &tool) {
     const godot::Transform3D in_grip = hold_.in_grip();
     const double tick_s = spidar::physics_tick_s();
@@ -222,7 +222,7 @@ void SpidarGHand::add_joints(spidar::Tool &tool) {
     std::copy_n(joints.begin(), tool.joint_count, tool.joints.begin());
 }
 
-// Takes everything back from the device.
+// Removes everything from the device.
 void SpidarGHand::withdraw() {
     if (spidar_ != nullptr && published_ != Published::nothing) {
         spidar_->publish_touch(nullptr);
@@ -249,7 +249,7 @@ void SpidarGHand::draw() {
                           hold_.holds() ? held_in_grip() : Placement()});
 }
 
-// At once: a hand in a paused tree has no tick that would hide it.
+// Hides the drawing at once: a hand in a paused tree has no tick that would.
 void SpidarGHand::set_debug_draw(bool wanted) {
     debug_draw_ = wanted;
     if (!wanted) {

@@ -1,4 +1,4 @@
-// One physics tick of a hand: what the device told, what is held, and how it is carried.
+// Physics tick of a hand: reading the device, deciding what is held, and moving it.
 #include "godot/hand/spidar_g_hand.h"
 
 #include <cmath>
@@ -20,19 +20,21 @@ using spidar::Vec3;
 
 namespace {
 
-// Closing to within this of a body's width counts as touching it.
+// A grip that has closed to within this angle of a body's width counts as touching.
 constexpr double kTouchTolerance_rad = 0.01;
-// Opening this far past the held body's width lets go (3 degrees; less would drop it when a hand trembles).
+// Opening beyond the held body's width that releases it: 3 degrees. A smaller angle would drop it
+// when a hand trembles.
 constexpr double kReleaseAngle_rad = 0.052;
-// Pads that tremble on a body press it again within this time.
+// Time within which trembling pads press a body again.
 constexpr double kPinchKept_s = 0.1;
-// A body that is caught askew turns until its faces lie on the pads: it is held when the jaws close no further.
+// Rate below which the jaws count as resting, and the time for it: a body that was grasped askew
+// turns until its faces lie on the pads.
 constexpr double kRestingRate_rad_s = 0.3;
 constexpr double kRestTime_s = 0.04;
-// Smooths the trembling of the fingers.
+// Time constant that smooths the trembling of the fingers.
 constexpr double kSqueezeTime_s = 0.024;
 
-// Smaller changes of what is held are not told.
+// Smallest changes of the held body's values that are emitted.
 constexpr double kToldWeight_n = 0.01;
 constexpr double kToldWidth_m = 1e-4;
 constexpr double kToldSqueeze_nm = 2e-3;
@@ -91,8 +93,8 @@ void SpidarGHand::tell_held() {
     }
 }
 
-// At the end: a velocity that a push has just given, and that the physics step has not yet set against the floor and all else
-// that holds a body, would carry the body's shapes on in the device.
+// Called at the end of the tick. A velocity that a push has just given is not yet limited by the
+// floor and other bodies, and would move the body's shapes in the device.
 void SpidarGHand::push_bodies(double since_s) {
     spidar::BodyPushes::Terms terms;
     terms.frame = stepped();
@@ -107,15 +109,16 @@ void SpidarGHand::push_bodies(double since_s) {
     pushes_.push(spidar_->snapshot().touch, touched_, terms);
 }
 
-// The bodies of the physics space stand where the last step left them, while the node of a device on a lift has moved on: by
-// 17 mm at 1 m/s and 60 ticks a second. Called deferred, when all nodes have moved.
+// The bodies of the physics space are where the last step left them, while the node of a device on
+// a lift has moved on: by 17 mm at 1 m/s and 60 ticks per second. Called deferred, when all nodes
+// have moved.
 void SpidarGHand::remember_place() {
     if (spidar_ != nullptr && spidar_->is_inside_tree()) {
         stepped_ = spidar_->world();
     }
 }
 
-// What happened at the device since the pose that was read before.
+// Reads the device's events since the last pose.
 void SpidarGHand::read_device(double since_s) {
     load_.follow(device_pose().position_m, since_s);
     watch_pinch(since_s);
@@ -179,8 +182,8 @@ void SpidarGHand::try_grasp() {
 
 void SpidarGHand::attach(RigidBody3D &body) {
     const spidar::ToolPose proxy = proxy_pose();
-    // A body that does not give way keeps the proxy's pads round it, beside the device. Held, it keeps nothing any more, and is
-    // brought to where the proxy then is.
+    // A body that does not yield keeps the proxy's pads around it, away from the device. Once held,
+    // it no longer does, and is moved to the proxy.
     const Vec3 beside = proxy.position_m - device_pose().position_m;
     const double off_m = glm::dot(beside, proxy.rotation[0]);
     const Transform3D grip =
@@ -202,7 +205,7 @@ void SpidarGHand::attach(RigidBody3D &body) {
     emit_signal("body_grasped", &body);
 }
 
-// Lets go when the jaws open past the body, or when the world tears at it for long enough.
+// Releases the body when the jaws open beyond it, or when the world pulls at it for long enough.
 void SpidarGHand::watch_hold() {
     if (!hold_.is_movable()) {
         release();
@@ -233,7 +236,7 @@ void SpidarGHand::carry(double delta_s) {
     load_.clear();
     emit_signal("carrying", delta_s);
     if (!hold_.holds()) {
-        return; // a listener let go
+        return; // a listener released the body
     }
     const spidar::ToolPose pose = proxy_pose();
     const Transform3D proxy = now_.pose_to_world(pose.position_m, pose.rotation);

@@ -1,4 +1,4 @@
-// Tells the SpidarGSurface of each body that the hand touches, by itself or by what it holds. Main thread only.
+// Notifies SpidarGSurface of bodies that hand or held body touches. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace spidar {
 
 class SurfaceNews {
 public:
-    // Once a physics tick. frame: of the device's node.
+    // Called once per physics tick. frame: of the device's node.
     void tell(const TouchReport &report, const TouchedBodies &bodies, const WorldFrame &frame,
               godot::Object &hand);
-    // The hand touches nothing any more.
+    // The hand touches nothing from now on.
     void clear(godot::Object &hand);
 
 private:

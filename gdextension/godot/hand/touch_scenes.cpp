@@ -11,7 +11,8 @@ namespace spidar {
 
 namespace {
 
-// Fingers that squeeze with 0.6 N overcome a tenth of the springs' stiffness 6 mm beside the middle of what they close on.
+// Stiffness across the jaws, relative to the usual one, with which the pads center themselves:
+// fingers that squeeze with 0.6 N overcome it 6 mm beside the middle.
 constexpr double kCentringPart = 0.1;
 constexpr double kSoftestSqueeze_nm_rad = 0.02;
 constexpr double kFirmestSqueeze_nm_rad = 0.4;
@@ -19,7 +20,7 @@ constexpr double kFirmestSqueeze_nm_rad = 0.4;
 DofGains stiffness_of(const HandFeel &feel, const ServoSettings &settings) noexcept {
     DofGains stiffness{};
     const GainCaps caps = gain_caps(settings.render, settings.rate_hz);
-    // A chosen one keeps the proportions of the automatic ones.
+    // A chosen stiffness keeps the proportions of the automatic ones.
     const double share =
         feel.stiffness_n_m > 0.0 ? feel.stiffness_n_m / stiffness_cap(caps, 0).most : 0.0;
     for (std::size_t dof = 0; dof < stiffness.size(); ++dof) {
@@ -41,7 +42,7 @@ DofGains stiffness_of(const HandFeel &feel, const ServoSettings &settings) noexc
     return stiffness;
 }
 
-// 0: it does not give way.
+// Returns the stiffness of a surface; 0: rigid.
 double softness_of(const NearShape &shape, const HandFeel &feel) noexcept {
     const double own_n_m = shape.facts.stiffness_n_m;
     const bool is_pinched = static_cast<std::uint64_t>(shape.body.get_id()) == feel.pinched;
@@ -75,7 +76,8 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
     }
 }
 
-// How far each held shape is from the scene at least; only the nearest ones fit into the tool.
+// Returns a lower bound of each held shape's distance from the scene; only the nearest ones fit
+// into the tool.
 std::vector<std::size_t> nearest_first(const HeldTool &held, const std::vector<NearShape> &near) {
     std::vector<std::size_t> order(held.parts.size());
     std::vector<double> gaps(held.parts.size(), std::numeric_limits<double>::infinity());

@@ -1,4 +1,5 @@
-// What a SpidarGConfig says of grasping: when the poles count as closed, and what closes the fingers of a rigid grip.
+// Grasp settings of a SpidarGConfig: when the poles count as closed, and what closes the fingers of
+// a rigid grip.
 #include <string>
 
 #include <godot_cpp/classes/input.hpp>

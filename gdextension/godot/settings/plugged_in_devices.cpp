@@ -14,7 +14,7 @@ const std::vector<HidDeviceInfo> &plugged_in_devices() {
     static Clock::time_point asked;
     static bool ever = false;
     if (!ever || Clock::now() - asked > kGood) {
-        // What the system cannot list is told when a device is opened.
+        // A failure to list devices is reported when a device is opened.
         (void)find_devices(*system_hid_bus(), HidDeviceFilter(), devices);
         asked = Clock::now();
         ever = true;

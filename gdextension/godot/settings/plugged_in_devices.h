@@ -1,4 +1,4 @@
-// The devices that could be chosen now.
+// The devices that can be chosen now.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace spidar {
 
-// All devices with the usage page and the product name of a SPIDAR-G, at most a second old: asking the system takes many
-// milliseconds. For the main thread.
+// Returns all devices with the usage page and product name of a SPIDAR-G. The list is at most a
+// second old, since listing takes many milliseconds. For the main thread.
 [[nodiscard]] const std::vector<HidDeviceInfo> &plugged_in_devices();
 
-// The paths of all serial ports, by comma, those of USB bridges first: what the inspector suggests.
+// Returns the paths of all serial ports, separated by commas, those of USB bridges first:
+// suggestions of the inspector.
 [[nodiscard]] std::string names_of_serial_ports();
 
 } // namespace spidar

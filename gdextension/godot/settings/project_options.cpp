@@ -46,7 +46,8 @@ Variant option(const char *name) {
     return ProjectSettings::get_singleton()->get_setting(name, Variant());
 }
 
-// Null where the option is empty; an error where it names no resource of that kind.
+// Returns null when the option is empty, and prints an error when it names no resource of that
+// kind.
 template <typename Kind>
 godot::Ref<Kind> resource_of(const char *name) {
     const Variant set = option(name);

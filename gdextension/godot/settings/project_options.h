@@ -1,4 +1,4 @@
-// The project settings under spidar_g/: what holds for every SpidarG of a game. Shown in Project > Project Settings; told in
+// The project settings under spidar_g/, which apply to every SpidarG of a game. Documented in
 // docs/how_to/editor.md.
 #pragma once
 
@@ -9,24 +9,27 @@
 
 namespace spidar {
 
-// Adds them with their defaults; once, when the library is registered.
+// Adds the settings with their defaults. Called once, when the library is registered.
 void register_project_options();
 
 struct ProjectOptions {
-    bool use_hardware = true; // off: TRANSPORT_AUTOMATIC is the simulated device
-    double largest_force_n =
-        40.0; // no SpidarGConfig.max_force counts for more; the default is the inspector's own limit
-    int panic_key = 0; // a physical godot::Key that stops every device; 0: none
+    // False: TRANSPORT_AUTOMATIC uses the simulated device.
+    bool use_hardware = true;
+    // Upper limit of every SpidarGConfig.max_force (unit: N). The default is the inspector's limit.
+    double largest_force_n = 40.0;
+    // A physical godot::Key that stops every device; 0: none.
+    int panic_key = 0;
 };
-// As they are now. A value of the wrong kind, or a force that is no number above zero, counts as the default.
+// Returns the present settings. A value of the wrong kind, or a force that is not a positive
+// number, counts as the default.
 [[nodiscard]] ProjectOptions project_options();
 
-// The resource that stands in where a node has no config. Null where none is set; an error is told where what is
-// set is no SpidarGConfig.
+// Returns the config of nodes without their own. Null when none is set; prints an error when the
+// set resource is not a SpidarGConfig.
 [[nodiscard]] godot::Ref<SpidarGConfig> project_config();
 
-// The material of bodies that have none of their own. Null where none is set; an error is told where what is set is no
-// SpidarGMaterial.
+// Returns the material of bodies without their own. Null when none is set; prints an error when the
+// set resource is not a SpidarGMaterial.
 [[nodiscard]] godot::Ref<SpidarGMaterial> project_material();
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// What a SpidarGConfig says of serial motor boards.
+// Settings of serial motor boards in a SpidarGConfig.
 #include <cmath>
 
 #include "core/calibration/motor_calibration.h"
@@ -9,7 +9,7 @@ namespace {
 constexpr int kNumbersPerMotor = 4; // board, motor, sign of the counts, sign of the current
 constexpr int kMostBoard = 7;
 constexpr int kMostMotor = 7;
-constexpr int kMostUnits = 4095; // of any board
+constexpr int kMostUnits = 4095; // limit of every board model
 
 } // namespace
 

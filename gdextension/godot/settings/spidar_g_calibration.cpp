@@ -6,7 +6,7 @@
 
 namespace {
 
-// Copies 8 values, or none when the array is empty. The problem, or an empty string.
+// Copies 8 values, or none when the array is empty. Returns the problem, or an empty string.
 template <typename Packed, typename Value>
 std::string copy_eight(const char *field, const Packed &from,
                        std::array<Value, spidar::kStringCount> &to) {
@@ -92,7 +92,7 @@ void SpidarGCalibration::refuse(const std::string &message) const {
 }
 
 godot::String SpidarGCalibration::get_problem() const {
-    // Any valid settings serve: only the calibration's own arrays can be wrong.
+    // Any valid settings suffice: only the calibration's own arrays can be wrong.
     spidar::ServoSettings settings;
     settings.strings = spidar::calibrate_at_home(
         spidar::string_lengths(settings.frame, settings.grip, spidar::rest_pose(settings.grip)), {},

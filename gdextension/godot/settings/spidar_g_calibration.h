@@ -1,4 +1,5 @@
-// SpidarGCalibration: what makes one device of many: string offsets and scales, winding and stretch, motor gains.
+// SpidarGCalibration: the properties of one individual device: string offsets and scales, winding
+// and stretch, motor gains.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@
 #include "device/settings/servo_settings.h"
 #include "godot/base/resource_field.h"
 
-// Each array holds 8 values, string 0-7; an empty one means: as the ideal device (no winding, no stretch).
+// Each array holds 8 values for strings 0-7, or none: then the ideal device's values apply (no
+// winding, no stretch).
 class SpidarGCalibration : public godot::Resource {
     GDCLASS(SpidarGCalibration, godot::Resource)
     SPIDAR_G_CHECKED_CALLS
@@ -26,24 +28,25 @@ class SpidarGCalibration : public godot::Resource {
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, hidden_lengths);       // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, calibration_tensions); // N
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);      // m
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants);     // N m / A
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, torque_constants);     // N m/A
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, tension_gains);        // real / commanded
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, max_currents);         // A
 
 public:
     [[nodiscard]] godot::String get_problem() const;
-    // A value of a type that its property does not take: told, and not kept.
+    // Reports a value of the wrong type; the property keeps its old value.
     void refuse(const std::string &message) const;
 
-    // The winding and stretch of `known`; an array stays empty where all are zero.
+    // Sets winding and stretch; an array stays empty where all values are zero.
     void set_corrections(const spidar::LengthCorrections &known);
 
-    // Writes the arrays that are given over `settings`. Empty: done; else the sentence that says why not, and
-    // `settings` is unchanged.
+    // Overwrites `settings` with the arrays that are set. Returns an empty string, or one sentence
+    // with the problem and `settings` unchanged.
     [[nodiscard]] std::string apply_to(spidar::ServoSettings &settings) const;
 
-    // The strings of a device of this frame and grip that stood at its home pose at `home`: those of the ideal one, and
-    // over them what `given` (may be null) says. The problem, or empty; `strings` is then unchanged.
+    // Computes the strings of a device with this frame and grip whose counts at the home pose are
+    // `home`: those of the ideal device, overwritten by `given` (may be null). Returns an empty
+    // string, or the problem with `strings` unchanged.
     [[nodiscard]] static std::string
     strings_of(const godot::Ref<SpidarGCalibration> &given, const spidar::FrameGeometry &frame,
                const spidar::GripGeometry &grip, const spidar::CountArray &home,

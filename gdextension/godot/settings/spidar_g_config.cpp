@@ -20,13 +20,13 @@ using godot::Variant;
 
 namespace {
 
-// "name = value unit: remedy", the one form of message this resource gives.
+// Returns "name = value unit: remedy", the form of all messages of this resource.
 std::string complaint(const char *field, double value, const char *unit, const char *remedy) {
     return std::string("SpidarGConfig.") + field + " = " + std::to_string(value) + " " + unit +
            ": " + remedy;
 }
 
-// Eight values of a string each, or none. The problem, or empty.
+// Requires eight values, one per string, or none. Returns the problem, or an empty string.
 std::string refuse_eight(const char *field, const godot::PackedFloat64Array &values, double low,
                          double high, const char *unit) {
     if (values.size() == 0) {
@@ -249,7 +249,7 @@ spidar::PlantSettings SpidarGConfig::plant_settings() const {
     plant.elastic = simulated_elastic_;
     plant.string_stiffness_ea_n = simulated_string_stiffness_;
     plant.coulomb_friction_n = simulated_friction_;
-    // "Friction off" means frictionless: the rotors' viscous drag goes too.
+    // Zero friction means no friction at all: the rotors' viscous drag is removed too.
     if (simulated_friction_ == 0.0) {
         plant.viscous_friction_n_s_m = 0.0;
     }
@@ -260,7 +260,7 @@ spidar::PlantSettings SpidarGConfig::plant_settings() const {
             plant.length_offset_error_m[i] = simulated_offset_errors_[at];
         }
         if (simulated_gain_errors_.size() == spidar::kStringCount) {
-            // More counts a metre: the string lies on a smaller radius, and so pulls harder.
+            // More counts per meter: the string lies on a smaller radius, and so pulls harder.
             plant.length_gain_error[i] = simulated_gain_errors_[at];
             plant.motors.effective_radius_m[i] /= 1.0 + simulated_gain_errors_[at];
         }

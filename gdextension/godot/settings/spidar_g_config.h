@@ -19,7 +19,8 @@
 #include "device/simulation/simulated_plant.h"
 #include "godot/base/resource_field.h"
 
-// Values of SpidarGConfig.preset: a crossed grip in a box of one's own sizes, then the devices of core/presets/presets.h.
+// Value of SpidarGConfig.preset for a crossed grip in a box of chosen sizes. Higher values are the
+// devices of core/presets/presets.h.
 inline constexpr int kPresetCustom = 0;
 
 class SpidarGConfig : public godot::Resource {
@@ -39,7 +40,7 @@ public:
     SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
     SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
 
-    // Which device: numbers of 0 and an empty serial fit any.
+    // Selection of the device. A number of 0 and an empty serial match any device.
     SPIDAR_G_FIELD(int, transport, TRANSPORT_AUTOMATIC);
     SPIDAR_G_FIELD(godot::String, device_product, "SPIDAR-G");
     SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
@@ -47,10 +48,11 @@ public:
     SPIDAR_G_FIELD(int, device_product_id, 0);
     // Serial motor boards.
     SPIDAR_G_ARRAY_FIELD(godot::String, serial_port);
-    SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors); // four numbers a string, or none
-    SPIDAR_G_FIELD(double, serial_units_per_ampere, 0.0);         // 0: the preset's
+    // Four numbers per string, or none.
+    SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors);
+    SPIDAR_G_FIELD(double, serial_units_per_ampere, 0.0); // 0: the preset's value
     SPIDAR_G_FIELD(int, serial_most_units, spidar::SerialTransportSettings{}.most_units);
-    SPIDAR_G_LIVE_FIELD(int, button_device, 16); // Godot's own joypads are 0 to 15
+    SPIDAR_G_LIVE_FIELD(int, button_device, 16); // ids 0 to 15 are Godot's own joypads
 
     // Servo loop.
     SPIDAR_G_FIELD(int, rate_hz, 1000);
@@ -85,7 +87,7 @@ public:
     SPIDAR_G_LIVE_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
     SPIDAR_G_LIVE_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
 
-    // Grasp (radians inside, degrees in the inspector).
+    // Grasp. Radians in code, degrees in the inspector.
     SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
     SPIDAR_G_FIELD(double, grasp_leave_angle, spidar::GraspSettings{}.leave_rad);
     SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
@@ -94,7 +96,7 @@ public:
     SPIDAR_G_LIVE_FIELD(double, jaw_open, 0.08);
     SPIDAR_G_LIVE_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
 
-    // Of a rigid grip. The sensor's values are those of open and of closed fingers.
+    // Fingers of a rigid grip. The sensor values are those of open and of closed fingers.
     SPIDAR_G_FIELD(int, grasp_source, GRASP_AUTOMATIC);
     SPIDAR_G_FIELD(int, grasp_button, -1);
     SPIDAR_G_FIELD(godot::String, grasp_action, "spidar_g_grasp");
@@ -109,47 +111,51 @@ public:
     SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
     SPIDAR_G_LIVE_FIELD(int, simulated_hand_firmness,
                         static_cast<int>(spidar::HandFirmness::normal));
-    // What a calibration has to find: 8 values, or none.
+    // Errors that a calibration has to find: 8 values, or none.
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_tension_gains); // real / commanded
 
 public:
-    // Empty when usable; else one sentence with field, value, unit and remedy.
+    // Returns an empty string when usable, else one sentence with field, value, unit and remedy.
     [[nodiscard]] godot::String get_problem() const;
-    // Of the frame and grip that the device has: the preset's, or those of frame_size and pole_half_length (unit: m).
+    // Size of the device's frame: the preset's, or frame_size (unit: m).
     [[nodiscard]] godot::Vector3 get_effective_frame_size() const;
+    // Pole half length of the device: the preset's, or pole_half_length (unit: m).
     [[nodiscard]] double get_effective_pole_half_length() const;
     [[nodiscard]] bool has_rigid_grip() const;
-    // Whether the strings of this frame and grip can hold and move it (core/analysis/geometry_report.h).
+    // Reports whether the strings of this frame and grip can hold and move the grip
+    // (core/analysis/geometry_report.h).
     [[nodiscard]] godot::Dictionary check_geometry() const;
 
-    // A value of a type that its property does not take: told, and not kept.
+    // Reports a value of the wrong type; the property keeps its old value.
     void refuse(const std::string &message) const;
 
-    // The settings of the servo loop, all but the calibration.
+    // Returns the settings of the servo loop without the calibration.
     [[nodiscard]] spidar::ServoSettings servo_settings() const;
     [[nodiscard]] spidar::PlantSettings plant_settings() const;
-    // Which of the plugged-in devices are meant.
+    // Returns the filter that selects the device.
     [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
-    // The port, the motors and their units; no guard: that of the library.
+    // Returns port, motors and units. The guard's path stays empty: beside the library.
     [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
-    // How far grasp_action is pressed, 0 to 1; 0 where it does not count.
+    // Returns how far grasp_action is pressed, 0..1; 0 when it is not used.
     [[nodiscard]] double grasp_action_strength() const;
-    // A problem of a device that begins with the name of a setting, as a user of this resource finds it.
+    // Puts "SpidarGConfig." before a problem that begins with the name of the setting serial_port.
     [[nodiscard]] static std::string told_of(const std::string &problem);
-    // What this resource checks on its own (the rest is checked with the whole ServoSettings).
+    // Returns the first problem that only this resource checks; ServoSettings checks the rest.
     [[nodiscard]] std::string own_problem() const;
 
-    // Opening of the jaws (unit: device m): linear, jaw_open at 0, nothing at jaw_closed_angle.
+    // Returns the jaw opening (unit: device m): linear from jaw_open at angle 0 to 0 at
+    // jaw_closed_angle.
     [[nodiscard]] double jaw_gap(double grasp_angle_rad) const;
+    // Inverse of jaw_gap().
     [[nodiscard]] double grasp_angle_for_gap(double gap_m) const;
 
-    // Offers the serial numbers of the devices that are plugged in, in the editor.
+    // Suggests the serial numbers of plugged-in devices in the editor.
     void _validate_property(godot::PropertyInfo &property) const;
 
 private:
-    // Of any preset but Custom. One that is out of range gives the paper's device.
+    // Returns the device of a preset other than Custom; the paper's device when out of range.
     [[nodiscard]] spidar::DevicePreset preset_device() const;
     [[nodiscard]] std::string serial_problem() const;
     [[nodiscard]] std::string grasp_problem() const;

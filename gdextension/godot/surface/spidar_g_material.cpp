@@ -17,7 +17,7 @@ void SpidarGMaterial::refuse(const std::string &message) const {
 void SpidarGMaterial::take(const char *name, double value, double least, double most,
                            const char *unit, double &kept) {
     if (value == kNotSaid && least == kNotSaid) {
-        // Nothing is said.
+        // The default -1 is in use: there is no value to check.
     } else if (const std::string problem =
                    spidar::range_sentence({name, value, unit, std::max(least, 0.0), most});
                !problem.empty()) {

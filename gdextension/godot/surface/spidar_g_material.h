@@ -1,6 +1,6 @@
-// SpidarGMaterial: how a surface feels. What it does not say, it leaves to the body's PhysicsMaterial, to the project's
-// default material and to the hand, in the order of docs/why/haptic_rendering.md. The class reference is
-// gdextension/doc_classes/SpidarGMaterial.xml.
+// SpidarGMaterial: properties of a surface. Values that are not set come from the body's
+// PhysicsMaterial, the project's default material or the hand, in the order of
+// docs/why/haptic_rendering.md. The class reference is gdextension/doc_classes/SpidarGMaterial.xml.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 #include "device/contact/proxy/surface_traits.h"
 #include "godot/base/strict.h"
 
-// A number with its setter and getter. One outside its range is refused with an error, and the old one stays.
+// Number with setter and getter. A value out of range is refused; the old value stays.
 #define SPIDAR_G_MATERIAL_NUMBER(m_name, m_default, m_least, m_most, m_unit)                       \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \
@@ -31,11 +31,11 @@ class SpidarGMaterial : public godot::Resource {
     GDCLASS(SpidarGMaterial, godot::Resource)
     SPIDAR_G_CHECKED_CALLS
 
-    // 0: the hand's own.
+    // 0: the hand's value applies.
     SPIDAR_G_MATERIAL_NUMBER(stiffness, 0.0, 0.0, 1.0e4, "N/m");
     SPIDAR_G_MATERIAL_NUMBER(damping, 0.0, 0.0, 100.0, "N s/m");
     SPIDAR_G_MATERIAL_NUMBER(squeeze_stiffness, 0.0, 0.0, 10.0, "N m/rad");
-    // kNotSaid: not said.
+    // kNotSaid: not set.
     SPIDAR_G_MATERIAL_NUMBER(dynamic_friction, kNotSaid, kNotSaid, 10.0, "");
     SPIDAR_G_MATERIAL_NUMBER(static_friction, kNotSaid, kNotSaid, 10.0, "");
     SPIDAR_G_MATERIAL_NUMBER(adhesion, 0.0, 0.0, 20.0, "N");
@@ -52,17 +52,18 @@ public:
     void set_texture_direction(const godot::Vector3 &direction);
     [[nodiscard]] godot::Vector3 get_texture_direction() const { return texture_direction_; }
 
-    // Brightness is height. Null: grooves or pits.
+    // The brightness of the image is the height. Null: grooves or pits.
     void set_texture_image(const godot::Ref<godot::Texture2D> &image);
     [[nodiscard]] godot::Ref<godot::Texture2D> get_texture_image() const { return texture_image_; }
-    // The image as a shape of kind relief; null without one, or while it is not ready (a NoiseTexture2D). traits() points at
-    // it. Read again when the texture has changed.
+    // Returns the image as a shape of kind relief; null without an image, or while the texture has
+    // none yet (NoiseTexture2D). traits() points at it. It is made anew when the texture changes.
     [[nodiscard]] std::shared_ptr<const spidar::CookedShape> relief() const;
 
-    // Lengths in metres of the scene, directions in the body's frame. static_friction is set where the material says one.
+    // Returns the traits: lengths in scene meters, directions in the body's frame. static_friction
+    // is set when the material sets one.
     [[nodiscard]] spidar::SurfaceTraits traits() const;
 
-    // A value of a type that its property does not take, or that makes no sense: told, and not kept.
+    // Reports a value of the wrong type or without sense; the property keeps its old value.
     void refuse(const std::string &message) const;
 
 protected:

@@ -12,7 +12,7 @@
 
 namespace {
 
-// By the instance id of the body.
+// Surfaces by the instance id of the body.
 std::unordered_map<std::uint64_t, SpidarGSurface *> &surfaces() {
     static std::unordered_map<std::uint64_t, SpidarGSurface *> all;
     return all;
@@ -36,7 +36,7 @@ void SpidarGSurface::set_material(const godot::Ref<SpidarGMaterial> &material) {
 
 void SpidarGSurface::_enter_tree() {
     const auto *const body = cast_to<godot::CollisionObject3D>(get_parent());
-    // The first of two on a body counts: the other one's warning says so.
+    // The first of two surfaces on a body applies; the warning of the other one reports this.
     if (body != nullptr && surfaces().emplace(body->get_instance_id(), this).second) {
         body_ = body->get_instance_id();
     }
@@ -92,7 +92,7 @@ void SpidarGSurface::note(godot::Object &hand, const Touch &touch) {
     const bool slipped = touched && known->touch.slip_m_s > 0.0;
     const bool touches = touch.force_n > 0.0;
     const bool slips = touches && touch.slip_m_s > 0.0;
-    // First what is known, then the signals: a listener may free this node.
+    // State is updated before the signals: a listener may free this node.
     if (touches && touched) {
         known->touch = touch;
     } else if (touches) {

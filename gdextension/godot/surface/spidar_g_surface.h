@@ -1,5 +1,6 @@
-// SpidarGSurface: gives the body that is its parent a SpidarGMaterial, and tells when a hand touches it and slips on it.
-// Main thread only. The class reference is gdextension/doc_classes/SpidarGSurface.xml.
+// SpidarGSurface: gives its parent body a SpidarGMaterial, and emits signals when a hand touches
+// the body and slips on it. Main thread only. The class reference is
+// gdextension/doc_classes/SpidarGSurface.xml.
 #pragma once
 
 #include <cstdint>
@@ -18,26 +19,27 @@ class SpidarGSurface : public godot::Node {
     SPIDAR_G_CHECKED_CALLS
 
 public:
-    // How a hand touches the body in one physics tick.
+    // Contact of a hand with the body in one physics tick.
     struct Touch {
         double force_n = 0.0;
-        double slip_m_s = 0.0; // 0: it does not slip. Device metres a second.
-        godot::Vector3 point;  // in the world
+        double slip_m_s = 0.0; // device m/s; 0: it does not slip
+        godot::Vector3 point;  // world coordinates
     };
 
-    // That of a body, by the body's instance id; null: none.
+    // Returns the surface of a body by the body's instance id; null when it has none.
     [[nodiscard]] static SpidarGSurface *of(std::uint64_t body);
 
     void set_material(const godot::Ref<SpidarGMaterial> &material);
     [[nodiscard]] godot::Ref<SpidarGMaterial> get_material() const { return material_; }
 
-    // Once a physics tick by each hand that touches the body, and once with no force by one that has left it. Emits the
-    // signals of what has changed.
+    // Called once per physics tick by each hand that touches the body, and once with zero force by
+    // a hand that left it. Emits the signals of what changed.
     void note(godot::Object &hand, const Touch &touch);
 
     [[nodiscard]] bool is_touched() const { return !touches_.empty(); }
-    // Of all hands.
+    // Sum of the forces of all hands.
     [[nodiscard]] double get_touch_force() const;
+    // Largest slip speed of all hands.
     [[nodiscard]] double get_slip_speed() const;
 
     void refuse(const std::string &message) const;
@@ -60,5 +62,5 @@ private:
 
     godot::Ref<SpidarGMaterial> material_;
     std::uint64_t body_ = 0;
-    std::vector<ByHand> touches_; // of hands that touch it now
+    std::vector<ByHand> touches_; // one per hand that touches the surface now
 };

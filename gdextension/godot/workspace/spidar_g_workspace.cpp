@@ -25,9 +25,9 @@ using spidar::Vec3;
 
 namespace {
 
-// A rotation whose axes are this far from unit length and right angles holds rounding, not intent.
+// Largest deviation of a rotation's axes from unit length and right angles that counts as rounding.
 constexpr double kRotationTolerance = 1e-4;
-// Shorter directions than this have none.
+// Shortest vector that counts as a direction.
 constexpr double kLeastDirection = 1e-9;
 
 bool is_rotation(const spidar::Mat3 &m) {
@@ -49,7 +49,7 @@ void complain(const char *method, const std::string &message) {
         spidar::to_godot(std::string("SpidarGWorkspace.") + method + ": " + message));
 }
 
-// The largest factor of `wrench` that the strings give exactly; 0: none.
+// Returns the largest factor of `wrench` that the strings give exactly; 0 when there is none.
 double largest_factor(const spidar::WrenchMatrix &matrix, const PaperWrench &wrench,
                       const spidar::TensionSettings &settings) {
     const spidar::FeasibleScale scale = spidar::feasible_scale(matrix, wrench, settings);

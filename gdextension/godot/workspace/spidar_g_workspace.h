@@ -1,5 +1,6 @@
-// SpidarGWorkspace: what the strings of a device can hold and give at any pose of the grip. Opens no device; the 3-D view
-// of the editor and games that plan ahead ask it. Device frame throughout: SI units, origin at the frame's centre.
+// SpidarGWorkspace: what the strings of a device can hold and exert at any pose of the grip. Opens
+// no device. Used by the editor's 3D view and by games that plan ahead. Device frame: SI units,
+// origin at the frame's center.
 // The class reference is gdextension/doc_classes/SpidarGWorkspace.xml.
 #pragma once
 
@@ -25,19 +26,19 @@ class SpidarGWorkspace : public godot::RefCounted {
 public:
     SpidarGWorkspace();
 
-    // An argument of a type that the method does not take: told in the output.
+    // Reports an argument of the wrong type in the output.
     void refuse(const std::string &message) const;
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
     [[nodiscard]] godot::String get_problem() const;
 
-    // Where things are (unit: m).
+    // Positions (unit: m).
     [[nodiscard]] godot::PackedVector3Array get_motor_positions() const;
     [[nodiscard]] godot::PackedVector3Array get_attachment_points(const godot::Transform3D &pose,
                                                                   double grasp_angle) const;
     [[nodiscard]] godot::PackedVector3Array get_box() const;
 
-    // What the strings can do there.
+    // Capabilities of the strings at a pose.
     [[nodiscard]] double get_closure_margin(const godot::Transform3D &pose,
                                             double grasp_angle) const;
     [[nodiscard]] godot::PackedFloat64Array
@@ -64,7 +65,7 @@ protected:
     static void _bind_methods();
 
 private:
-    // One pose to be asked about: its wrench matrix, and the solver's settings as the servo loop has them.
+    // One pose with its wrench matrix and the solver's settings of the servo loop.
     struct Place {
         spidar::GripGeometry grip;
         spidar::GripPose pose;
@@ -73,15 +74,15 @@ private:
     };
 
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
-    // Nothing, and an error told, when the configuration or the pose is unusable.
+    // Returns nothing and prints an error when the configuration or the pose is unusable.
     [[nodiscard]] std::optional<Place> place(const char *method, const godot::Transform3D &pose,
                                              double grasp_angle) const;
-    // Largest multiples of the directions, as force (first = 0) or as moment (first = 3).
+    // Returns the largest multiples of the directions: forces (first = 0) or moments (first = 3).
     [[nodiscard]] godot::PackedFloat64Array capacity(const char *method, std::size_t first,
                                                      const godot::Transform3D &pose,
                                                      double grasp_angle,
                                                      const godot::PackedVector3Array &along) const;
 
     godot::Ref<SpidarGConfig> config_;
-    godot::Ref<SpidarGConfig> default_config_; // stands in when there is none
+    godot::Ref<SpidarGConfig> default_config_; // used when config_ is null
 };

@@ -1,4 +1,4 @@
-// The sentences of self-calibration.
+// Sentences that self-calibration shows to the user.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,7 +11,7 @@ namespace spidar {
 
 namespace {
 
-// Parts named in a description, and the least share worth naming.
+// Largest number of parts in a description, and the smallest share that is named.
 constexpr std::size_t kNamedParts = 4;
 constexpr double kNamedShare = 0.2;
 

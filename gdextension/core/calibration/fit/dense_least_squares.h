@@ -1,7 +1,7 @@
-// Small dense least squares, for calibration: Householder QR, then the singular values of R by
-// one-sided Jacobi rotations. QR never squares the conditioning; the rotations give the small
-// singular values to full relative accuracy, which is what says what a set of measurements cannot
-// tell. Allocates: not for the servo loop.
+// Small dense least squares for calibration: Householder QR, then the singular values of R by
+// one-sided Jacobi rotations. QR does not square the condition number. The rotations give small
+// singular values to full relative accuracy, which shows what the measurements leave open.
+// Allocates: not for the servo loop.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace spidar {
 
-// Unknowns a problem may have: 8 offsets, 8 gains, 8 winding terms, 4 sizes, and room.
+// Largest number of unknowns: 8 offsets, 8 gains, 8 winding terms and 4 sizes, with some room.
 inline constexpr std::size_t kMaxUnknowns = 32;
 
-// Rows are appended one by one: a measurement each.
+// Matrix whose rows are appended one by one, one per measurement.
 class DenseMatrix {
 public:
     explicit DenseMatrix(std::size_t columns) : columns_(columns) {}
     DenseMatrix(std::size_t rows, std::size_t columns)
         : rows_(rows), columns_(columns), values_(rows * columns, 0.0) {}
 
-    void append(const std::vector<double> &row); // exactly columns() values
+    void append(const std::vector<double> &row); // requires exactly columns() values
     [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
     [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
     double &operator()(std::size_t row, std::size_t column) noexcept {
@@ -30,7 +30,9 @@ public:
     double operator()(std::size_t row, std::size_t column) const noexcept {
         return values_[row * columns_ + column];
     }
-    [[nodiscard]] const std::vector<double> &values() const noexcept { return values_; } // by rows
+    [[nodiscard]] const std::vector<double> &values() const noexcept {
+        return values_;
+    } // row by row
 
 private:
     std::size_t rows_ = 0;
@@ -39,21 +41,23 @@ private:
 };
 
 struct LeastSquaresSolution {
-    // ok; near_singular (directions below the cutoff were left at zero); invalid_settings (no or
-    // too many unknowns, fewer rows than unknowns, sizes that do not match); not_finite.
+    // ok; near_singular when directions below the cutoff were left at zero; invalid_settings for no
+    // or more than kMaxUnknowns unknowns, fewer rows than unknowns, sizes that do not match or a
+    // negative cutoff; not_finite.
     Status status = Status::invalid_settings;
-    std::vector<double> x;        // minimises |A x - b|; the shortest such x when rank deficient
+    std::vector<double> x;        // minimizes |A x - b|; the shortest such x when rank deficient
     double residual_norm = 0.0;   // |A x - b|
     std::size_t rank = 0;         // singular values above the cutoff
     std::vector<double> singular; // descending
-    DenseMatrix right{0}; // column j: the combination of unknowns that belongs to singular[j]
+    DenseMatrix right{0};         // column j: the unit combination of unknowns of singular[j]
 };
 
-// Directions whose singular value is below relative_cutoff * the largest are left out of x.
+// Directions whose singular value is at most relative_cutoff times the largest are left out of x.
 [[nodiscard]] LeastSquaresSolution solve_least_squares(DenseMatrix a, std::vector<double> b,
                                                        double relative_cutoff);
 
-// (A^T A)^-1 over the directions above the cutoff: times the variance of b, the covariance of x.
+// Returns (A^T A)^-1 over the directions above the cutoff. Multiplied by the variance of b it is
+// the covariance of x.
 [[nodiscard]] DenseMatrix inverse_normal(const LeastSquaresSolution &solution);
 
 } // namespace spidar

@@ -10,10 +10,10 @@ namespace spidar {
 
 namespace {
 
-// Inverse iteration gains a factor (sigma6 / sigma7)^2 a step; where both are close, so is the
-// answer.
+// Inverse iteration gains a factor (sigma6 / sigma7)^2 per step. Where both are close, the answer
+// is close too.
 constexpr int kInverseIterations = 4;
-// Pivots below this share of the largest are rounding.
+// Share of the largest pivot below which a pivot is rounding.
 constexpr double kVanishingPivot = 1e-13;
 
 double dot(const StringArray &a, const StringArray &b) noexcept {

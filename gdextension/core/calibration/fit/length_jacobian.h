@@ -1,7 +1,7 @@
-// How the eight lengths change with the seven motions of the grip, at one pose: J = dl/dpose, 8 x
-// 7, by Householder QR in fixed arrays. Its left null vector nu gives the one redundant equation
-// that eight strings on seven degrees of freedom leave: nu . (length errors) = 0, whatever the grip
-// did (paper, section III: the null vector of A). Servo-safe: no allocation, fixed work.
+// Derivative of the eight straight-line lengths with respect to the seven motions of a crossed grip
+// at one pose: J = dl/dpose, 8 x 7, by Householder QR. The left null vector nu of J gives the one
+// redundant equation of eight strings on seven DOF: nu . (length errors) = 0, whatever the grip did
+// (paper, section III: the null vector of A). Servo-safe: no allocation, fixed work.
 #pragma once
 
 #include "core/base/types.h"
@@ -17,17 +17,17 @@ public:
     LengthJacobian(const FrameGeometry &frame, const GripGeometry &grip,
                    const GripPose &pose) noexcept;
 
-    // Unit vector orthogonal to all changes of length that a motion makes. Its sign has no meaning.
+    // nu: unit vector orthogonal to all length changes of motions. Its sign has no meaning.
     [[nodiscard]] const StringArray &null_vector() const noexcept { return null_; }
-    // From the motor to the attachment, unit: d(length)/d(attachment).
+    // Unit vectors from motor to attachment: d(length)/d(attachment).
     [[nodiscard]] const StringVectors &directions() const noexcept { return directions_; }
     [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
-    // Smallest singular value of J (motions in metres at the grip centre and at the pole ends), by
-    // inverse iteration: within a few percent. 0 when singular or not finite.
+    // Smallest singular value of J, with motions in meters at the grip center and at the pole ends.
+    // Found by inverse iteration to within a few percent. 0 when J is singular or not finite.
     [[nodiscard]] double smallest_singular() const noexcept { return smallest_; }
-    // nu . (measured - computed lengths) (unit: m): the parity residual.
+    // Parity residual: nu . (measured - computed lengths) (unit: m).
     [[nodiscard]] double parity_m(const StringArray &measured_m) const noexcept;
-    // The motion that best explains a change of lengths: x y z of the grip centre, then two tangent
+    // The motion that best explains a change of lengths: x y z of the grip center, then two tangent
     // displacements of each pole's end (unit: m). Zero where J is singular.
     [[nodiscard]] PoseStep motion(const StringArray &length_change_m) const noexcept;
 

@@ -8,8 +8,8 @@ namespace spidar {
 
 namespace {
 
-// Paid out since the zero count, before the winding: solves m + c m^2 = length - offset, the root
-// near 0.
+// Returns the length paid out since the zero count, before winding: the root near 0 of m + c m^2 =
+// length - offset.
 double paid_out(const DeviceModel &model, std::size_t i, double length_m) noexcept {
     const double wound = length_m - model.strings.offset_m[i];
     const double curvature = model.corrections.winding_curvature_1_m[i];
@@ -47,7 +47,7 @@ StringArray length_change(const DeviceModel &model, const LengthJacobian &jacobi
         const double m = paid_out(model, string, lengths_m[string]);
         change[string] = m * m;
     } else {
-        // Computed length |P0 + s r - Q|: grows with -Q along the axis, and with s r.
+        // The computed length |P0 + s r - Q| grows with -Q along the axis, and with s r.
         const std::size_t size = unknown - kSizeUnknowns;
         for (std::size_t i = 0; i < kStringCount; ++i) {
             const Vec3 &e = jacobian.directions()[i];

@@ -1,4 +1,4 @@
-// The unknowns of self-calibration in the one redundant equation of a pose. Used by
+// How each unknown of self-calibration enters the one redundant equation of a pose. Used by
 // self_calibration.cpp.
 #pragma once
 
@@ -7,16 +7,16 @@
 
 namespace spidar {
 
-// start, changed by offsets (m), relative gains, winding curvatures (1/m) and relative sizes.
+// Returns `start` changed by offsets (m), relative gains, windings (1/m) and relative sizes.
 [[nodiscard]] DeviceModel changed_model(const DeviceModel &start,
                                         const CalibrationVector &change) noexcept;
 
-// d(measured - computed lengths)/d(unknown) with the grip held still, at the measured lengths.
+// Returns d(measured - computed lengths)/d(unknown) with the grip held still at lengths_m.
 [[nodiscard]] StringArray length_change(const DeviceModel &model, const LengthJacobian &jacobian,
                                         const GripPose &pose, const StringArray &lengths_m,
                                         std::size_t unknown) noexcept;
 
-// nu . length_change of every unknown.
+// Returns nu . length_change() for every unknown.
 [[nodiscard]] CalibrationVector parity_row(const DeviceModel &model, const LengthJacobian &jacobian,
                                            const GripPose &pose,
                                            const StringArray &lengths_m) noexcept;

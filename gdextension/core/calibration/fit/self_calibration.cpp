@@ -14,22 +14,23 @@ namespace spidar {
 
 namespace {
 
-// Gauss-Newton on a mildly curved problem: 5-10 steps a stage; the bound leaves room for bad
-// starts.
+// Gauss-Newton takes 5-10 steps per stage on this mildly curved problem; the limit leaves room for
+// bad starts.
 constexpr int kMaxStageIterations = 30;
-// Steps below this share of a prior are rounding (0.02 m * 1e-9: a thousandth of a nanometre).
+// Step, as a share of a prior, below which a stage has converged (0.02 m * 1e-9: a thousandth of a
+// nanometer).
 constexpr double kConverged = 1e-9;
-// A combination is weak when the poses leave it open by more than this share of its prior.
+// Share of its prior above which a combination counts as weakly observed.
 constexpr double kWeak = 0.1;
 // Standard deviation of a normal distribution over its median absolute deviation.
 constexpr double kMadToSigma = 1.4826;
-// Poses whose share of the grip error is averaged: more change nothing in its third digit.
+// Number of poses over which the grip error is averaged: more change nothing in its third digit.
 constexpr std::size_t kErrorPoses = 200;
-// Noise is never taken below a nanometre: exact test data would make the priors weightless.
+// Smallest noise: exact test data would otherwise make the priors weightless.
 constexpr double kNoiseFloor_m = 1e-9;
 
-// The exit moves by about 1 % of what the pose does: three rounds leave a micrometre of ten
-// centimetres' wrong start.
+// Rounds of exit correction. The exit moves by about 1 % of the pose's motion: three rounds reduce
+// a start error of ten centimeters to a micrometer.
 constexpr int kPulleyRounds = 3;
 
 using Unknowns = std::vector<std::size_t>;
@@ -103,7 +104,7 @@ std::vector<Stage> stages_of(const SelfCalibrationSettings &settings, std::size_
     return stages;
 }
 
-// Straight-line lengths, were the grip at this pose.
+// Returns the straight-line lengths for the exits of this pose.
 StringArray straight(const DeviceModel &model, const GripPose &pose, StringArray lengths_m) {
     const StringArray excess = exit_excess(model.frame, model.grip, model.corrections, pose);
     for (std::size_t i = 0; i < kStringCount; ++i) {
@@ -130,8 +131,8 @@ KinematicsResult solve_sample(const DeviceModel &model, ForwardKinematics &kinem
     return solved;
 }
 
-// The equations of a stage at the model as it stands; poses are kept in the samples for the next
-// time.
+// Returns the equations of a stage at the present model. The samples keep their poses for the next
+// call.
 System equations(const DeviceModel &model, const SelfCalibrationSettings &settings,
                  std::vector<Sample> &samples, std::size_t count) {
     System system;
@@ -187,7 +188,8 @@ System equations(const DeviceModel &model, const SelfCalibrationSettings &settin
     return system;
 }
 
-// Rows in units of prior and noise; the priors, when wanted, as one row an unknown.
+// Solves with rows in units of prior and noise. change: adds the priors as one row per unknown;
+// null: without priors.
 LeastSquaresSolution solve(const System &system, const Unknowns &unknowns,
                            const CalibrationVector &prior, const CalibrationVector *change) {
     DenseMatrix a(unknowns.size());
@@ -219,8 +221,8 @@ double rms(const std::vector<double> &values) {
     return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-// Expected error of the grip centre, root mean square over the poses: sqrt(mean(trace(J C J'))), J the derivative of the
-// grip centre by the unknowns and C their covariance.
+// Returns the expected rms error of the grip center over the poses: sqrt(mean(trace(J C J'))), with
+// J the derivative of the grip center by the unknowns and C their covariance.
 double grip_error(const DeviceModel &model, const System &system, const Unknowns &unknowns,
                   const CalibrationVector &prior, const DenseMatrix &covariance) {
     const std::size_t stride = std::max<std::size_t>(1, system.poses.size() / kErrorPoses);
@@ -250,7 +252,7 @@ double grip_error(const DeviceModel &model, const System &system, const Unknowns
 
 void report(SelfCalibrationResult &result, const System &system, const Unknowns &unknowns,
             const CalibrationVector &prior) {
-    // Observability from the poses alone; the covariance with the priors, which is what was solved.
+    // The observability comes from the poses alone, the covariance from the solution with priors.
     const LeastSquaresSolution data = solve(system, unknowns, prior, nullptr);
     result.singular = data.singular;
     for (std::size_t j = 0; j < data.singular.size(); ++j) {
@@ -299,8 +301,7 @@ SelfCalibrationResult self_calibrate(const DeviceModel &start,
         return refusal(start, Status::invalid_settings);
     }
     if (!is_usable(start.frame) || !is_usable(start.grip, start.frame) ||
-        start.grip.kind !=
-            GripKind::crossed) { // the parity equation is that of one redundant length
+        start.grip.kind != GripKind::crossed) { // one redundant length only
         return refusal(start, Status::invalid_geometry);
     }
     if (!validate(start.strings).empty() || !validate(start.corrections).empty()) {
@@ -344,7 +345,7 @@ SelfCalibrationResult self_calibrate(const DeviceModel &start,
             }
             step = 0.0;
             for (std::size_t j = 0; j < stage.unknowns.size(); ++j) {
-                // A step of more than the prior is beyond what the linear equations know.
+                // A step above the prior exceeds the range of the linear equations.
                 const double part = std::clamp(solution.x[j], -1.0, 1.0);
                 result.change[stage.unknowns[j]] += part * prior[stage.unknowns[j]];
                 step = std::fmax(step, std::fabs(part));

@@ -17,7 +17,7 @@ bool counts_differ(const std::vector<CountLengthPair> &pairs) {
     });
 }
 
-// Pooled spread of the counts of equal lengths about their means, in counts.
+// Adds the pooled spread of the counts of equal lengths about their means, in counts.
 void pool_spread(const std::vector<CountLengthPair> &pairs, StringScaleFit &fit) {
     std::map<double, std::vector<double>> trials;
     for (const CountLengthPair &pair : pairs) {
@@ -58,7 +58,7 @@ StringScaleFit fit_string_scale(const std::vector<CountLengthPair> &pairs) {
     if (pairs.empty() || !counts_differ(pairs)) {
         return fit;
     }
-    // Counts about their middle and in units of their range: both columns of one size.
+    // Counts are centered and scaled by their range, so that both columns have the same size.
     const auto [least, most] = std::minmax_element(
         pairs.begin(), pairs.end(),
         [](const CountLengthPair &a, const CountLengthPair &b) { return a.count < b.count; });

@@ -11,9 +11,9 @@ namespace spidar {
 
 namespace {
 
-// Poses that a residual is averaged over: more change nothing in its second digit.
+// Number of poses over which a residual is averaged: more change nothing in its second digit.
 constexpr std::size_t kResidualPoses = 300;
-// What scales by a ruler are worth (docs/how_to/calibration.md), in place of a winding's 5 %.
+// Accuracy of scales found by ruler (docs/how_to/calibration.md), in place of the 5 % of a winding.
 constexpr double kRulerGainPrior = 0.002;
 
 std::string percent(double ratio) {
@@ -59,7 +59,7 @@ std::string CalibrationWorksheet::add_length(std::size_t string, std::int32_t co
                                              double length_m) {
     std::vector<CountLengthPair> &pairs = lengths_[string];
     const double nominal = std::fabs(start_.strings.scale_m_per_count[string]);
-    // Nothing is longer than the frame's diagonal; twice that leaves room for guides.
+    // No string is longer than the frame's diagonal; twice that leaves room for guides.
     double longest = 0.0;
     for (const Vec3 &motor : start_.frame.motors_m) {
         longest = std::fmax(longest, 4.0 * std::sqrt(glm::dot(motor, motor)));
@@ -129,7 +129,7 @@ bool CalibrationWorksheet::add_pose(const CountArray &counts) {
     const KinematicsResult solved =
         kinematics.solve_cold(wound_lengths(model.strings, model.corrections, counts));
     if (!usable(solved.status)) {
-        return true; // kept: the fit leaves it out if it stays so
+        return true; // kept: the fit leaves it out if it stays unsolvable
     }
     const GripFrame frame = frame_of(solved.pose, Mat3(1.0));
     const bool first = coverage_.poses == 0;
@@ -257,7 +257,8 @@ MotorCalibration CalibrationWorksheet::motors(const DeviceModel &found) const {
         motors.effective_radius_m[i] *= ratio;
         const WeightFit weight = weight_fit(i);
         if (weight.repeats > 0) {
-            // The current that held the weight is to be that of its tension, whatever the radius is now.
+            // The current that held the weight must belong to the weight's tension, whatever the
+            // radius is now.
             motors.tension_gain[i] *= weight.gain * ratio;
         }
     }

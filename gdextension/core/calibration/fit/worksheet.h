@@ -1,5 +1,6 @@
-// Everything that is measured while one device is calibrated, and what follows from it: wiring, zero at home, lengths by
-// the ruler, free motion, weights. Refuses what cannot be true, with the reason. Allocates: not for the servo loop.
+// All measurements of one calibration session and what follows from them: wiring, zero at home,
+// lengths by the ruler, free motion, weights. Refuses measurements that cannot be true, with the
+// reason. Allocates: not for the servo loop.
 #pragma once
 
 #include <string>
@@ -12,58 +13,68 @@
 
 namespace spidar {
 
-// Two poses of the free motion count as different when a string has changed by this much.
+// A pose is kept when a length changed by this much since the last kept pose.
 inline constexpr double kPoseStep_m = 0.003;
+// Largest number of poses kept, which bounds the time of a fit.
 inline constexpr std::size_t kMostPoses = 3000;
-// What the eight lengths may contradict each other by after a fit. Noise and stretch of a sound device stay below
-// 0.2 mm; a slipping string, a wrong frame or a wrong preset is millimetres.
+// Largest rms contradiction of the eight lengths that is accepted after a fit. Noise and stretch of
+// a sound device stay below 0.2 mm; a slipping string, a wrong frame or a wrong preset gives
+// millimeters.
 inline constexpr double kMostParity_m = 0.0005;
-// Expected error of the grip above which a motion has told too little: ten times what 300 varied poses leave.
+// Largest expected error of the grip center after a fit: ten times that of 300 varied poses.
 inline constexpr double kMostGripError_m = 0.0005;
-// Ruler scales further than this from nominal are slips of the pen or another string (paper: 4.3 % by winding).
+// Largest relative difference of a ruler scale from the nominal one. The paper's winding explains
+// 4.3 %; a larger difference than this limit is a misread ruler or another string.
 inline constexpr double kMostScaleError = 0.2;
-// Lengths nearer together than this tell no scale: half a millimetre of reading error would be 1 % of it.
+// Smallest range of lengths for a scale: half a millimeter of reading error is 1 % of it.
 inline constexpr double kLeastLengthRange_m = 0.05;
-// The same for a motor against its data sheet.
+// Largest relative difference of a motor's gain from its data sheet.
 inline constexpr double kMostGainError = 0.5;
-// Repeats of the home pose that differ by more are not the same pose.
+// Largest standard deviation of readings at the home pose; above it the poses differed.
 inline constexpr double kMostHomeSpread_m = 0.005;
 
 struct WeightReading {
     double weight_n = 0.0;
-    double rise_n = 0.0; // commanded tension at which the weight rose, and at which it sank
+    // Commanded tension at which the weight rose.
+    double rise_n = 0.0;
+    // Commanded tension at which the weight sank.
     double fall_n = 0.0;
 };
 
 struct WeightFit {
-    double gain = 1.0;   // real tension over tension commanded by the motor calibration in use
-    double spread = 0.0; // standard deviation of the repeats' gains; 0 with one
+    double gain = 1.0;   // real tension over tension commanded by the present motor calibration
+    double spread = 0.0; // standard deviation of the repeats' gains; 0 for one repeat
+    // Mean of half the difference between rise_n and fall_n.
     double friction_n = 0.0;
     int repeats = 0;
 };
 
-// How much of the workspace the poses cover: largest less smallest.
+// How much of the workspace the kept poses cover. Ranges are largest less smallest.
 struct Coverage {
     int poses = 0;
     Vec3 travel_m{0.0};
-    double turn_rad = 0.0; // largest turn from upright
+    double turn_rad = 0.0; // largest rotation from upright
     double grasp_rad = 0.0;
 };
 
 class CalibrationWorksheet {
 public:
-    // start: nominal frame and grip, strings as they are assumed now. Forgets everything.
+    // Discards all measurements. start: nominal frame and grip, and the present string calibration.
     void begin(const DeviceModel &start, const MotorCalibration &motors);
 
-    // Encoder of string i counts the wrong way.
+    // reversed: the encoder of this string (0-7) counts the wrong way.
     void set_reversed(std::size_t string, bool reversed) { reversed_[string] = reversed; }
     [[nodiscard]] bool reversed(std::size_t string) const { return reversed_[string]; }
 
-    // Each adds a measurement; the sentence that refuses it, or empty.
+    // The add functions take one measurement and return an empty string, or the sentence that
+    // refuses it. add_zero: counts with the grip at home.
     std::string add_zero(const CountArray &counts);
+    // length_m: ruler length from exit to grip at this count.
     std::string add_length(std::size_t string, std::int32_t count, double length_m);
+    // A refused weight differs from its commanded tension by more than kMostGainError.
     std::string add_weight(std::size_t string, const WeightReading &reading);
-    // True: far enough from the last pose, and kept.
+    // Returns true when the pose was kept: it differs by kPoseStep_m from the last kept one, and
+    // fewer than kMostPoses are kept.
     bool add_pose(const CountArray &counts);
 
     void clear_zero() { zeros_.clear(); }
@@ -76,21 +87,27 @@ public:
     [[nodiscard]] const std::vector<CountLengthPair> &lengths(std::size_t string) const {
         return lengths_[string];
     }
+    // String calibration from the home readings. too_few_samples before the first add_zero().
     [[nodiscard]] HomeZero zero() const;
-    // too_few_samples: not yet two lengths kLeastLengthRange_m apart.
+    // Returns too_few_samples until two lengths lie kLeastLengthRange_m apart.
     [[nodiscard]] StringScaleFit length_fit(std::size_t string) const;
     [[nodiscard]] WeightFit weight_fit(std::size_t string) const;
     [[nodiscard]] const Coverage &coverage() const { return coverage_; }
 
-    // As it was when begun, and after wiring, ruler and zero: where self-calibration starts.
+    // The model as begin() received it.
     [[nodiscard]] const DeviceModel &before() const { return start_; }
+    // The model after wiring, ruler and zero, from which self-calibration starts.
     [[nodiscard]] DeviceModel measured() const;
+    // Fits offsets and gains. With ruler scales of all eight strings, gains are held to 0.2 % and
+    // no size is taken as true.
     [[nodiscard]] SelfCalibrationSettings settings() const;
-    // Why a result may not be used; empty: it may.
+    // Returns why a fit result must not be used, or an empty string.
     [[nodiscard]] static std::string refusal(const SelfCalibrationResult &result);
-    // Motor calibration with the weights' gains, and the winding radii that go with these string scales.
+    // Returns the motor calibration with the gains of the weights and the winding radii that match
+    // the string scales of `found`.
     [[nodiscard]] MotorCalibration motors(const DeviceModel &found) const;
-    // Root mean square over the poses of what no pose explains, a string (unit: m). NaN: no pose fits its lengths.
+    // Returns, per string, the rms difference between measured lengths and those of the best pose,
+    // over at most some 300 of the kept poses (unit: m). NaN when no pose fits any of the lengths.
     [[nodiscard]] StringArray residuals(const DeviceModel &model) const;
 
 private:

@@ -6,21 +6,23 @@ namespace spidar {
 
 namespace {
 
-// Keeps divisions defined at the z faces, where the closed form has 0/0; a thousandth of a nanometre.
+// Keeps divisions defined at the z faces, where the closed form has 0/0: a thousandth of a
+// nanometer.
 constexpr double kSmallestDistance_m = 1e-12;
-// A step in z longer than the poles' own disagreement and this is no refinement (unit: m).
+// Largest excess of a z step over the poles' disagreement that still counts as a refinement (unit:
+// m).
 constexpr double kFuseSlack_m = 1e-6;
-// cos(t/2) = s for cos(3t/2) = w and t in [0, pi/3] solves 4 s^3 - 3 s = w: cubic Hermite through both ends of
-// s(w), wrong by less than 2e-4, then Newton steps, each of which squares that.
-constexpr double kStart0 =
-    0.86602540378443865; // sqrt(3)/2, where s' = 1/6; at w = 1 s = 1, s' = 1/9
+// cos(t/2) = s for cos(3t/2) = w and t in [0, pi/3] solves 4 s^3 - 3 s = w. A cubic Hermite through
+// both ends of s(w) errs by less than 2e-4; each Newton step squares that.
+// sqrt(3)/2, where s' = 1/6. At w = 1: s = 1, s' = 1/9.
+constexpr double kStart0 = 0.86602540378443865;
 constexpr double kStart1 = 1.0 / 6.0;
 constexpr double kStart3 = 2.0 * kStart0 + kStart1 + 1.0 / 9.0 - 2.0;
 constexpr double kStart2 = 1.0 - kStart0 - kStart1 - kStart3;
 constexpr int kRootSteps = 2;
 constexpr double kHalfSqrt3 = 0.86602540378443865;
 
-// `a` where it is at least `low`, else `low`: for NaN too.
+// Returns a, or `low` where a is smaller or NaN.
 Lanes at_least(Lanes a, double low) noexcept {
     const Lanes bound = both(low);
     return a >= bound ? a : bound;
@@ -67,7 +69,7 @@ void solve_cubics(ClosedForm &form, Lanes circle2) noexcept {
     form.flipped = on_circle(m * (both(2.0 * kHalfSqrt3) * sin_t - cos_t) - shift);
 }
 
-// |r|^2 - d^2 of each pole for a z of each, and its derivative.
+// |r|^2 - d^2 of each pole for one z per pole, and its derivative.
 struct Misfit {
     Lanes value{};
     Lanes slope{};
@@ -86,11 +88,11 @@ Misfit misfit(const ClosedForm &form, Lanes z) noexcept {
             both(2.0) * (root * root_slope + vertical * vertical_slope)};
 }
 
-// z of P0 as each pole has it: the signs that agree best.
+// Returns z of P0 as each pole implies it, with the signs that agree best.
 Lanes heights(const ClosedForm &form, Lanes roots) noexcept {
     const Lanes h = square_root(at_least(both(2.0) * form.along * roots - form.k, 0.0));
-    // Inside the frame z lies below face 1 and above face 2; other signs are outside, met only when the
-    // lengths say so.
+    // Inside the frame z lies below face 1 and above face 2. Other signs lie outside and occur only
+    // for such lengths.
     Lanes z = form.face + Lanes{-1.0, 1.0} * h;
     double best = std::fabs(z[0] - z[1]);
 #pragma GCC unroll 2
@@ -109,7 +111,7 @@ Lanes roots_of(const ClosedForm &form, int pair) noexcept {
                  (pair & 2) != 0 ? form.flipped[1] : form.upright[1]};
 }
 
-// Each pole's z weighted by how well that pole sees z.
+// Returns the mean of both z, weighted by each pole's sensitivity to z.
 double fused_height(const ClosedForm &form, Lanes z_each) noexcept {
     const Misfit each = misfit(form, z_each);
     const Lanes weight = each.slope * each.slope;
@@ -122,7 +124,7 @@ CrossedPose pose_at_height(const ClosedForm &form, Lanes roots, double z) noexce
     const double d = form.pole_half_length_m;
     z = std::isfinite(z) ? z : 0.0;
 
-    // Third components from z; sign and size from the equation, or what the circle leaves.
+    // Third components follow from z: sign and size by the equation, or what the circle leaves.
     const Lanes h = away_from_zero(both(z) - form.face);
     const Lanes size2 = both(d * d) - form.side * form.side - roots * roots;
     const Lanes room = both(2.0) * square_root(at_least(size2, 0.0));
@@ -137,7 +139,7 @@ CrossedPose pose_at_height(const ClosedForm &form, Lanes roots, double z) noexce
                     scale * vertical};
 #pragma GCC unroll 2
     for (int pole = 0; pole < 2; ++pole) {
-        // Nothing left of a pole, or far too much: its rest direction.
+        // A pole of almost no or far too much length is replaced by its rest direction.
         if (!(length2[pole] > 0.0) || !std::isfinite(length2[pole])) {
             pose.poles_m.x[pole] = pole == 0 ? 0.0 : d;
             pose.poles_m.y[pole] = pole == 0 ? d : 0.0;
@@ -168,7 +170,7 @@ ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length
     const double a = half_extents_m.x;
     const double b = half_extents_m.y;
     const double d = pole_half_length_m;
-    // Differences of squares as products: the squares would cost digits.
+    // Differences of squares as products: squaring first would cost digits.
     const auto difference = [&lengths_m](std::size_t i, std::size_t j) {
         return (lengths_m[i] - lengths_m[j]) * (lengths_m[i] + lengths_m[j]);
     };
@@ -180,7 +182,7 @@ ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length
         return sum;
     };
     const Lanes eighth = both(0.125) / Lanes{a, b};
-    // Lane 0: along x, by pole 1's strings; lane 1: along y, by pole 2's.
+    // Lane 0: along x, from pole 1's strings. Lane 1: along y, from pole 2's strings.
     const Lanes first{difference(0, 1), difference(4, 6)};
     const Lanes second{difference(2, 3), difference(5, 7)};
     const Lanes sum = -(first + second) * eighth;
@@ -226,7 +228,7 @@ MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_leng
     const double h1 = heights.from_face_m[two][1];
     const double s0 = heights.slope_m[one][0];
     const double s1 = heights.slope_m[two][1];
-    // P0 between the faces, or beyond either.
+    // P0 lies between the faces, or beyond either.
     const double between = std::fabs(heights.faces_apart_m - h0 - h1);
     const double beyond = heights.faces_apart_m - std::fabs(h0 - h1);
     const double apart = between < std::fabs(beyond) ? between : std::fabs(beyond);
@@ -249,7 +251,7 @@ RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept {
     const Lanes z_each = heights(form, roots);
     const double apart = std::fabs(z_each[0] - z_each[1]);
     double z = fused_height(form, z_each);
-    // One Newton step on the sum of the squared misfits.
+    // One Newton step on the sum of squared misfits.
     const Misfit fused = misfit(form, both(z));
     double misfit2 = sum_of(fused.value * fused.value);
     const double gradient = sum_of(fused.value * fused.slope);

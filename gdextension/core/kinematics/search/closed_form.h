@@ -1,7 +1,7 @@
-// Closed-form kinematics of the paper's grip in a box frame, eq. (4)-(15) with the paper's misprints put
-// right (docs/why/paper_notes.md). x, y, x1, y2 follow directly; y1 and x2 are each a root of a cubic,
-//   (2b y1 - k1)(y1^2 - (d^2 - x1^2)) + (E1 - y y1)^2 = 0   (and likewise for x2),
-// two of whose roots can lie on the pole's circle: pole upright or flipped. Four pairs in all.
+// Closed-form kinematics of the paper's grip in a box frame, eq. (4)-(15) with misprints corrected
+// (docs/why/paper_notes.md). x, y, x1 and y2 follow directly. y1 and x2 are each a root of a cubic,
+//   (2b y1 - k1)(y1^2 - (d^2 - x1^2)) + (E1 - y y1)^2 = 0   (and likewise for x2).
+// Two roots of each cubic can lie on the pole's circle, upright and flipped: four root pairs.
 #pragma once
 
 #include <array>
@@ -12,22 +12,23 @@
 
 namespace spidar {
 
-// Pair p: bit 0 set takes the flipped root of pole 1, bit 1 that of pole 2. Pair 0 is the upright one.
+// Number of root pairs. Bit 0 of an index flips the root of pole 1, bit 1 that of pole 2.
 inline constexpr int kRootPairCount = 4;
 
-// True when the strings are tied to this grip as in Kim, Koike and Sato's paper, which the closed form assumes.
+// True when the strings are tied as in the paper, which the closed form assumes.
 [[nodiscard]] bool has_paper_attachments(const GripGeometry &grip) noexcept;
 
-// What the four root pairs of one set of string lengths have in common, computed once. Both poles are computed side by side; in the
-// paper's letters for pole 1 (for pole 2 x and y, a and b change places and z - c becomes z + c):
+// Common values of the four root pairs of one set of lengths, pole 1 in lane 0 and pole 2 in lane
+// 1. Letters are the paper's for pole 1, in brackets for pole 2.
 struct ClosedForm {
     Lanes along{};    // b (a): half size of the frame along the pole's rest direction
     Lanes position{}; // y (x)
-    Lanes side{};     // x1 (y2), known directly
+    Lanes side{};     // x1 (y2)
     Lanes k{};        // k1 (k2)
     Lanes e{};        // E1 (E2)
-    Lanes face{};     // +c (-c): z of the face on which the pole's strings hang
-    Lanes upright{};  // the cubic's roots: y1 (x2)
+    Lanes face{};     // +c (-c): z of the face that carries the pole's strings
+    Lanes upright{};  // the cubic's upright root: y1 (x2)
+    // The cubic's other root on the pole's circle.
     Lanes flipped{};
     double pole_half_length_m = 0.0;
 };
@@ -35,7 +36,7 @@ struct ClosedForm {
 [[nodiscard]] ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
                                            const StringArray &lengths_m) noexcept;
 
-// Where each root of each pole puts P0, and how sharply: [0] upright, [1] flipped.
+// Height of P0 that each root of each pole implies, and its sensitivity. 0: upright, 1: flipped.
 struct RootHeights {
     std::array<Lanes, 2> from_face_m{}; // |z of P0 - face|
     std::array<Lanes, 2> slope_m{};     // |d(|r|^2)/dz|
@@ -44,11 +45,12 @@ struct RootHeights {
 
 [[nodiscard]] RootHeights root_heights(const ClosedForm &form) noexcept;
 
-// What RootPairPose::misfit_m will be, to first order in how far the poles disagree about z: all pairs for little more
-// than the price of one. And how much of an error of the lengths a misfit may be, up to a constant factor: it grows
-// towards the z faces.
+// First-order forecast of RootPairPose::misfit_m from the difference between the two poles'
+// heights. It forecasts all pairs for little more than the cost of one.
 struct MisfitForecast {
+    // Expected misfit (unit: m).
     double misfit_m = 0.0;
+    // Misfit per error of the lengths, up to a constant factor; grows towards the z faces.
     double gain = 1.0;
 };
 [[nodiscard]] MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_length_m,
@@ -56,19 +58,20 @@ struct MisfitForecast {
 
 struct RootPairPose {
     CrossedPose pose;
-    // How far from a true solution the pair is: the length by which the poles miss their spheres at the
-    // z that suits both best. About the residual it would end with, up to a factor of the geometry.
+    // Distance (unit: m) by which the poles miss their spheres at the best common z: about the
+    // residual of the final pose, up to a factor of the geometry.
     double misfit_m = 0.0;
 };
 
-// The pose of root pair `pair`. Exact for exact lengths; with errors, a start for Gauss-Newton (roots that turned
-// complex are replaced by the nearest real ones). Always finite for finite lengths, poles on their spheres.
+// Returns the pose of root pair `pair`. It is exact for exact lengths, otherwise a start for
+// Gauss-Newton: complex roots are replaced by the nearest real ones. Always finite for finite
+// lengths, with the poles on their spheres.
 [[nodiscard]] RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept;
 
-// Its pose alone, for a pair that is tried whatever its misfit: z without the last refinement.
+// Same without misfit and last refinement of z, for a pair that is tried whatever its misfit.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
-// True when both poles are on the upright side of their folds, where the two roots of the cubic meet.
+// True when both poles are on the upright side of the fold where the cubic's two roots meet.
 [[nodiscard]] bool is_upright(const Vec3 &half_extents_m, const GripPose &pose) noexcept;
 
 } // namespace spidar

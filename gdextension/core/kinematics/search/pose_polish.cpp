@@ -14,17 +14,21 @@ namespace {
 constexpr std::size_t kSize = kDofCount;
 using Matrix = std::array<PoseStep, kSize>; // lower triangle used
 
-// Quadratic convergence takes 3-8 steps from the closed form; the bound leaves room for damped starts far away.
+// Quadratic convergence takes 3-8 steps from the closed form; the limit leaves room for damped
+// distant starts.
 constexpr int kMaxPolishSteps = 50;
 // Damping factors of the descent, relative to the diagonal (Levenberg-Marquardt).
 constexpr double kFirstDamping = 1e-3;
 constexpr double kDampingRise = 8.0;
 constexpr double kDampingFall = 0.1;
-constexpr double kNoDamping = 1e-8; // below this damping is dropped, so that the end is undamped
-// A pivot below this part of its diagonal is rounding: the matrix counts as not positive definite.
+// Damping below this is dropped, so that the last steps are undamped.
+constexpr double kNoDamping = 1e-8;
+// Share of its diagonal below which a pivot is rounding: the matrix counts as not positive
+// definite.
 constexpr double kSmallestPivot = 1e-15;
-// A residual this small is on its way to lengths that fit exactly. Next to a singular pose its curvature is still more
-// than the lengths say, and damping would hold the pose on the floor of a valley: Gauss-Newton walks along it.
+// Residual below which the lengths are about to fit exactly. Near a singular pose the curvature
+// then exceeds what the lengths determine, and damping would hold the pose on the floor of a
+// valley; Gauss-Newton moves along it.
 constexpr double kExactResidual_m = 1e-8;
 
 struct NewtonEquations {
@@ -33,7 +37,7 @@ struct NewtonEquations {
     PoseStep gradient{}; // J^T residual
 };
 
-// How an attachment moves with each of the unknowns that reach it.
+// Motion of an attachment with each of the unknowns that affect it.
 template <std::size_t Count>
 struct Motions {
     std::array<Vec3, Count> of_attachment{};
@@ -76,7 +80,8 @@ NewtonEquations newton_equations(const LengthProblem &problem, const LengthError
                                   attachment.sign * t.u, attachment.sign * t.v},
                                  {0, 1, 2, 3 + 2 * pole, 4 + 2 * pole}};
         add_string(eq, errors, i, motions);
-        // A displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
+        // A displaced pole end returns to its sphere: r loses |displacement|^2 / (2 d^2) of its
+        // length.
         const double fall =
             errors.residual_m[i] * attachment.sign * glm::dot(errors.direction[i], r) / (d * d);
         eq.curvature[3 + 2 * pole][3 + 2 * pole] += fall;
@@ -85,7 +90,7 @@ NewtonEquations newton_equations(const LengthProblem &problem, const LengthError
     return eq;
 }
 
-// The same for a rigid grip: displacement, then the turn times d. The seventh unknown stays where it is.
+// Same for a rigid grip: displacement, then the turn times d. The seventh unknown does not move.
 NewtonEquations rigid_newton_equations(const LengthProblem &problem, const LengthErrors &errors,
                                        const GripPose &pose) noexcept {
     NewtonEquations eq;
@@ -155,7 +160,8 @@ bool solve_damped(const NewtonEquations &eq, bool use_curvature, double damping,
     return std::isfinite(norm(step));
 }
 
-// Newton where the full matrix is positive definite, else Gauss-Newton, damped unless the lengths fit already.
+// Takes a Newton step where the full matrix is positive definite, else a Gauss-Newton step, damped
+// unless the lengths fit already.
 bool descent_step(const NewtonEquations &eq, double sum_of_squares_m2, double &damping,
                   PoseStep &step) noexcept {
     if (solve_damped(eq, true, damping, step)) {
@@ -202,7 +208,8 @@ PolishResult polish_pose(const LengthProblem &problem, const GripPose &start) no
             move_pose(trial, tangents, step, problem.grip.pole_half_length_m);
         }
         const LengthErrors trial_errors = length_errors(problem, trial);
-        // Steps this small are below what the sum of squares resolves: taken without asking it.
+        // Steps this small are below the resolution of the sum of squares: they are taken without
+        // comparing it.
         const bool tiny = step_m < kStagnantStep_m;
         if (tiny || trial_errors.sum_of_squares_m2 <= errors.sum_of_squares_m2) {
             result.pose = trial;

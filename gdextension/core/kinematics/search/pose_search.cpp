@@ -13,61 +13,66 @@ namespace {
 
 // Residual at which a pose explains the lengths to double precision (eight lengths near 0.5 m).
 constexpr double kResidualFloor_m = 1e-14;
-// Only one length is redundant, so noise alone often makes one pose fit many times better than another. A pose that
-// fits worse than the best by less than these factors may be the truth: it makes the answer ambiguous, and it is no
-// reason to leave the remembered pose. The plain factor counts where the fit is worse than calibrated strings err.
+// With one redundant length, noise alone often makes one pose fit many times better than another. A
+// pose whose fit is worse than the best by less than these factors may be true: it makes the answer
+// ambiguous, and is no reason to leave the remembered pose. Above kSuspiciousResidual_m the fit is
+// worse than calibrated strings allow, and kClearlyBetter applies.
 constexpr double kSuspiciousResidual_m = 2e-3;
 constexpr double kClearlyBetter = 0.5;
 constexpr double kBeyondChance = 0.02;
-// Without memory: how much better another root pair must fit than the upright one, which is right in 98 % of all
-// poses. Of 1 to 0.02 the factor with the fewest wrong choices on the 60/45 set, counts and noise of 0.1 mm.
+// Factor by which another root pair must fit better than the upright one, without memory. The
+// upright pair is right in 98 % of all poses. Of the factors 1 to 0.02 this one gave the fewest
+// wrong choices on the 60/45 set with counts and noise of 0.1 mm.
 constexpr double kUprightPrior = 0.3;
-// Strings that err by 5 mm each leave at most this much at the true pose; from here on a pose that fits twice as well is
-// another answer and not chance.
+// Largest residual at the true pose for strings that each err by 5 mm. Above it a pose that fits
+// twice as well is another answer, not chance.
 constexpr double kImprobableResidual_m = 6e-3;
-// Lengths with a residual above this come from a device that is not calibrated: an upright pose that fits within
-// kWithinNoise of what is usual is then likelier than a flipped one that fits better, for 98 % of all poses are upright.
+// Residual above which the device counts as not calibrated. An upright pose that fits within
+// kWithinNoise of the usual level is then likelier than a flipped one that fits better, since 98 %
+// of all poses are upright.
 constexpr double kNoisyResidual_m = 3e-4;
 constexpr double kWithinNoise = 1.6;
-// The closed form gives four root pairs, each a pose to start from. A start this close to the remembered pose ends there.
+// A root pair's start this close to the remembered pose leads to that pose.
 constexpr double kSamePose_m = 1e-3;
-// The largest second derivative of the string lengths that was seen, four times the usual one. It is used where a search
-// must not end too early.
+// Largest second derivative of the string lengths that was seen, four times the usual one. Used
+// where a search must not end too early.
 constexpr double kWorstCurvature = 4.0 * kLengthCurvature;
-// The error that a residual r leaves in a step is that of a step of this many times r.
+// A residual r leaves the same error in a step as a step of this many times r.
 constexpr double kResidualCurvature = 4.0;
-// Fast steps before the damped method takes over. Good lengths need 1-5 of them.
+// Fast steps before the damped method takes over. Lengths without errors need 1-5.
 constexpr int kMaxRefineSteps = 10;
-// When a step is longer than this share of the one before it, the damped Newton method takes over.
+// A step longer than this share of the last one hands over to the damped method.
 constexpr double kSlowestRate = 0.3;
-// The factorised matrix is used again while the pose has moved less than this since it was made.
+// The factorized matrix is reused while the pose has moved by less than this since its computation.
 constexpr double kRefactorStep_m = 1e-5;
-// When a step with a matrix that is used again is longer than this share of the one before it, the matrix is factorised
-// anew. Near a singular pose even good steps only halve.
+// A step with a reused matrix that is longer than this share of the last one requires a new
+// factorization. Near a singular pose even good steps only halve.
 constexpr double kOutwornRate = 0.1;
-// The error that a matrix from a distance s leaves in a step is that of a step of this many times s: strings near a
-// corner of the frame are short, and their directions turn fast.
+// A matrix from a distance s leaves the same error in a step as a step of this many times s:
+// strings near a corner of the frame are short, and their directions turn fast.
 constexpr double kNearbyBend = 8.0;
-// A residual settles when a step lowers the sum of squares by less than this part: what is above all that
-// matters then stays there.
+// The residual has settled when a step lowers the sum of squares by less than this share.
 constexpr double kSettledDecrease = 0.2;
-// Largest misfit of a root pair per residual of the lengths, over (1 + c / distance to the z face): 2.6 was the
-// worst of 120,000 poses of the 60/45 set with noise of 0.01 to 1 mm, 1.1 the median.
+// Largest misfit of a root pair per residual of the lengths, divided by (1 + c / distance to the z
+// face). The worst of 120,000 poses of the 60/45 set with noise of 0.01 to 1 mm was 2.6, the median
+// 1.1.
 constexpr double kMisfitGain = 3.0;
-// How far above that limit the forecast of a misfit may be and the pair is still looked at: of the pairs that mattered on
-// that set 1 in 1000 was above.
+// Factor by which a forecast misfit may exceed that limit before the pair is skipped. Of the pairs
+// that mattered on that set 1 in 1000 exceeded it.
 constexpr double kForecastSlack = 3.0;
-// The residual after a last step below this is the one it foretells: to the root of rounding of the step.
+// Last step below which the predicted residual is used: rounding allows the root of the step's
+// rounding.
 constexpr double kForetoldStep_m = 1e-12;
-// By a factorisation from elsewhere only where the step is this small against the lengths' errors (squared).
+// Largest squared step, relative to the squared length errors, for which a reused factorization
+// predicts the residual.
 constexpr double kForetoldShare = 1e-6;
 
-// How many times better a pose must fit than one that fits to `residual_m` before chance explains it no more.
+// Returns by which factor a pose must fit better than one with residual_m to exclude chance.
 double beyond_chance(double residual_m) noexcept {
     return residual_m > kSuspiciousResidual_m ? kClearlyBetter : kBeyondChance;
 }
 
-// Whether a pose that fits to `candidate_m` is an answer too where the best fits to `best_m`.
+// Returns whether a pose with candidate_m is also an answer when the best has best_m.
 bool fits_as_well(double candidate_m, double best_m) noexcept {
     return !(candidate_m > kResidualFloor_m && best_m < beyond_chance(candidate_m) * candidate_m);
 }
@@ -83,13 +88,13 @@ public:
         : problem_(problem), tools_(tools), found_(found) {}
 
     void offer(const GripPose &start) noexcept { judge(polished(start)); }
-    // Each candidate is weighed against `known` as well; the best preferable one is left in `rival`.
+    // Compares each candidate with `known` as well; the best preferable one is stored in `rival`.
     void look_beside(const PolishResult &known, double noise_m, RivalResult &rival) noexcept {
         known_ = &known;
         noise_m_ = noise_m;
         rival_ = &rival;
     }
-    // The best so far comes from memory, which outweighs how well another fits.
+    // The best pose so far comes from memory, which outweighs a better fit of another.
     void trust_memory() noexcept { remembers_ = true; }
     void try_root_pairs() noexcept;
     void try_rivals(const ClosedForm &form, int first_pair) noexcept;
@@ -114,14 +119,14 @@ private:
     const SearchTools &tools_;
     SearchResult &found_;
     bool remembers_ = false;
-    bool first_stands_ = true; // the best is the first: upright or remembered
+    bool first_stands_ = true; // the best is the first one tried: upright or remembered
     const PolishResult *known_ = nullptr;
     double noise_m_ = 0.0;
     RivalResult *rival_ = nullptr;
 };
 
-// Gauss-Newton with the fast steps as long as it converges fast: to the end when the lengths are good. Where it does
-// not, the damped Newton method takes over; where it can only end far above the best, it is given up.
+// Takes fast Gauss-Newton steps while they converge fast, to the end for good lengths. Otherwise
+// the damped Newton method continues; a search that can only end far above the best is given up.
 PolishResult Search::refined(const CrossedPose &start) noexcept {
     const CrossedLayout &layout = *tools_.layout;
     const double d = layout.pole_half_length_m;
@@ -132,7 +137,7 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
     CrossedFactor factor;
     double gauss_pivot = 0.0;
     double last_size_m = HUGE_VAL;
-    double bend_m = HUGE_VAL; // what bends the next step if it uses this factorisation
+    double bend_m = HUGE_VAL; // the error source of the next step with this factorization
     while (result.steps < kMaxRefineSteps && !result.converged) {
         const bool first = result.steps == 0;
         const bool again = bend_m <= kRefactorStep_m;
@@ -151,7 +156,8 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         const bool settled_high =
             errors.sum_of_squares_m2 - step.decrease_m2 > hopeless_m2 &&
             (slow || step.decrease_m2 < kSettledDecrease * errors.sum_of_squares_m2);
-        // The closed form starts next to a pose that matters: a rival that must go far is none.
+        // The closed form starts close to any pose that matters: a rival that must move far is
+        // dropped.
         const bool rival_leaves = found_.any && !(size_m <= kMaxTrialStep_m) &&
                                   found_.best.residual_rms_m <= kSuspiciousResidual_m;
         if (settled_high || rival_leaves) {
@@ -164,7 +170,7 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         const double before_m2 = errors.sum_of_squares_m2;
         const CrossedPose before = pose;
         pose = moved(pose, step, d);
-        // A step this small changes the residual as foretold.
+        // A step this small changes the residual as predicted.
         const double foretold_m2 = std::fmax(before_m2 - step.decrease_m2, 0.0);
         double bends_m = size_m;
         if (first) {
@@ -174,7 +180,7 @@ PolishResult Search::refined(const CrossedPose &start) noexcept {
         }
         const double left_m = size_m * std::fmax(kWorstCurvature * bends_m / gauss_pivot,
                                                  first ? 0.0 : (again ? 2.0 * rate : rate * rate));
-        // By a factorisation from elsewhere a step may fail to shrink for that reason: then a new one tells.
+        // A reused factorization alone may keep a step from shrinking: a new one decides.
         const bool outworn = again && !(rate <= kOutwornRate);
         result.converged = left_m <= kConvergedStep_m || (tiny && !again && rate > 0.5);
         const bool foretells = !again || step.size_m2 < kForetoldShare * before_m2;
@@ -259,7 +265,7 @@ void Search::try_root_pairs() noexcept {
         *tools_.closed_form_half_extents_m, problem_.grip.pole_half_length_m,
         tools_.eyelet_lengths_m != nullptr ? *tools_.eyelet_lengths_m : problem_.lengths_m);
     if (tools_.layout == nullptr) {
-        // Starts too rough for their misfits to mean anything.
+        // These starts are too rough for their misfits to mean anything.
         for (int pair = 0; pair < kRootPairCount && !settled(); ++pair) {
             offer(pose_of(root_pair_start(form, pair)));
         }
@@ -278,7 +284,7 @@ void Search::try_root_pairs() noexcept {
 void Search::try_rivals(const ClosedForm &form, int first_pair) noexcept {
     const RootHeights heights = root_heights(form);
     for (int pair = first_pair; pair < kRootPairCount && !settled(); ++pair) {
-        // Errors of the lengths reach the misfit magnified, the more the nearer a face is.
+        // Errors of the lengths reach the misfit magnified, more so near a face.
         const MisfitForecast forecast =
             forecast_misfit(heights, problem_.grip.pole_half_length_m, pair);
         const double limit_m = kMisfitGain * forecast.gain * relevant_m();

@@ -1,5 +1,6 @@
-// Kinematics from no memory, or when memory fails: every pose worth trying, the best of them, and whether another fits
-// as well. Root pairs that cannot win are dropped by their misfit before anything is spent on them.
+// Kinematics without memory, or when memory fails: tries every pose worth trying, and reports the
+// best and whether another fits as well. Root pairs that cannot win are dropped by their misfit
+// before any step.
 #pragma once
 
 #include <optional>
@@ -10,41 +11,42 @@
 
 namespace spidar {
 
-// Two poses further apart than this (grip centre or pole end) are different answers, not rounding.
+// Poses further apart than this (grip center or pole end) are different answers.
 inline constexpr double kDistinctPose_m = 1e-5;
 
-// What a search may use besides the problem itself.
+// What a search may use besides the problem.
 struct SearchTools {
-    const CrossedLayout *layout = nullptr; // eyelets, two strings to each pole end: the fast steps
-    std::optional<Vec3>
-        closed_form_half_extents_m; // a box and the paper's strings: the closed form
-    // The lengths that it takes where strings leave over pulleys: about those from eyelets. Null: the problem's.
+    // The fast steps; null unless strings leave from eyelets, two to each pole end.
+    const CrossedLayout *layout = nullptr;
+    // Set when the closed form applies: a box frame and the paper's attachments.
+    std::optional<Vec3> closed_form_half_extents_m;
+    // Lengths converted to eyelets, for the closed form over pulleys. Null: the problem's lengths.
     const StringArray *eyelet_lengths_m = nullptr;
 };
 
 struct SearchResult {
     PolishResult best;
-    bool any = false;       // false: not even a finite residual
-    bool ambiguous = false; // another pose, kDistinctPose_m or more away, fits as well
+    bool any = false;       // false: no pose had a finite residual
+    bool ambiguous = false; // another pose, more than kDistinctPose_m away, fits as well
     int steps = 0;
 };
 
-// The remembered pose first (none: nullptr), then the upright root pair, then the others. Nothing more is tried when
-// the remembered pose leads to a residual of at most `content_m`.
+// Tries the remembered pose (nullptr: none), then the upright root pair, then the others. Ends
+// early when the remembered pose leads to a residual of at most content_m.
 [[nodiscard]] SearchResult search_pose(const LengthProblem &problem, const SearchTools &tools,
                                        const GripPose *remembered, double content_m) noexcept;
 
-// What a look for other poses than the one that a warm tick found says.
+// Result of a search for other poses than the one that a warm tick found.
 struct RivalResult {
     bool ambiguous = false; // another pose fits these lengths as well
-    bool preferable =
-        false; // `best` is a better answer: it fits clearly better, or as well as lengths of this noise fit,
-    // and is upright where the known pose is not
+    // `best` is the better answer: it fits clearly better, or it fits within the noise and is
+    // upright where the known pose is not.
+    bool preferable = false;
     PolishResult best;
 };
 
-// noise_m: recent level of the residual (root mean square over the strings). Without a closed form all seven starts are
-// tried, which takes some 50 us.
+// noise_m: recent level of the residual (rms over the strings). Without a closed form all seven
+// starts are tried, in about 50 us.
 [[nodiscard]] RivalResult find_rival(const LengthProblem &problem, const SearchTools &tools,
                                      const PolishResult &known, double noise_m) noexcept;
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kCos45 = 0.70710678118654752;
 
-// Least squares for a point at distances l_i from the motors: differences of |Q_i - P|^2 = l_i^2 against
-// their mean are linear in P.
+// Least-squares position of a point at distances l_i from the motors: |Q_i - P|^2 = l_i^2 minus its
+// mean is linear in P.
 Vec3 trilaterate(const LengthProblem &problem) noexcept {
     Vec3 mean_motor{0.0};
     double mean_offset = 0.0; // mean of |Q|^2 - l^2

@@ -1,12 +1,12 @@
-// Starts for frames without a closed form: the position that the eight lengths suggest when the grip is taken as
-// a point, with the grip upright or tilted.
+// Starting poses for frames without a closed form. The grip is taken as a point, whose
+// least-squares position comes from the eight lengths.
 #pragma once
 
 #include "core/kinematics/steps/gauss_newton.h"
 
 namespace spidar {
 
-// Rest, then 45 degrees either way about each axis of the grip.
+// Start 0 is upright; starts 1-6 are turned by 45 degrees either way about each axis.
 inline constexpr int kStartCount = 7;
 
 [[nodiscard]] GripPose start_pose(const LengthProblem &problem, int start) noexcept;

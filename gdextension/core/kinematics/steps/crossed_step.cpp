@@ -14,7 +14,7 @@ bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,
         const std::size_t end = grip.attachments[i].sign > 0.0 ? 0 : 1;
         std::size_t &count = filled[end][pole];
         if (count == 2) {
-            return false; // eight strings, four ends: one with three leaves another short
+            return false; // a third string at one end: another end has too few
         }
         const std::size_t slot = 2 * end + count++;
         made.strings[slot][pole] = static_cast<std::uint8_t>(i);

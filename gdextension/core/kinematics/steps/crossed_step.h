@@ -1,9 +1,10 @@
-// Gauss-Newton on R3 x S2 x S2 for the grip as the paper strings it, two strings to each pole end: the work of
-// gauss_newton.h with both poles computed side by side. Slot 2e+k holds the k-th string of pole end e (0: +, 1: -).
+// Gauss-Newton on R3 x S2 x S2 for two strings at each pole end, with both poles computed side by
+// side. Unknowns and pivots are those of gauss_newton.h. Slot 2e+k holds the k-th string of pole
+// end e (0: +, 1: -).
 //
-// A string at end s of a pole, with direction e, has the slopes (e, s e) in (P0, r). So all that the normal
-// equations need are the outer products e e' summed over the strings of an end: their sum over both ends serves
-// P0 and r alone, their difference couples the two. Unknowns and the meaning of the pivots are those of gauss_newton.h.
+// A string at end s (+1 or -1) of a pole, with direction e, has the slopes (e, s e) in (P0, r). The
+// normal equations therefore need only the outer products e e' summed over the strings of an end.
+// Their sum over both ends serves P0 and r; their difference couples the two.
 #pragma once
 
 #include <array>
@@ -19,18 +20,19 @@ namespace spidar {
 
 inline constexpr std::size_t kSlotCount = 4;
 
-// Error that a step of size s leaves behind: about this times s^2, in metres. The poles are the most curved
-// part of the map, 1 / d = 25 for the paper's grip. Divided by the root of the pivot where that is small.
+// Error that a step of size s leaves behind: about this times s^2 (unit: 1/m), divided by the root
+// of the pivot where that is small. The poles are the most curved part: 1 / d = 25 for the paper's
+// grip.
 inline constexpr double kLengthCurvature = 25.0;
 
-// Which string sits in which slot, and from where it comes.
+// The string in each slot and the motor it comes from.
 struct CrossedLayout {
     std::array<LaneVec, kSlotCount> motors_m;
     std::array<std::array<std::uint8_t, 2>, kSlotCount> strings{}; // [slot][pole]
     double pole_half_length_m = 0.0;
 };
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const CrossedLayout &layout) noexcept {
     bool sound = true;
     for (const auto &slot : layout.strings) {
@@ -41,7 +43,8 @@ struct CrossedLayout {
     return sound;
 }
 
-// False, layout untouched, when some pole end does not carry exactly two strings, or the grip is rigid.
+// Returns false and leaves `layout` unchanged when the grip is rigid or some pole end does not
+// carry exactly two strings.
 [[nodiscard]] bool make_layout(const FrameGeometry &frame, const GripGeometry &grip,
                                CrossedLayout &layout) noexcept;
 
@@ -58,20 +61,26 @@ struct CrossedPose {
     return {lane(pose.position_m, 0), lane(pose.poles_m, 0), lane(pose.poles_m, 1)};
 }
 
-// Measured minus computed lengths, and the directions in which the lengths grow.
+// Errors of the eight lengths at a pose.
 struct CrossedErrors {
+    // Unit vectors along which the lengths grow.
     std::array<LaneVec, kSlotCount> direction;
+    // Measured minus computed lengths.
     std::array<Lanes, kSlotCount> residual_m{};
     std::array<Lanes, kSlotCount> per_length{}; // 1 / computed length (unit: 1/m)
     double sum_of_squares_m2 = 0.0;
 };
 
-// Normal equations of one pose: the poles' blocks eliminated and what then stays of the position, both inverted by
-// cofactors. One division each: the latency of divisions is what a step costs most.
+// Factorized normal equations of one pose: the poles' blocks and the remaining block of the
+// position, both inverted by cofactors. Each takes one division, whose latency dominates the cost
+// of a step.
 struct CrossedFactor {
-    LaneVec u; // tangents of the poles
+    LaneVec u; // first tangent of each pole
+    // Second tangent of each pole.
     LaneVec v;
-    LaneVec carry_u; // coupling of the position to u and v times the inverse of the pole's block
+    // Coupling of the position to u, times the inverse of the pole's block.
+    LaneVec carry_u;
+    // Coupling of the position to v, times the inverse of the pole's block.
     LaneVec carry_v;
     Lanes inverse_uu{};
     Lanes inverse_uv{};
@@ -85,12 +94,12 @@ struct CrossedStep {
     LaneVec position_m;
     LaneVec poles_m;
     double size_m2 = 0.0;     // squared norm of the seven displacements
-    double decrease_m2 = 0.0; // of the sum of squares, as the linear model has it
+    double decrease_m2 = 0.0; // of the sum of squares, by the linear model
 };
 
 namespace crossed_detail {
 
-// Sum of e e' over strings: xx xy xz yy yz zz, a pole a lane.
+// Sum of e e' over strings, in the order xx xy xz yy yz zz; one pole per lane.
 using LaneMatrix = std::array<Lanes, 6>;
 
 [[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b) noexcept {
@@ -98,7 +107,7 @@ using LaneMatrix = std::array<Lanes, 6>;
             a.y * a.y + b.y * b.y, a.y * a.z + b.y * b.z, a.z * a.z + b.z * b.z};
 }
 
-// The same with a weight each.
+// Same with one weight per vector.
 [[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b, Lanes wa,
                                                    Lanes wb) noexcept {
     const LaneVec p = wa * a;
@@ -112,7 +121,7 @@ using LaneMatrix = std::array<Lanes, 6>;
             m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
 
-// Residuals times directions, summed over each end: their sum and their difference over the two ends.
+// Residuals times directions, added over both ends and subtracted.
 struct Gradients {
     LaneVec sum;
     LaneVec difference;
@@ -126,7 +135,8 @@ struct Gradients {
     return {plus + minus, plus - minus};
 }
 
-// Two unit tangents of each pole without a square root (Duff et al. 2017, "Building an orthonormal basis, revisited").
+// Computes two unit tangents of each pole without a square root (Duff et al. 2017, "Building an
+// orthonormal basis, revisited").
 [[gnu::always_inline]] inline void tangents(const LaneVec &poles_m, double d, LaneVec &u,
                                             LaneVec &v) noexcept {
     const LaneVec n = both(1.0 / d) * poles_m;
@@ -138,11 +148,11 @@ struct Gradients {
 }
 
 [[gnu::always_inline]] inline double smaller(double a, double b) noexcept {
-    return b < a ? b : a; // a when b is NaN: the pivots themselves decide then
+    return b < a ? b : a; // returns a when b is NaN; the pivots are checked separately
 }
 
-// Eliminates the matrix whose strings sum to `plus` and `minus` at the two ends; `fall` adds to the poles' diagonals, and
-// `hold` to those of the position.
+// Factorizes the normal equations whose outer sums at the two ends are `plus` and `minus`. `fall`
+// is added to the poles' diagonals, `hold` to those of the position.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
 eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double hold,
           const CrossedPose &pose, double pole_half_length_m) noexcept {
@@ -190,7 +200,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
                           (s1 * s2 - s0 * s4) * per_volume,
                           minor_xy * per_volume};
 
-    // Of the poles the determinant over the squared mean of the diagonal: the same in every basis.
+    // A pole's pivot: determinant over squared mean diagonal, the same in every basis.
     const Lanes mean = both(0.5) * (uu + vv);
     const Lanes pole = area / (mean * mean);
     const double pivot_x = s0 / sum_of(sum[0]);
@@ -217,7 +227,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
 
     CrossedStep step;
     step.position_m = {both(x), both(y), both(z)};
-    // What the poles would do alone, less what the position takes.
+    // Pole displacements at a fixed position, less the share of the position's displacement.
     const Lanes u =
         f.inverse_uu * gradient_u + f.inverse_uv * gradient_v - dot(f.carry_u, step.position_m);
     const Lanes v =
@@ -238,7 +248,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
     const std::array<LaneVec, 2> ends{pose.position_m + pose.poles_m,
                                       pose.position_m - pose.poles_m};
     Lanes squares{};
-#pragma GCC unroll 4 // by hand: at -O2 the compiler keeps the loop, and a fifth of the time with it
+#pragma GCC unroll 4 // at -O2 the compiler keeps the loop, which costs a fifth of the time
     for (std::size_t slot = 0; slot < kSlotCount; ++slot) {
         const LaneVec string = ends[slot / 2] - layout.motors_m[slot];
         const Lanes length = square_root(dot(string, string));
@@ -253,7 +263,7 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
     return errors;
 }
 
-// prior: weight of a pose that is expected, added to the diagonal (0: the lengths alone). The pivots count it too.
+// prior: weight of the expected pose, added to all diagonals and so to the pivots. 0: none.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor factorise(const CrossedErrors &errors,
                                                                  const CrossedPose &pose,
                                                                  double pole_half_length_m,
@@ -264,12 +274,13 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
         pose, pole_half_length_m);
 }
 
-// The same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically where lengths err.
-// Its pivots are those of the normal equations as far as the residual is small against the poles.
+// Same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically for
+// lengths with errors. The pivots equal those of the normal equations for residuals that are small
+// against the poles.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
 factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
                  double pole_half_length_m) noexcept {
-    // A length l with residual f bends by -(f / l) (I - e e') ...
+    // The curvature of a length l with residual f adds -(f / l) (I - e e').
     const auto end = [&errors](std::size_t slot) {
         const Lanes w0 = errors.residual_m[slot] * errors.per_length[slot];
         const Lanes w1 = errors.residual_m[slot + 1] * errors.per_length[slot + 1];
@@ -280,35 +291,35 @@ factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
         }
         return sum;
     };
-    // ... and a displaced pole end falls back onto its sphere: r loses |displacement|^2 / (2 d^2) of itself.
+    // A displaced pole end returns to its sphere: r loses |displacement|^2 / (2 d^2) of its length.
     const Lanes fall = dot(crossed_detail::gradients(errors).difference, pose.poles_m) *
                        both(1.0 / (pole_half_length_m * pole_half_length_m));
     return crossed_detail::eliminate(end(0), end(2), fall, 0.0, pose, pole_half_length_m);
 }
 
-// The step that `errors` ask for, by the factorisation made there.
+// Returns the step for `errors` with the factorization of the same pose.
 [[nodiscard, gnu::always_inline]] inline CrossedStep solve(const CrossedFactor &factor,
                                                            const CrossedErrors &errors) noexcept {
     return crossed_detail::step_of(factor, crossed_detail::gradients(errors));
 }
 
-// The same by a factorisation made close by; `pose` is where the errors are. Ends at the same pose. prior, expected: as
-// in factorise(), and the pose that is expected.
+// Returns the step for `errors` at `pose` with the factorization of a nearby pose; repeated steps
+// end at the same pose. prior: as in factorise(). expected: the pose that the prior pulls towards.
 [[nodiscard, gnu::always_inline]] inline CrossedStep
 solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors, const CrossedPose &pose,
              double prior = 0.0, const CrossedPose &expected = CrossedPose()) noexcept {
     crossed_detail::Gradients g = crossed_detail::gradients(errors);
-    if (prior > 0.0) { // the position stands in both lanes
+    if (prior > 0.0) { // the position counts once in each of the two lanes
         g.sum = g.sum + both(0.5 * prior) * (expected.position_m - pose.position_m);
         g.difference = g.difference + both(prior) * (expected.poles_m - pose.poles_m);
     }
-    // The factor's tangents are not quite those of this pose: what pulls along a pole must not turn it.
+    // The factor's tangents differ a little from this pose's: a pull along a pole must not turn it.
     const Lanes along = dot(pose.poles_m, g.difference) / dot(pose.poles_m, pose.poles_m);
     g.difference = g.difference - along * pose.poles_m;
     return crossed_detail::step_of(factor, g);
 }
 
-// Moved, and the poles back on their spheres to rounding.
+// Returns the pose after a step, with the poles scaled back to their spheres.
 [[nodiscard, gnu::always_inline]] inline CrossedPose
 moved(const CrossedPose &pose, const CrossedStep &step, double pole_half_length_m) noexcept {
     const LaneVec poles = pose.poles_m + step.poles_m;

@@ -12,8 +12,8 @@ namespace spidar {
 
 namespace {
 
-// Normal equations J^T J step = J^T residual. A string touches the position and one pole only, so the two
-// pole blocks never meet: [P A B; A' S 0; B' 0 T].
+// Normal equations J^T J step = J^T residual. A string affects the position and one pole only, so
+// that the two pole blocks are not coupled: [P A B; A' S 0; B' 0 T].
 struct ArrowEquations {
     struct PoleBlock {
         double uu = 0.0;
@@ -78,13 +78,13 @@ void add_expected(ArrowEquations &eq, const GripPose &pose, const PoseTangents &
     }
 }
 
-// Smallest pivot over the diagonal entry it came from; 0 for anything that is no positive number.
+// Returns pivot / diagonal, or 0 when that is not a positive number.
 double scaled_pivot(double pivot, double diagonal) noexcept {
     const double ratio = pivot / diagonal;
     return ratio > 0.0 ? ratio : 0.0;
 }
 
-// Block elimination: poles first, then the 3x3 Schur complement of the position by LDL^T.
+// Block elimination: the poles first, then the 3x3 Schur complement of the position by LDL^T.
 struct ArrowSolution {
     PoseStep step{};
     double min_pivot = 0.0;
@@ -107,7 +107,8 @@ ArrowSolution solve_arrow(const ArrowEquations &eq) noexcept {
         }
         ratio[k] = b.uv / b.uu;
         second[k] = b.vv - ratio[k] * b.uv;
-        // Determinant over the squared mean of the diagonal: unlike a pivot, the same in every basis.
+        // The determinant over the squared mean diagonal is, unlike a pivot, the same in every
+        // basis.
         const double mean = 0.5 * (b.uu + b.vv);
         smallest = std::fmin(smallest, scaled_pivot(b.uu * second[k], mean * mean));
         if (!(second[k] > 0.0)) {

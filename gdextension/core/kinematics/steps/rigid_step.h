@@ -1,5 +1,6 @@
-// Gauss-Newton on SE(3): the step of gauss_newton.h for grips without a hinge, tied at eight arbitrary points. Unknowns:
-// displacement of P0, then the turn about it times pole_half_length_m, so that all six are metres.
+// Gauss-Newton step on SE(3) for grips without a hinge, tied at eight arbitrary points. Unknowns:
+// the displacement of P0, then the turn about P0 times pole_half_length_m, so that all six are in
+// meters.
 #pragma once
 
 #include "core/base/types.h"
@@ -10,10 +11,10 @@ namespace spidar {
 inline constexpr int kRigidDofCount = 6;
 using RigidStep = std::array<double, kRigidDofCount>;
 
-// P0 displaced, both poles turned by the rotation vector step[3..5] / d (unit: m), and made orthonormal again.
+// Moves P0, turns both poles by the vector step[3..5] / d (rad) and makes them orthogonal.
 void move_rigid(GripPose &pose, const RigidStep &step, double pole_half_length_m) noexcept;
 
-// The step that `errors` ask for at `pose`, not taken yet; and the smallest pivot of its normal equations.
+// The step for `errors` at `pose`, not yet applied, and its smallest scaled pivot.
 struct RigidSolution {
     RigidStep step{};
     double min_pivot = 0.0;

@@ -10,8 +10,8 @@ namespace spidar {
 
 namespace {
 
-// A Cholesky pivot below this share of its diagonal has lost half of its digits: take the QR way. Above it,
-// one refinement step gains at least seven digits.
+// Share of its diagonal below which a Cholesky pivot has lost half of its digits and QR is used.
+// Above it one refinement step gains at least seven digits.
 constexpr double kCancelledPivot = 1e-8;
 
 } // namespace

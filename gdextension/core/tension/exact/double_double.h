@@ -1,6 +1,6 @@
 // A number held as an unevaluated sum of two doubles (about 32 digits), for the few gradients whose
-// rounding in plain double would show in newtons. Needs -ffp-contract=off and no fast-math.
-// Dekker (1971), Knuth's two-sum; without hardware FMA, which the plain x86-64 build lacks.
+// rounding in double would show in newtons. Uses Dekker (1971) and Knuth's two-sum, without
+// hardware FMA, which the plain x86-64 build lacks. Needs -ffp-contract=off and no fast-math.
 #pragma once
 
 namespace spidar {
@@ -18,7 +18,7 @@ struct DoubleDouble {
     return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-// Exact product while |a|, |b| stay below about 1e290.
+// Returns the exact product for |a|, |b| below about 1e290.
 [[nodiscard]] inline DoubleDouble two_product(double a, double b) noexcept {
     constexpr double kSplitter = 134217729.0; // 2^27 + 1
     const double product = a * b;

@@ -1,9 +1,9 @@
 // solve_exactly(): the exact optimum of one bounded least-squares problem.
 //
-// Guess: a few rounds that bound every string that left its range at once and release every string whose
-// bound pulls the wrong way at once. Then a primal active set (one string at a time, the objective falls at
-// every move), which cannot cycle: see kSureMove_n.
-// The answer is refined with gradients taken from A itself, so that it is exact to rounding.
+// First a few rounds guess the active set: each holds every string that left its range and releases
+// every string whose bound pulls the wrong way. A primal active-set method follows, one string at a
+// time. The objective falls with every move, so that it cannot cycle (see kSureMove_n). The answer
+// is refined with gradients from A itself, and is therefore exact to rounding.
 #include <algorithm>
 #include <cmath>
 
@@ -15,24 +15,26 @@ namespace spidar {
 
 namespace {
 
-// A Newton step that moves no string by more than this ends the refinement: the next one would be at least
-// 1e6 times smaller (see kCancelledPivot).
+// Largest Newton step that ends the refinement (unit: N): the next one would be at least 1e6 times
+// smaller (see kCancelledPivot).
 constexpr double kStepTolerance_n = 1e-10;
-// A bounded string is released when that would move some string by more than this (unit: N). Five
-// roundings of a 10 N tension: less cannot be told from noise, more shows in an objective near zero.
+// Smallest movement for which a held string is released (unit: N): five roundings of a 10 N
+// tension. Less is noise; more shows in an objective near zero.
 constexpr double kReleaseMove_n = 1e-14;
-// A smaller move than this may be undone by rounding: only kBareReleases such releases are made, so that no
-// two active sets can alternate without end. Two for each string, well inside kMaxFactorisations.
+// Smallest movement that rounding cannot undo (unit: N).
 constexpr double kSureMove_n = 1e-11;
+// Number of releases with a smaller movement, two per string, so that no two active sets can
+// alternate endlessly. Well below kMaxFactorisations.
 constexpr int kBareReleases = 16;
-// Rounding of a gradient in plain double, as a share of the largest force that cancels in it.
+// Rounding of a gradient in double, as a share of the largest force that cancels in it.
 constexpr double kGradientRounding = 2e-15;
-// Where that rounding would move a free string (one at neither of its bounds) by more than this, the gradient is computed
-// in double-double.
+// Movement of a free string by that rounding above which the gradient is computed in double-double
+// (unit: N).
 constexpr double kRoundingMove_n = 1e-11;
-// At most so many rounds improve the guess of which strings are at a bound. 98 % of problems need one or two.
+// Rounds that guess which strings are at a bound. 98 % of problems need one or two.
 constexpr int kGuessRounds = 6;
-// Bound on factorisations, twice: from the guess, then from cold. Eight strings take 18 at most.
+// Limit of factorizations, used twice: from the guess, then from cold. Eight strings take at most
+// 18.
 constexpr int kMaxFactorisations = 50;
 constexpr int kMaxPasses = 4 * kMaxFactorisations;
 constexpr int kMaxRefinements = 6;
@@ -48,7 +50,8 @@ public:
         }
     }
 
-    // False at the iteration bound or on overflow; the tensions are then feasible, not optimal.
+    // Returns false at the iteration limit or on overflow; the tensions are then feasible but not
+    // optimal.
     bool run(const ActiveSet *warm, int guess_rounds) noexcept {
         start(warm);
         guess_rounds_ = guess_rounds;
@@ -119,7 +122,7 @@ private:
         factored_ = false;
     }
 
-    // barely: by less than kSureMove_n.
+    // Releases a string. barely: by less than kSureMove_n.
     void let_go(std::size_t string, bool barely) noexcept {
         bare_releases_ += barely ? 1 : 0;
         active_[string] = StringBound::free;
@@ -127,8 +130,8 @@ private:
         factored_ = false;
     }
 
-    // True when the whole step fits in the bounds. Else strings were bounded (all that left while guessing,
-    // the first one met afterwards).
+    // Returns true when the whole step stays within the bounds. Otherwise strings were held: all
+    // that left while guessing, later the first one met.
     bool take_step(const StringArray &step) noexcept {
         double share = 1.0;
         std::size_t first = kStringCount;
@@ -173,14 +176,14 @@ private:
         return false;
     }
 
-    // How far rounding of the gradient moves a string, for a given stiffness.
+    // Returns how far rounding of the gradient moves a string of this stiffness.
     [[nodiscard]] double rounding_move(double stiffness) const noexcept {
         return kGradientRounding * gradient_.largest_force_n / stiffness;
     }
 
     bool needs_another_refinement(double largest_step) noexcept {
-        // The first step is from far away: what cancels then says nothing about the end. A small step proves
-        // nothing where the rounding of the gradient is the same each time.
+        // The first step is large, and what cancels in it says nothing about the end. A small step
+        // proves nothing where the gradient rounds the same way each time.
         const bool near_the_end = refinements_ > 0 || largest_step <= kStepTolerance_n;
         if (near_the_end && !precise_ &&
             rounding_move(system_.smallest_pivot()) > kRoundingMove_n) {
@@ -193,7 +196,8 @@ private:
 
     enum class Release { none, unclear, bare, sure };
 
-    // Whether held string i goes free. `wish`: how strongly it wants into its range; `noise`: the rounding of that.
+    // Decides whether held string i is released. wish: slope towards its range. noise: rounding of
+    // that slope.
     [[nodiscard]] Release judge_release(std::size_t i, double wish, double noise) const noexcept {
         if (!(wish > -noise)) {
             return Release::none;
@@ -201,7 +205,7 @@ private:
         if (wish > noise && wish > kSureMove_n * system_.diagonal(i)) {
             return Release::sure;
         }
-        // Near zero: what counts is how far the strings would move.
+        // Near zero the movement of the strings decides.
         const BoxLeastSquares::Release release = system_.release(i);
         double reach = 1.0;
         for (const double value : release.direction) {
@@ -218,8 +222,9 @@ private:
                    : Release::none;
     }
 
-    // At the optimum of the free strings: lets go of strings whose bound pulls the wrong way, all of them while guessing,
-    // the worst one afterwards. False when none. `step` is the last (tiny) step, which gradient_ does not know yet.
+    // At the optimum of the free strings, releases strings whose bound pulls the wrong way: all of
+    // them while guessing, later the worst one. Returns false when there is none. step: the last
+    // (tiny) step, which gradient_ does not include.
     bool release_strings(const StringArray &step) noexcept {
         const StringArray change = system_.curvature(step);
         const double noise = precise_ ? 0.0 : kGradientRounding * gradient_.largest_force_n;
@@ -235,7 +240,7 @@ private:
             const double wish = active_[i] == StringBound::at_lower ? -slope : slope;
             const Release release = judge_release(i, wish, noise);
             if (release == Release::unclear) {
-                precise_ = true; // take this look again, exactly
+                precise_ = true; // check again in double-double
                 return true;
             }
             if (release == Release::none) {
@@ -287,7 +292,8 @@ Status check_problem(const TensionProblem &problem) noexcept {
     return ordered ? Status::ok : Status::invalid_settings;
 }
 
-// What a refused problem gets: the lower bounds, where they make sense, never pushing, never above.
+// Returns the tensions of a refused problem: the lower bounds where they are valid, never negative,
+// never above the upper bounds.
 TensionSolution refused(const TensionProblem &problem, Status status) noexcept {
     TensionSolution solution;
     solution.status = status;
@@ -319,7 +325,7 @@ TensionSolution solve_exactly(const TensionProblem &problem, const ActiveSet *wa
     solution.largest_error_n = system.gradient(solution.tensions_n, false).largest_force_n;
     solution.status = solved ? Status::ok : Status::not_converged;
     if (!std::isfinite(system.objective(solution.tensions_n))) {
-        return refused(problem, Status::not_converged); // finite input that overflows on the way
+        return refused(problem, Status::not_converged); // overflow in the computation
     }
     return solution;
 }

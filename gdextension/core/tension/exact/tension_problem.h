@@ -1,5 +1,5 @@
-// One bounded least-squares problem of the tensions, spelled out, and what solves it: tension_solver.h poses it from
-// settings and the last tick.
+// One bounded least-squares problem for the tensions, and the exact solver. tension_solver.h builds
+// the problem from settings and the last tick.
 #pragma once
 
 #include <bit>
@@ -16,10 +16,10 @@ namespace spidar {
 //   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2    subject to lower <= tau <= upper
 struct TensionProblem {
     WrenchMatrix matrix;
-    PaperWrench wrench{};   // q, the paper's order and g
+    PaperWrench wrench{};   // q, in the paper's order and with g
     PaperWeights weights{}; // diagonal of W
-    // Sum of all quadratic terms in tau alone, as one weight and one target per string:
-    // proximal_weight * (tau_i - proximal_target_i)^2. Weight > 0 makes the optimum unique.
+    // Weight of all quadratic terms in tau alone, combined into one weight and one target per
+    // string. A weight > 0 makes the optimum unique.
     double proximal_weight = 0.0;
     StringArray proximal_target_n{};
     StringArray lower_n{};
@@ -29,7 +29,7 @@ struct TensionProblem {
 enum class StringBound : std::uint8_t { free = 0, at_lower = 1, at_upper = 2 };
 using ActiveSet = std::array<StringBound, kStringCount>;
 
-// core/base/sound_state.h
+// Checks restored memory: see core/base/sound_state.h.
 [[nodiscard]] constexpr bool is_sound(const ActiveSet &active) noexcept {
     bool sound = true;
     for (const StringBound bound : active) {
@@ -42,13 +42,13 @@ struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
     double largest_error_n = 0.0; // max |W (A tau - q)|
-    int iterations = 0;           // factorisations
+    int iterations = 0;           // number of factorizations
     Status status = Status::ok;
 };
 
-// Exact optimum of `problem`, by a search that serves any weights, lost rank and zero multipliers. `warm` (may be null) is
-// a guess of the active set and changes only the time.
-// Not finite input: status not_finite, tensions = lower bounds clamped to [0, upper]. Never NaN.
+// Returns the exact optimum of `problem`, for any weights, lost rank and zero multipliers. warm
+// (may be null): a guess of the active set, which changes only the time. For input that is not
+// finite: status not_finite and tensions = lower bounds clamped to [0, upper]. Never NaN.
 [[nodiscard]] TensionSolution solve_exactly(const TensionProblem &problem,
                                             const ActiveSet *warm) noexcept;
 
@@ -64,8 +64,9 @@ using StringMask = std::uint8_t; // bit i: string i
     return static_cast<StringMask>(static_cast<unsigned>(mask) & ~(1U << string));
 }
 
-// The strings that are held at `bound`, at_lower or at_upper: its bit is looked for in each byte of the set, and the
-// product gathers the lowest bits of all eight bytes in its top byte.
+// Returns the strings held at `bound`, which must be at_lower or at_upper. The bit of `bound` is
+// taken from each byte of the set; the product gathers the lowest bits of all eight bytes in its
+// top byte.
 [[nodiscard]] inline StringMask strings_at(const ActiveSet &active, StringBound bound) noexcept {
     constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
     constexpr std::uint64_t kGather = 0x0102040810204080ULL;
@@ -74,9 +75,10 @@ using StringMask = std::uint8_t; // bit i: string i
     return static_cast<StringMask>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
-// The set of strings held at their lower and at their upper bounds; bits above the eighth do not count.
+// Returns the strings at their lower and upper bounds. Bits above the eighth are ignored.
 [[nodiscard]] inline ActiveSet active_set(unsigned at_lower, unsigned at_upper) noexcept {
-    // Bit k to the lowest bit of byte k: of eight copies each byte keeps its own bit, which carries into its top bit.
+    // Moves bit k to the lowest bit of byte k: of eight copies each byte keeps its own bit, which
+    // carries into its top bit.
     const auto a_byte_a_string = [](unsigned mask) {
         constexpr std::uint64_t kCopies = 0x0101010101010101ULL;
         constexpr std::uint64_t kOwnBit = 0x8040201008040201ULL;

@@ -1,4 +1,4 @@
-// The fast way to the optimum of a TensionProblem, which answers only what it can certify itself.
+// The fast solver of a TensionProblem. It answers only when it can certify its own answer.
 #pragma once
 
 #include "core/base/simd_level.h"
@@ -6,28 +6,30 @@
 
 namespace spidar {
 
-// Matrix and wrench are read where they lie, not from `problem`: a copy made a moment ago, in narrower pieces than the
-// vectors that read it, would stall every load.
+// Input of the fast solver. Matrix and wrench are read at their original place: vector loads from a
+// copy that was just written in narrower pieces would stall.
 struct FastInput {
-    const TensionProblem &problem; // all but those two
+    const TensionProblem &problem; // all members but matrix and wrench
     const WrenchMatrix &matrix;
     const PaperWrench &wrench;
 
-    // All of `problem`, its own matrix and wrench included.
+    // Uses all of `problem`, including its matrix and wrench.
     static FastInput of(const TensionProblem &problem) noexcept {
         return {problem, problem.matrix, problem.wrench};
     }
 };
 
-// True: `solution` is the optimum to rounding, its KKT conditions checked with a gradient taken from A itself, every
-// sign beyond its rounding. False: `solution` means nothing; the exact search decides (bad input, degenerate or
-// nearly singular problems). level: one that the processor supports.
+// Returns true when `solution` is the optimum to rounding: its KKT conditions were checked with a
+// gradient from A itself, each sign beyond its rounding. Returns false for bad input and for
+// degenerate or nearly singular problems: `solution` is then undefined and the exact solver must
+// decide. level: one that the processor supports.
 [[nodiscard]] bool solve_fast(const FastInput &input, const ActiveSet *warm, SimdLevel level,
                               TensionSolution &solution) noexcept;
 
-// The builds of it that solve_fast() chooses from.
+// The build of solve_fast() for SimdLevel::plain.
 [[nodiscard]] bool solve_fast_plain(const FastInput &input, const ActiveSet *warm,
                                     TensionSolution &solution) noexcept;
+// The build of solve_fast() for SimdLevel::avx2.
 [[nodiscard]] bool solve_fast_avx2(const FastInput &input, const ActiveSet *warm,
                                    TensionSolution &solution) noexcept;
 

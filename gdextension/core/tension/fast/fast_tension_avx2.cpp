@@ -1,5 +1,5 @@
-// The same kernel for AVX2 and FMA. Everything shared is included before the target changes: no inline function that
-// another source may call is compiled for AVX2 here.
+// The kernel of the fast solver compiled for AVX2 and FMA. Shared headers are included before the
+// target changes, so that no inline function of other sources is compiled for AVX2 here.
 #include "core/tension/fast/fast_tension.h"
 
 #include <array>

@@ -1,14 +1,14 @@
-// The fast path itself, for one vector type; included by the sources that compile it, each for its own target.
+// The fast solver for one vector type. Sources include it and compile it for their own target.
 //
 //   min ||R x - W q||^2 + w |x - t|^2,  lower <= x <= upper,   R = W A (7 x 8), H = R'R + w I
 //
-// 1. H is inverted on the strings taken as free by four symmetric 2 x 2 block pivots (the sweep operator), the
-//    division of each off the critical path. Held strings have a unit row and column.
-// 2. Principal pivots on that table bound and release strings until every tension is within its bounds and every
-//    slope at a bound has the right sign: one rank-1 update each.
-// 3. Newton corrections with the gradient taken from A itself. They are the certificate too: the tensions still
-//    free, the slopes of all held strings (those outside the table as well) and the rounding of the gradient are
-//    checked; a string held wrongly goes back to 1, anything in doubt is left to the exact search.
+// 1. H is inverted on the strings assumed free by four symmetric 2 x 2 block pivots (sweep
+// operator). Held strings have a unit row and column.
+// 2. Principal pivots on the resulting table hold and release strings, one rank-1 update each,
+// until every tension is within its bounds and every slope at a bound has the right sign.
+// 3. Newton corrections with the gradient from A itself follow. They also certify the answer:
+// tensions of free strings, slopes of all held strings and the rounding of the gradient are
+// checked. A string held wrongly restarts at 1; anything in doubt is left to the exact solver.
 #pragma once
 
 #include "core/tension/fast/fast_tension_limits.h"
@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-namespace { // each source compiles its own, for its own target
+namespace { // one copy per source, for its own target
 
 template <class Four>
 class FastTension {
@@ -32,7 +32,7 @@ public:
         int inversions = 0;
         int passes = 0;
         while (inversions < kTables) {
-            if (inversions++ > 0) { // read() has done it for the first
+            if (inversions++ > 0) { // read() has set the rows of the first table
                 table_.set_rows(rows_, table);
             }
             gradient();
@@ -48,7 +48,8 @@ public:
             if (!settle(passes)) {
                 return false;
             }
-            if (contraction_ > 0.0) { // pivots were made: that step says nothing of their table
+            if (contraction_ >
+                0.0) { // pivots changed the table: the first step says nothing about it
                 if (!(contraction_ <= kWorstContraction)) {
                     table = free_;
                     continue;
@@ -94,7 +95,8 @@ private:
         return ((mask >> string) & 1U) != 0U;
     }
 
-    // Bounds, target, start and R. False for bounds in disorder or nothing finite.
+    // Reads bounds, target, start and R. Returns false when a lower bound exceeds its upper bound
+    // or a value is not finite.
     bool read(const ActiveSet *warm) noexcept {
         const BoundRows<Four> bounds(p_);
         const auto &[lower, upper, target] = bounds;
@@ -122,7 +124,8 @@ private:
         return stiffness_ <= kWorstCondition * p_.proximal_weight;
     }
 
-    // R of four strings, for the table too: there without those outside it. The squares of its elements, summed over DOF.
+    // Reads R of four strings, and for the table only those in it. Returns the squares of the
+    // elements summed over DOF.
     [[gnu::always_inline]] Four read_half(std::size_t first, Four in_table) noexcept {
         const double *const columns[] = {&matrix_.columns[first][0], &matrix_.columns[first + 1][0],
                                          &matrix_.columns[first + 2][0],
@@ -146,7 +149,7 @@ private:
         return squares;
     }
 
-    // Two strings' share of A x.
+    // Adds the share of two strings in A x.
     template <int kFirst, int kLane>
     void add_columns(Four x, Four &f0, Four &f1, Four &b0, Four &b1) const noexcept {
         const Four x0 = x.template lane<kLane>();
@@ -157,7 +160,7 @@ private:
         b1 = Four::mul_add(Four::load(&matrix_.columns[kFirst + 1][3]), x1, b1);
     }
 
-    // Two DOF's share of R'f.
+    // Adds the share of two DOF in R'f.
     template <int kFirst, int kLane>
     void add_rows(Four force, Row &g, Row &h) const noexcept {
         const Four even = force.template lane<kLane>();
@@ -168,8 +171,9 @@ private:
         h.b = Four::mul_add(Four::load(&rows_[kFirst + 1][4]), odd, h.b);
     }
 
-    // Half the gradient at x_, every string, from A itself.
-    [[gnu::always_inline]] void gradient() noexcept { // else x_ and its results go through memory
+    // Computes half the gradient at x_ for every string, from A itself.
+    [[gnu::always_inline]] void
+    gradient() noexcept { // inlined: otherwise x_ and the results go through memory
         const Row x = Row::load(x_);
         Four f0 = Four::all(0.0) - Four::load(&wrench_[0]);
         Four f1 = Four::all(0.0);
@@ -194,7 +198,7 @@ private:
         gradient_ = {g.a + h.a, g.b + h.b};
     }
 
-    // x_ += Newton step of the `free` strings from gradient_.
+    // Adds the Newton step of the `free` strings for gradient_ to x_.
     void step(unsigned free) noexcept {
         const Row mask = Row::strings(free);
         const Row g{gradient_.a & mask.a, gradient_.b & mask.b};
@@ -205,7 +209,8 @@ private:
         largest_step_ = Four::max(d.a.absolute(), d.b.absolute()).largest();
     }
 
-    // Pivots until all strings of the table are within their ranges: tensions of the free ones, slopes of the held.
+    // Pivots until all strings of the table are within their ranges: tensions of the free strings,
+    // slopes of the held ones. Returns false when a pivot cancels or the passes run out.
     bool settle(int &passes) noexcept {
         const Row lower = Row::load(p_.lower_n.data());
         const Row upper = Row::load(p_.upper_n.data());
@@ -216,7 +221,7 @@ private:
             const Four out_a = Four::max(lower.a - x.a, x.a - upper.a);
             const Four out_b = Four::max(lower.b - x.b, x.b - upper.b);
             if (Row::bits((tolerance < out_a) & mask.a, (tolerance < out_b) & mask.b) == 0) {
-                return true; // the usual case of a warm tick
+                return true; // usual end of a warm tick
             }
             const double condition = stiffness_ * table_.softest(mask);
             contraction_ = kTableRounding * condition * condition;
@@ -262,7 +267,8 @@ private:
         return false;
     }
 
-    // Holds string c at the bound it passed, or releases it; y_ holds tensions of free, slopes of held strings.
+    // Holds string c at the bound it passed, or releases it. y_ holds the tensions of free strings
+    // and the slopes of held ones.
     void pivot(std::size_t c) noexcept {
         const bool was_free = has(free_, c);
         const bool to_low = y_[c] < least_[c];
@@ -296,11 +302,11 @@ private:
         table_.pivot(c, inverse, sign);
     }
 
-    // After a correction by d (largest) from where gradient_ was taken.
+    // Judges x_ after a correction whose largest element is d, from where gradient_ was computed.
     Verdict judge(double d) noexcept {
         const Row mask = Row::strings(free_);
         const double noise = kNoise * Four::max(front_.absolute(), back_.absolute()).largest();
-        // The noise of the gradient times the softest element of H^-1 moves a string.
+        // A string moves by at most the gradient's noise times the largest diagonal of H^-1.
         if (!(noise * table_.softest(mask) <= kNoiseMove_n)) {
             return Verdict::in_doubt;
         }
@@ -312,7 +318,7 @@ private:
         if (Row::bits(inside_a, inside_b) != 0xFFU) {
             return Verdict::in_doubt;
         }
-        // Slopes of held strings, positive when the bound is right; |H d| is at most its trace times d.
+        // rise: slope of each held string, positive when its bound is right. |H d| <= trace(H) d.
         const double slack = noise + stiffness_ * d;
         const Row at_high = Row::strings(high_);
         const Four zero = Four::all(0.0);
@@ -332,7 +338,7 @@ private:
         return d > kStep_n ? Verdict::correct_again : Verdict::in_doubt;
     }
 
-    // False where squares overflow.
+    // Writes the solution. Returns false where squares would overflow.
     bool report(int iterations, TensionSolution &solution) const noexcept {
         Row::load(x_).store(solution.tensions_n.data());
         solution.active = active_set(low_, high_);
@@ -356,9 +362,10 @@ private:
     Four back_{};
     double largest_step_ = 0.0;
     double stiffness_ = 0.0;   // trace of H
-    double contraction_ = 0.0; // of the corrections, at worst; 0 when no pivot was made
-    unsigned movable_ = 0;     // lower < upper
+    double contraction_ = 0.0; // worst contraction of the corrections; 0 when no pivot was made
+    unsigned movable_ = 0;     // strings with lower < upper
     unsigned low_ = 0;         // held at the lower bound
+    // held at the upper bound
     unsigned high_ = 0;
     unsigned free_ = 0;
     unsigned held_in_table_ = 0;

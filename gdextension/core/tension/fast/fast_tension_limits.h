@@ -1,4 +1,4 @@
-// Sizes and tolerances of the fast tension path, the same for every vector type.
+// Sizes and tolerances of the fast solver, equal for all vector types.
 #pragma once
 
 #include <cstddef>
@@ -8,34 +8,43 @@ namespace spidar {
 inline constexpr std::size_t kFastStrings = 8;
 inline constexpr std::size_t kFastDofs = 7;
 
-// Pivots of the table that are a smaller share of the mean diagonal of H (its square for pairs) have lost more digits
-// than the corrections can make good: they would contract too slowly to tell convergence from standstill.
+// Smallest usable pivot relative to the mean diagonal of H (its square for pairs). Smaller pivots
+// have lost so many digits that corrections contract too slowly to tell convergence from
+// standstill.
 inline constexpr double kCancelled = 1e-10;
+// Largest input that is accepted (unit: N).
 inline constexpr double kLargest = 1e12;
-// Trace of H over its smallest eigenvalue, at most: beyond, doubles do not tell H from a singular matrix.
+// Largest ratio of H's trace to its smallest eigenvalue. Beyond it doubles cannot tell H from a
+// singular matrix.
 inline constexpr double kWorstCondition = 1e15;
 
-// A correction shorter than this ends them. Longer ones do when the contraction seen, correction over first step,
-// leaves less than kLeft_n for the next.
+// A correction below this ends the corrections (unit: N).
 inline constexpr double kStep_n = 1e-13;
+// A correction d below kShort_n also ends them when the observed contraction leaves less than this
+// for the next (unit: N).
 inline constexpr double kLeft_n = 1e-14;
-inline constexpr double kShort_n = 1e-8; // not longer than this, whatever the contraction
+// Largest correction that can be the last one (unit: N).
+inline constexpr double kShort_n = 1e-8;
+// Corrections after which the exact solver takes over.
 inline constexpr int kCorrections = 4;
-// Rounding of the gradient as a share of the largest force that cancels in it, and how far it may move a string.
+// Rounding of the gradient as a share of the largest force that cancels in it.
 inline constexpr double kNoise = 2e-15;
+// Largest motion of a string by that rounding in a certified answer (unit: N).
 inline constexpr double kNoiseMove_n = 4e-12;
-// Pivots on a table inverted with condition c (trace of H times its softest element) leave elements that may be c times
-// smaller than what they are the difference of, which had lost c already: corrections with it contract by
-// kTableRounding c^2 at worst. Beyond kWorstContraction they may stand still, which looks like convergence: the
-// table is then inverted afresh on the strings that the pivots left free.
+// A table inverted with condition c (trace of H times its largest diagonal element) has lost a
+// factor c, and pivots on it may lose another: corrections contract by kTableRounding c^2 at worst.
 inline constexpr double kTableRounding = 1e-16;
+// Worst contraction that is accepted. Beyond it corrections may stand still, which looks like
+// convergence; the table is then inverted again for the strings that the pivots left free.
 inline constexpr double kWorstContraction = 1e-2;
-// What the table (about 1e-9 N at w = 1e-6) cannot tell from zero.
+// Rounding of the table (unit: N; about 1e-9 at w = 1e-6): smaller violations count as zero.
 inline constexpr double kTableTolerance = 1e-9;
-// Passes over all violated strings; then one at a time, the last first (Murty), which cannot cycle.
+// Passes that pivot all violated strings. Later passes pivot one string, the last first (Murty),
+// which cannot cycle.
 inline constexpr int kBlockPasses = 4;
 inline constexpr int kPasses = 24;
-inline constexpr int kTables = 4; // inversions; a warm start seldom needs a second
+// Largest number of inversions; a warm start seldom needs a second.
+inline constexpr int kTables = 4;
 inline constexpr double kOpen = 1e300;
 inline constexpr double kLargestForce_n = 1e150; // its square is still finite
 

@@ -1,11 +1,12 @@
-// Four doubles in one 32-byte vector with fused multiply-add. For sources compiled for AVX2 and FMA only.
+// Four doubles in one 32-byte vector with fused multiply-add, for sources compiled for AVX2 and
+// FMA. The operations are documented in simd_four_plain.h.
 #pragma once
 
 #include <immintrin.h>
 
 namespace spidar {
 
-namespace { // each source compiles its own, for its own target
+namespace { // one copy per source, for its own target
 
 class FourAvx2 {
 public:
@@ -26,7 +27,7 @@ public:
     FourAvx2 operator&(FourAvx2 y) const noexcept { return _mm256_and_pd(v_, y.v_); }
     FourAvx2 operator<(FourAvx2 y) const noexcept { return _mm256_cmp_pd(v_, y.v_, _CMP_LT_OQ); }
     FourAvx2 operator<=(FourAvx2 y) const noexcept { return _mm256_cmp_pd(v_, y.v_, _CMP_LE_OQ); }
-    // Not blendv, which takes three micro-operations, and a compare before it that gcc adds.
+    // Not blendv: it takes three micro-operations, and gcc adds a compare.
     static FourAvx2 select(FourAvx2 mask, FourAvx2 yes, FourAvx2 no) noexcept {
         return _mm256_or_pd(_mm256_and_pd(mask.v_, yes.v_), _mm256_andnot_pd(mask.v_, no.v_));
     }
@@ -55,7 +56,7 @@ public:
     [[nodiscard]] FourAvx2 with_lane(FourAvx2 x) const noexcept {
         return _mm256_blend_pd(v_, x.v_, 1 << kLane);
     }
-    // The transpose of what lies at the four places, without the shuffles that loads can do.
+    // Loads the transpose of the four rows without the shuffles that loads can replace.
     static void load_transposed(const double *p0, const double *p1, const double *p2,
                                 const double *p3, FourAvx2 &r0, FourAvx2 &r1, FourAvx2 &r2,
                                 FourAvx2 &r3) noexcept {

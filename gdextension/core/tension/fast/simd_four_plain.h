@@ -1,10 +1,10 @@
-// Four doubles in two 16-byte vectors: SSE2 and NEON. Operations as in simd_four_avx2.h. A mask is four doubles of all ones or all
-// zeros.
+// Four doubles in two 16-byte vectors (SSE2 or NEON), with the operations of simd_four_avx2.h. A
+// mask has all bits of a lane set or none.
 #pragma once
 
 namespace spidar {
 
-namespace { // each source compiles its own, for its own target
+namespace { // one copy per source, for its own target
 
 class FourPlain {
     typedef double Pair __attribute__((vector_size(16)));
@@ -34,9 +34,9 @@ public:
     friend FourPlain operator/(FourPlain x, FourPlain y) noexcept {
         return {x.a_ / y.a_, x.b_ / y.b_};
     }
-    // x y + z
+    // Returns x y + z.
     static FourPlain mul_add(FourPlain x, FourPlain y, FourPlain z) noexcept { return x * y + z; }
-    // z - x y
+    // Returns z - x y.
     static FourPlain sub_mul(FourPlain x, FourPlain y, FourPlain z) noexcept { return z - x * y; }
     friend FourPlain operator&(FourPlain x, FourPlain y) noexcept {
         return {Pair(Bits(x.a_) & Bits(y.a_)), Pair(Bits(x.b_) & Bits(y.b_))};
@@ -57,14 +57,14 @@ public:
         const Bits sign = {0x7FFFFFFFFFFFFFFF, 0x7FFFFFFFFFFFFFFF};
         return {Pair(Bits(a_) & sign), Pair(Bits(b_) & sign)};
     }
-    // The second where either is NaN.
+    // Returns y in lanes where either is NaN.
     static FourPlain max(FourPlain x, FourPlain y) noexcept {
         return {x.a_ > y.a_ ? x.a_ : y.a_, x.b_ > y.b_ ? x.b_ : y.b_};
     }
     static FourPlain min(FourPlain x, FourPlain y) noexcept {
         return {x.a_ < y.a_ ? x.a_ : y.a_, x.b_ < y.b_ ? x.b_ : y.b_};
     }
-    // One bit a lane of a mask.
+    // Returns one bit per lane of a mask.
     [[nodiscard]] unsigned bits() const noexcept {
 #if defined(__SSE2__)
         return static_cast<unsigned>(__builtin_ia32_movmskpd(a_) |
@@ -80,18 +80,18 @@ public:
         const double v = kLane < 2 ? a_[kLane & 1] : b_[kLane & 1];
         return all(v);
     }
-    // Lanes kLane and kLane + 1 (kLane 0 or 2) become x and y.
+    // Returns a copy with the first lanes of x and y in lanes kLane and kLane + 1 (kLane: 0 or 2).
     template <int kLane>
     [[nodiscard]] FourPlain with_pair(FourPlain x, FourPlain y) const noexcept {
         const Pair pair = {x.a_[0], y.a_[0]};
         return kLane == 0 ? FourPlain{pair, b_} : FourPlain{a_, pair};
     }
-    // The same two lanes become zero.
+    // Returns a copy with lanes kLane and kLane + 1 zero.
     template <int kLane>
     [[nodiscard]] FourPlain without_pair() const noexcept {
         return kLane == 0 ? FourPlain{Pair{}, b_} : FourPlain{a_, Pair{}};
     }
-    // Lane kLane becomes that of x.
+    // Returns a copy with lane kLane taken from x.
     template <int kLane>
     [[nodiscard]] FourPlain with_lane(FourPlain x) const noexcept {
         FourPlain made = *this;

@@ -1,6 +1,6 @@
-// The symmetric table of principal pivots: H swept on the free strings F,
-//   T_FF = -H_FF^-1,  T_FB = H_FF^-1 H_FB,  T_BB = H_BB - H_BF H_FF^-1 H_FB,
-// for one vector type; see fast_tension_kernel.h.
+// The symmetric table of principal pivots: H swept on the free strings F, for one vector type,
+//   T_FF = -H_FF^-1,  T_FB = H_FF^-1 H_FB,  T_BB = H_BB - H_BF H_FF^-1 H_FB.
+// See fast_tension_kernel.h.
 #pragma once
 
 #include "core/tension/fast/fast_tension_limits.h"
@@ -14,9 +14,9 @@ alignas(32) inline constexpr std::uint64_t kLanes[16][4] = {
     {0, 0, 0, kOn},   {kOn, 0, 0, kOn},   {0, kOn, 0, kOn},   {kOn, kOn, 0, kOn},
     {0, 0, kOn, kOn}, {kOn, 0, kOn, kOn}, {0, kOn, kOn, kOn}, {kOn, kOn, kOn, kOn}};
 
-namespace { // each source compiles its own, for its own target
+namespace { // one copy per source, for its own target
 
-// One value a string.
+// One value per string.
 template <class Four>
 struct StringRow {
     Four a{}; // strings 0-3
@@ -26,15 +26,17 @@ struct StringRow {
         a.store(p);
         b.store(p + 4);
     }
-    // A mask of four, of eight, and back.
+    // Returns the lane mask of the lowest four bits.
     static Four lanes(unsigned four) noexcept {
         return Four::load(reinterpret_cast<const double *>(kLanes[four & 15U]));
     }
+    // Returns the lane masks of eight bits.
     static StringRow strings(unsigned mask) noexcept { return {lanes(mask), lanes(mask >> 4U)}; }
+    // Returns the eight bits of two lane masks.
     static unsigned bits(Four a, Four b) noexcept { return a.bits() | (b.bits() << 4U); }
 };
 
-// What keeps a problem's tensions in place, read where it lies.
+// Bounds and target of a problem, read from the problem itself.
 template <class Four>
 struct BoundRows {
     using Row = StringRow<Four>;
@@ -46,7 +48,7 @@ struct BoundRows {
         : lower(Row::load(problem.lower_n.data())), upper(Row::load(problem.upper_n.data())),
           target(Row::load(problem.proximal_target_n.data())) {}
 
-    // False for bounds in disorder and for what is not finite.
+    // False when a lower bound exceeds its upper bound or a value is not finite or above kLargest.
     [[nodiscard]] bool sound() const noexcept {
         const Four most = Four::all(kLargest);
         const Four size_a = lower.a.absolute() + upper.a.absolute() + target.a.absolute();
@@ -54,7 +56,7 @@ struct BoundRows {
         return Row::bits((lower.a <= upper.a) & (size_a <= most),
                          (lower.b <= upper.b) & (size_b <= most)) == 0xFFU;
     }
-    // Strings whose bounds leave them a range.
+    // Returns the strings whose bounds differ.
     [[nodiscard]] unsigned movable() const noexcept {
         return Row::bits(lower.a < upper.a, lower.b < upper.b);
     }
@@ -65,8 +67,9 @@ class SweepTable {
 public:
     using Row = StringRow<Four>;
 
-    // R of one DOF for the next invert(): zero for strings outside its table.
+    // Row of R for one DOF, used by the next invert(). Must be zero for strings outside the table.
     [[nodiscard]] double *rows(std::size_t dof) noexcept { return rows_[dof]; }
+    // Sets R for the strings of `table`.
     void set_rows(const double (&rows)[kFastDofs][kFastStrings], unsigned table) noexcept {
         const Row mask = Row::strings(table);
         for (std::size_t k = 0; k < kFastDofs; ++k) {
@@ -75,7 +78,7 @@ public:
         }
     }
 
-    // The table of H swept on `table`: -H^-1 there, unit rows elsewhere.
+    // Computes the table of H swept on `table`: -H^-1 there, unit rows elsewhere.
     void invert(double weight, unsigned table) noexcept {
         const Row mask = Row::strings(table);
         const auto &m = rows_;
@@ -89,7 +92,7 @@ public:
             t[i].a = i < 4 ? diagonal.a & own : Four::all(0.0);
             t[i].b = i < 4 ? Four::all(0.0) : diagonal.b & own;
         }
-        // The lower left quarter is the upper right one turned over: it is left out until a pivot row needs it.
+        // The lower left quarter is the transpose of the upper right one, filled in when needed.
 #pragma GCC unroll 2
         for (std::size_t i = 0; i < 4; i += 2) {
 #pragma GCC unroll 7
@@ -122,20 +125,21 @@ public:
         sweep_pair<4>(t, smallest);
         sweep_pair<6>(t, smallest);
         smallest_pivot_ = smallest.first();
-#pragma GCC unroll 8 // else the rows go through memory twice
+#pragma GCC unroll 8 // otherwise the rows go through memory twice
         for (std::size_t i = 0; i < kFastStrings; ++i) {
             t[i].store(table_[i]);
         }
     }
 
-    // The sweep of string c: sign is -1 when it was swept before (free), +1 when not; inverse = 1 / at(c).
+    // Sweeps string c. sign: -1 when c was swept before (free), +1 when not. inverse: 1 / at(c).
     void pivot(std::size_t c, double inverse, double sign) noexcept {
         const Row row = Row::load(table_[c]);
         const Row own = Row::strings(1U << c);
         const Row others = Row::strings(0xFFU & ~(1U << c));
         const Four inv = Four::all(inverse);
-        // Column c becomes sign T_cr / T_cc, as row c does: from nothing, since the difference of T_rc and
-        // T_cr (1 - sign / T_cc) would be rounding alone where T_cc is large.
+        // Column c becomes sign T_cr / T_cc, like row c. It is computed afresh, since the
+        // difference of T_rc and T_cr (1 - sign / T_cc) would be rounding alone where T_cc is
+        // large.
         const Four corner = Four::all(-sign * inverse);
         const Row w{Four::select(own.a, corner, row.a * inv),
                     Four::select(own.b, corner, row.b * inv)};
@@ -165,7 +169,7 @@ public:
         return smallest_pivot_;
     }
 
-    // Largest diagonal element within the mask.
+    // Largest absolute diagonal element within the mask.
     [[nodiscard]] double softest(const Row &mask) const noexcept {
         Four a = Four::load(table_[0]);
         a = a.template with_lane<1>(Four::load(table_[1]));
@@ -178,6 +182,7 @@ public:
         return Four::max(a.absolute() & mask.a, b.absolute() & mask.b).largest();
     }
 
+    // Returns T g.
     [[nodiscard]] Row times(const Row &g) const noexcept {
         Row even{Four::all(0.0), Four::all(0.0)};
         Row odd = even;
@@ -194,16 +199,18 @@ private:
         return kPair < 4 ? r.a : r.b;
     }
 
-    // Rows kPair and kPair + 1 as they were, and adj(T_PP) T_PR: what a sweep of the pair takes off the other rows.
+    // Rows kPair and kPair + 1 before the sweep (p, q), and adj(T_PP) T_PR (u, v), which the other
+    // rows lose.
     struct Sweep {
         Row p;
         Row q;
         Row u;
         Row v;
-        Four inverse; // of the pair's determinant
+        Four inverse; // 1 / determinant of the pair
     };
 
-    // Sweeps rows kPair and kPair + 1 together. T_RR - T_RP adj(T_PP) T_PR / det: the products do not wait for 1 / det.
+    // Sweeps rows kPair and kPair + 1 together: T_RR - T_RP adj(T_PP) T_PR / det. The products do
+    // not wait for 1 / det.
     template <int kPair>
     static void sweep_pair(Row (&t)[kFastStrings], Four &smallest) noexcept {
         constexpr int kLane = kPair & 3;
@@ -225,7 +232,8 @@ private:
         t[kPair + 1] = {inverse * v.a, inverse * v.b};
     }
 
-    // The other six, those of the next pair first: the next division then waits for nothing else.
+    // Sweeps the other six rows. The rows of the next pair come first, so that the next division
+    // need not wait for the rest.
     template <int kPair, int... kStep>
     static void sweep_rows(Row (&t)[kFastStrings], const Sweep &sweep,
                            std::integer_sequence<int, kStep...>) noexcept {
@@ -236,7 +244,8 @@ private:
     static void sweep_row(Row &row, const Sweep &sweep) noexcept {
         constexpr int kLane = kPair & 3;
         const auto &[p, q, u, v, inverse] = sweep;
-        if constexpr (kPair < 4 && kRow >= 4) { // the lower left quarter is left out: T_rP = T_Pr
+        if constexpr (kPair < 4 &&
+                      kRow >= 4) { // the lower left quarter is not filled yet: T_rP = T_Pr
             const Four x = p.b.template lane<kRow & 3>();
             const Four y = q.b.template lane<kRow & 3>();
             row.b = Four::sub_mul(inverse, Four::mul_add(x, u.b, y * v.b), row.b);

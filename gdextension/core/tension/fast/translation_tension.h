@@ -1,10 +1,11 @@
-// Forces alone (the first three DOF): three unknowns in place of eight tensions.
+// Tensions for forces alone (the first three DOF): three unknowns in place of eight tensions.
 //
 //   min ||R x - b||^2 + w |x - t|^2,  lower <= x <= upper,   R = W A (3 x 8), b = W q
 //
-// is met by x = clamp(t + R'z), z the one root of  b - R x(z) - w z = 0: monotone and piecewise linear, so Newton's
-// method on it (its Jacobian R_F R_F' + w I, F the strings not clamped) ends in a few steps, warm mostly in one.
-// Included by the sources that compile it, each for its own target.
+// The solution is x = clamp(t + R'z), where z is the one root of b - R x(z) - w z = 0. That
+// function is monotone and piecewise linear, so that Newton's method (Jacobian R_F R_F' + w I, F:
+// strings not clamped) ends in a few steps, warm mostly in one. Sources include this file and
+// compile it for their own target.
 #pragma once
 
 #include "core/tension/fast/fast_tension_limits.h"
@@ -12,10 +13,10 @@
 
 namespace spidar {
 
-// Newton steps until the general path takes over: strings may swap for ever in theory.
+// Newton steps after which the general solver takes over, since strings could swap endlessly.
 inline constexpr int kTranslationSteps = 16;
 
-namespace { // each source compiles its own, for its own target
+namespace { // one copy per source, for its own target
 
 // NOLINTNEXTLINE(misc-definitions-in-headers): `inline` would let the linker mix the targets
 [[nodiscard]] bool is_translation_only(const TensionProblem &problem) noexcept {
@@ -29,7 +30,7 @@ public:
     explicit TranslationTension(const FastInput &input) noexcept
         : p_(input.problem), matrix_(input.matrix), wrench_(input.wrench) {}
 
-    // False: `solution` means nothing, as for solve_fast().
+    // As solve_fast(): returns false when `solution` is undefined.
     bool run(const ActiveSet *warm, TensionSolution &solution) noexcept {
         const BoundRows<Four> bounds(p_);
         const auto &[lower, upper, target] = bounds;
@@ -51,7 +52,7 @@ public:
         }
         const Row at_low = Row::strings(low);
         const Row at_high = Row::strings(high);
-        // The first step takes the guess at its word: strings thought free are free, wherever they start.
+        // The first step trusts the guess: strings assumed free count as free wherever they start.
         Row x{Four::select(at_low.a, lower.a, Four::select(at_high.a, upper.a, target.a)),
               Four::select(at_low.b, lower.b, Four::select(at_high.b, upper.b, target.b))};
         unsigned free = movable & ~(low | high);
@@ -59,7 +60,7 @@ public:
         double z1 = 0.0;
         double z2 = 0.0;
         bool same = false;
-        bool settled = false; // x is t + R'z, clamped where it was thought to be
+        bool settled = false; // x is t + R'z, clamped at the assumed bounds
         for (int step = 0; step < kTranslationSteps; ++step) {
             if (!same && !factor(free)) {
                 return false;
@@ -67,7 +68,7 @@ public:
             const double r0 = b0 - dot(row_[0], x) - w * z0;
             const double r1 = b1 - dot(row_[1], x) - w * z1;
             const double r2 = b2 - dot(row_[2], x) - w * z2;
-            // The step times the determinant: nothing waits for the division but what needs it.
+            // Computes the step times the determinant: only the update of x waits for the division.
             const double e0 = adjugate_[0] * r0 + adjugate_[1] * r1 + adjugate_[2] * r2;
             const double e1 = adjugate_[1] * r0 + adjugate_[3] * r1 + adjugate_[4] * r2;
             const double e2 = adjugate_[2] * r0 + adjugate_[4] * r1 + adjugate_[5] * r2;
@@ -76,7 +77,7 @@ public:
                 return report(x, low, high, step, largest_of(w * z0, w * z1, w * z2),
                               largest_of(b0, b1, b2), solution);
             }
-            // From z afresh: summed up u would keep the rounding of a far start.
+            // Computed from z: summing up u would keep the rounding of a distant start.
             const Row away = combine(z0, z1, z2);
             const Row move = combine(e0, e1, e2);
             const Four over = Four::all(over_);
@@ -110,7 +111,7 @@ private:
     }
 
     void read_half(std::size_t first) noexcept {
-        Four c0, c1, c2, c3; // the fourth is not needed
+        Four c0, c1, c2, c3; // c3 is not needed
         Four::load_transposed(&matrix_.columns[first][0], &matrix_.columns[first + 1][0],
                               &matrix_.columns[first + 2][0], &matrix_.columns[first + 3][0], c0,
                               c1, c2, c3);
@@ -123,7 +124,7 @@ private:
         return Four::mul_add(p.a, q.a, p.b * q.b).sum();
     }
 
-    // R'd
+    // Returns R'd.
     [[nodiscard]] Row combine(double d0, double d1, double d2) const noexcept {
         const Four f0 = Four::all(d0);
         const Four f1 = Four::all(d1);
@@ -132,7 +133,7 @@ private:
                 Four::mul_add(row_[2].b, f2, Four::mul_add(row_[1].b, f1, row_[0].b * f0))};
     }
 
-    // Inverse of R_F R_F' + w I as adjugate over determinant. False where it has cancelled.
+    // Inverts R_F R_F' + w I as adjugate over determinant. Returns false where the latter cancels.
     bool factor(unsigned free) noexcept {
         const Row mask = Row::strings(free);
         const Row m0{row_[0].a & mask.a, row_[0].b & mask.b};
@@ -160,7 +161,7 @@ private:
 
     bool report(const Row &x, unsigned low, unsigned high, int steps, double error_n,
                 double request_n, TensionSolution &solution) const noexcept {
-        // Rounding of the residual moves a string by this at most: s / (s^2 + w) is largest at s^2 = w.
+        // Rounding of the residual moves a string by at most this: s / (s^2 + w) peaks at s^2 = w.
         const double noise = kNoise * (error_n + request_n);
         if (!(noise * noise <= 4.0 * p_.proximal_weight * kNoiseMove_n * kNoiseMove_n)) {
             return false;
@@ -180,7 +181,7 @@ private:
     double adjugate_[6]; // xx xy xz yy yz zz
     double over_ = 0.0;  // 1 / determinant
     double trace_ = 0.0; // of R_F R_F' + w I
-    double least_ = 0.0; // a step below this, times the determinant, is none
+    double least_ = 0.0; // a step below this, times the determinant, ends the iteration
 };
 
 } // namespace

@@ -1,5 +1,5 @@
-// The shapes of the scene that lie near the tool, as a game publishes them once a tick. Device frame, SI: already divided
-// by the workspace's scale.
+// The shapes of the scene near the tool, as a game publishes them once per tick. Device frame, SI
+// units, with the workspace scale removed.
 #pragma once
 
 #include <array>
@@ -19,30 +19,35 @@ struct ScenePart {
     Placement at;
     Vec3 velocity_m_s{0.0}; // of at.origin_m
     Vec3 angular_rad_s{0.0};
-    // How its surface runs along itself while the shape stands still, beside the motion above: the belt of a conveyor, a turning
-    // table. Felt by friction alone. Velocity at at.origin_m.
+    // Velocity at at.origin_m of a surface that runs along itself while the shape stands still,
+    // such as a conveyor belt or a turntable. It adds to the motion above and is felt by friction
+    // only.
     Vec3 belt_m_s{0.0};
+    // Turn rate of such a surface.
     Vec3 belt_rad_s{0.0};
-    // Of this part's own surface, in series with the tool's; 0: it does not give way.
+    // Stiffness of this part's surface, in series with the tool's. 0: rigid.
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
-    double friction = 0.0; // Coulomb coefficient, of a contact that slips
+    // Coulomb coefficient of a sliding contact.
+    double friction = 0.0;
     SurfaceTraits traits;
-    std::int32_t id = 0;              // of this shape of this body; persistent
-    std::uint8_t groups = kAllGroups; // what of the tool touches it
+    // Persistent id of this shape of this body.
+    std::int32_t id = 0;
+    // Groups of tool parts that touch this part.
+    std::uint8_t groups = kAllGroups;
 };
 
-// The part of it that lies in a surface with this normal.
+// Returns the part of v that lies in a surface with this normal.
 [[nodiscard]] inline Vec3 along_surface(const Vec3 &v, const Vec3 &normal) noexcept {
     return v - glm::dot(normal, v) * normal;
 }
 
-// Of the shape where point_m is.
+// Returns the velocity of the shape at point_m.
 [[nodiscard]] inline Vec3 surface_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
     return part.velocity_m_s + glm::cross(part.angular_rad_s, point_m - part.at.origin_m);
 }
 
-// What rubs on the tool where point_m is. Only its part along the surface means anything.
+// Returns the velocity of the surface at point_m. Only its component along the surface acts.
 [[nodiscard]] inline Vec3 rubbing_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
     return surface_velocity(part, point_m) + part.belt_m_s +
            glm::cross(part.belt_rad_s, point_m - part.at.origin_m);

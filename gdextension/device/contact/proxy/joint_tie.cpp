@@ -16,18 +16,20 @@ namespace spidar {
 
 namespace {
 
-// What a joint was off when it was caught is given back in this time: the physics engine holds joints to a fraction of a
-// millimetre, and so much at once would be a blow.
+// Time over which the offset of a joint that was just grasped is corrected. The physics engine
+// holds joints to a fraction of a millimeter, and correcting that at once would be felt as a jolt.
 constexpr double kGivesBack_s = 0.1;
-// A spring comes, goes and changes in this time.
+// Time over which a spring appears, disappears or changes.
 constexpr double kSpringTime_s = 0.02;
-// Of a row of unit stiffness, what is left of it beside the others when it says nothing new, as of two hinges of one door. So
-// small a rest, 2 degrees, would turn the little by which two joints contradict each other into a large move.
+// Smallest independent part of a row of unit stiffness; below it the row repeats others, as with
+// two hinges of one door. A remainder this small (2 degrees) would turn a slight contradiction of
+// two joints into a large move.
 constexpr double kDependent = 1e-3;
-// With 1, a knob that is turned at random for ten minutes at 1 ms and 1 kHz gives 0.04 J, without any 0.29 J.
+// Damping of springs relative to the damping time. With 1, a knob that is turned at random for ten
+// minutes at 1 ms latency and 1 kHz adds 0.04 J, without damping 0.29 J.
 constexpr double kSpringDamping = 1.5;
 
-// The only axis about which it turns; -1: about none or several.
+// Returns the only axis about which the joint turns; -1 for none or several.
 int hinge_axis(const ToolJoint &joint) noexcept {
     int found = -1;
     int count = 0;
@@ -40,7 +42,7 @@ int hinge_axis(const ToolJoint &joint) noexcept {
     return count == 1 ? found : -1;
 }
 
-// d(rotation vector) / d(turn), the turn along the base's axes: row i of it.
+// Returns row i of d(rotation vector) / d(turn), with the turn along the base's axes.
 Vec3 log_row(const Vec3 &log, int i) noexcept {
     Vec3 unit(0.0);
     unit[i] = 1.0;
@@ -70,7 +72,7 @@ JointTie::Coordinates JointTie::coordinates_of(const ToolJoint &joint, const Too
     if (hinge >= 0) {
         const int next = (hinge + 1) % 3;
         const int last = (hinge + 2) % 3;
-        // How far its axis leans.
+        // The inclination of the joint's axis.
         Vec3 unit(0.0);
         unit[hinge] = 1.0;
         turns = rotation_between(unit, turn[hinge]);
@@ -127,7 +129,7 @@ void JointTie::advance(double dt_s) noexcept {
     }
 }
 
-// Beside the rows that are locked already.
+// Locks a row besides those that are locked already.
 void JointTie::lock(Move row, double least, double carried) noexcept {
     const double whole = dot(row, row);
     for (int i = 0; i < locked_count_; ++i) {
@@ -200,7 +202,7 @@ void JointTie::look(const ToolPose &pose, const Move &root, double damping_s,
     for (int j = 0; j < count_; ++j) {
         look_at(states_[static_cast<std::size_t>(j)], pose, root);
     }
-    // What is locked is known now: the others act in what is left.
+    // All locked rows are known now: the others act in the remaining moves.
     for (int i = 0; i < force_count_; ++i) {
         Force &force = forces_[static_cast<std::size_t>(i)];
         force.now += dot(force.row, correction_);
@@ -210,7 +212,7 @@ void JointTie::look(const ToolPose &pose, const Move &root, double damping_s,
         }
         const JointAxis &rule = force.axis;
         if (rule.is_limited() && limit_count_ < kMaxLimits) {
-            // The end that is nearer.
+            // Uses the nearer end.
             const bool low = force.now - rule.lower < rule.upper - force.now;
             Limit &limit = limits_[static_cast<std::size_t>(limit_count_++)];
             limit = {};

@@ -1,7 +1,8 @@
-// The joints of a tool in the proxy's problem: the moves that they leave, and the springs, dampers and motors along those.
-// A locked axis is no row that the solver weighs: the problem is taken to the moves that keep it, so that it holds
-// exactly, at any push. Springs, dampers and motors are solved implicitly: none of them is too stiff or too fast for a servo
-// cycle, and none gives energy beyond a motor's own.
+// The joints of a tool in the proxy's problem: the moves that they allow, and the springs, dampers
+// and motors along these. A locked axis is not a weighted row: the problem is restricted to the
+// moves that keep the axis locked, so that it holds exactly under any push. Springs, dampers and
+// motors are solved implicitly: none is too stiff or too fast for a servo cycle, and only motors
+// add energy.
 #pragma once
 
 #include <array>
@@ -17,32 +18,33 @@ inline constexpr int kMaxTieRows = 6 * kMaxToolJoints;
 
 class JointTie {
 public:
-    // The joints of a new scene, as they will be in later_s. What the same joint is corrected by since the last scene is
-    // given back slowly.
+    // Takes the joints of a new scene, as they will be in later_s. The correction of a known joint
+    // since the last scene is applied slowly.
     void accept(const Tool &tool, double later_s, const ToolPose &pose) noexcept;
     [[nodiscard]] bool is_tied() const noexcept { return count_ > 0; }
-    // Once a cycle: where the joints' other bodies are at its end.
+    // Moves the joints' bases to the end of this cycle. Called once per cycle.
     void advance(double dt_s) noexcept;
-    // What the joints leave at this pose. root: of the stiffnesses. damping_s: of contacts. A spring is damped by at
-    // least kSpringDamping of that, in parts of its stiffness: without any, the link's latency would let it give energy.
+    // Computes what the joints allow at this pose. root: square root of the stiffnesses. damping_s:
+    // damping time of contacts. A spring is damped by at least kSpringDamping of that time: without
+    // damping the link's latency would let it add energy.
     void look(const ToolPose &pose, const Move &root, double damping_s, double dt_s) noexcept;
-    // The coordinates at the end of the cycle.
+    // Stores the coordinates at the end of the cycle.
     void settle(const ToolPose &pose) noexcept;
 
-    // Of a move, the part that the joints leave.
+    // Returns the part of a move that the joints allow.
     [[nodiscard]] Move left(const Move &move) const noexcept;
-    // The same of a row of the problem. False: the joints leave nothing of it but rounding, so no move can do anything about it.
+    // Projects a row likewise. Returns false when no move affects the row, to within rounding.
     [[nodiscard]] bool leave(Move &row) const noexcept;
-    // The part that they lock.
+    // Returns the part of a move that the joints lock.
     [[nodiscard]] Move locked(const Move &move) const noexcept;
-    // What brings the tool back to where locked axes belong.
+    // The move that brings the locked axes back to their targets.
     [[nodiscard]] const Move &correction() const noexcept { return correction_; }
-    // How far springs, dampers and motors move a target, which lies in what is left.
+    // Returns how far springs, dampers and motors shift a target within the allowed moves.
     [[nodiscard]] Move bend(const Move &target) const noexcept;
-    // How fast the other bodies carry the locked axes along.
+    // The move of the locked axes with the bases in this cycle.
     [[nodiscard]] const Move &carried() const noexcept { return carried_; }
 
-    // The limits: row . move >= least for a move in what is left, beside the correction.
+    // Limits of the joints: row . move >= least, for an allowed move besides the correction.
     [[nodiscard]] int limit_count() const noexcept { return limit_count_; }
     [[nodiscard]] const Move &limit_row(int i) const noexcept {
         return limits_[static_cast<std::size_t>(i)].row;
@@ -50,20 +52,22 @@ public:
     [[nodiscard]] double limit_least(int i) const noexcept {
         return limits_[static_cast<std::size_t>(i)].least;
     }
-    // Coordinates of the first joint, for tests and reports.
+    // A coordinate of the first joint, for tests and reports.
     [[nodiscard]] double coordinate(int axis) const noexcept {
         return states_[0].at[static_cast<std::size_t>(axis)];
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
 
 private:
     using Coordinates = std::array<double, 6>;
     struct State {
         ToolJoint joint;
-        Coordinates at{};        // at the end of the last cycle
-        Coordinates slack{};     // what is left of where it was off when it was caught or corrected
-        Coordinates stiffness{}; // of the springs now: they come and change gradually
+        Coordinates at{}; // at the end of the last cycle
+        // Remaining offset from when the joint was grasped or corrected.
+        Coordinates slack{};
+        // Present stiffness of the springs, which changes gradually.
+        Coordinates stiffness{};
         bool begun = false;
     };
     struct Limit {
@@ -77,7 +81,7 @@ private:
         double before = 0.0; // at the end of the last cycle
     };
 
-    // near: of the last cycle, for turns beyond half a one.
+    // near: coordinates of the last cycle, for turns beyond half a turn.
     [[nodiscard]] static Coordinates coordinates_of(const ToolJoint &joint, const ToolPose &pose,
                                                     const Coordinates &near) noexcept;
     void look_at(State &state, const ToolPose &pose, const Move &root) noexcept;

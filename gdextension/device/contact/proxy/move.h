@@ -1,4 +1,4 @@
-// Moves of the tool in units of sqrt(energy), as god_object.h has them: seven DOF and a lane of zero.
+// A move of the tool in units of sqrt(energy), as in god_object.h: seven DOF and a lane of zero.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline void add(Move &to, double factor, const Move &what) noexcept {
     }
 }
 
-// root: of the stiffnesses. A displacement or a velocity as a move.
+// Converts a displacement or velocity to a move. root: square root of the stiffnesses.
 [[nodiscard]] inline Move times(const DofLanes &row, const Move &root) noexcept {
     Move move{};
     for (std::size_t dof = 0; dof < row.size(); ++dof) {
@@ -32,7 +32,7 @@ inline void add(Move &to, double factor, const Move &what) noexcept {
     return move;
 }
 
-// What a force does along each DOF, or how a point moves with each, as a row of moves.
+// Converts a force per DOF, or the motion of a point per DOF, to a row for moves.
 [[nodiscard]] inline Move over(const DofLanes &row, const Move &root) noexcept {
     Move move{};
     for (std::size_t dof = 0; dof < row.size(); ++dof) {

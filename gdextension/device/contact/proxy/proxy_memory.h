@@ -1,4 +1,4 @@
-// What the closest points of many pairs of shapes remember from cycle to cycle.
+// Memory of the closest points of many pairs of shapes, from cycle to cycle.
 #pragma once
 
 #include <array>
@@ -11,14 +11,15 @@
 
 namespace spidar {
 
-// It saves time and changes no answer (PairMemory). Large, and made where it may be allocated: not in the servo loop.
+// It saves time and changes no answer (see PairMemory). Large: allocate it outside the servo loop.
 class ProxyMemory {
 public:
     ProxyMemory();
-    // Of this pair; another pair's is forgotten for it when there are many, and its own when a shape is another one.
+    // Returns the memory of a pair. When all are in use, another pair is forgotten. The memory
+    // restarts when a shape of the pair has changed.
     [[nodiscard]] PairMemory &of(const ToolPart &tool, const ScenePart &scene) noexcept;
 
-    // As new.
+    // Forgets all pairs.
     void forget() noexcept;
 
 private:

@@ -9,7 +9,7 @@ namespace spidar {
 
 namespace {
 
-// Rows that say the same, as of two motors on one axis, share: this much of a row's own softness.
+// Relative softness of each row, so that equal rows share, as two motors on one axis.
 constexpr double kShares = 1e-6;
 
 } // namespace
@@ -64,7 +64,7 @@ Move RowForces::solve() const noexcept {
     Forces forces{};
     std::array<bool, kMost> acts{};
     acts.fill(true);
-    // Each round takes at least one row out, or is the last.
+    // Each round removes at least one row, or is the last.
     for (int round = 0; round <= count_; ++round) {
         solve_acting(acts, forces);
         bool limited = false;

@@ -1,4 +1,4 @@
-// Springs, dampers and motors along rows of one problem, solved together: where a move goes that they pull on.
+// Springs, dampers and motors along rows of one problem: computes the move that they cause.
 #pragma once
 
 #include <array>
@@ -8,16 +8,18 @@
 
 namespace spidar {
 
-// Each row asks the move m, in units of sqrt(energy), for row . m = way - compliance * force, with |force| <= most. The move is
-// the sum of force * row, and costs its squared length / 2: that of the springs which hold the tool to the device.
+// Each row requires of the move m (in units of sqrt(energy)) row . m = way - compliance * force,
+// with |force| <= most. The move is the sum of force * row and costs its squared length / 2, the
+// energy of the springs that hold the tool to the device.
 class RowForces {
 public:
     static constexpr int kMost = 24;
 
-    // More than kMost are left out.
+    // Adds a row; rows beyond kMost are ignored.
     void add(const Move &row, double way, double compliance,
              double most = std::numeric_limits<double>::infinity()) noexcept;
-    // Exact: a linear system for those below their limits, again for each that reaches it. What is not finite pulls nothing.
+    // Returns the exact move: a linear system for the rows below their limits, solved again when a
+    // row reaches its limit. Rows that are not finite have no force.
     [[nodiscard]] Move solve() const noexcept;
 
 private:
@@ -28,7 +30,7 @@ private:
         double most = 0.0;
     };
     using Forces = std::array<double, kMost>;
-    // The forces of the rows that `acts` says are below their limits; the others' stay as they are.
+    // Solves for the rows marked in `acts`, which are below their limits; the other forces stay.
     void solve_acting(const std::array<bool, kMost> &acts, Forces &forces) const noexcept;
 
     std::array<Row, kMost> rows_{};

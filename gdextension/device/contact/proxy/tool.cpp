@@ -9,7 +9,7 @@ namespace spidar {
 
 namespace {
 
-// Of the gap, what this jaw moves along the grip's x.
+// Share of the gap by which this jaw moves along the grip's x axis.
 double part_of_gap(ToolMount mount) noexcept {
     switch (mount) {
     case ToolMount::jaw_minus:

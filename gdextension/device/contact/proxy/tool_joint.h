@@ -1,5 +1,5 @@
-// What ties the tool, by what it holds, to something else in the scene: a door's hinge, a drawer's slide, a ball in its
-// socket. Device frame, SI.
+// What ties the held body to something else in the scene: a door's hinge, a drawer's slide, a ball
+// in its socket. Device frame, SI units.
 #pragma once
 
 #include <array>
@@ -9,17 +9,19 @@
 
 namespace spidar {
 
-// One of the six coordinates of a joint: where its frame on what is held lies in its frame on the other body, along and
-// about the axes of the latter. m, N/m, N s/m, m/s, N; or rad, N m/rad, N m s/rad, rad/s, N m.
+// One of the six coordinates of a joint: position or angle of the frame on the held body relative
+// to the frame on the other body, along or about the axes of the latter. Units: m, N/m, N s/m, m/s,
+// N; or rad, N m/rad, N m s/rad, rad/s, N m.
 struct JointAxis {
-    // Equal: locked there. Lower above upper: no limit.
+    // Lower limit. Equal limits lock the axis; lower above upper means no limit.
     double lower = 0.0;
     double upper = 0.0;
     double stiffness = 0.0; // towards rest
     double rest = 0.0;
     double damping = 0.0;
-    // A motor that moves it at this speed, as far as this force or moment does.
+    // Speed of a motor.
     double motor_speed = 0.0;
+    // Largest force or moment of the motor.
     double motor_most = 0.0;
 
     [[nodiscard]] static JointAxis free() noexcept {
@@ -37,8 +39,9 @@ struct ToolJoint {
     Placement base;         // the joint's frame on the other body
     Vec3 velocity_m_s{0.0}; // of base.origin_m
     Vec3 angular_rad_s{0.0};
-    Placement in_grip; // its frame on what is held, in the grip's
-    // Along x, y and z, then about them. About more than one axis: the parts of the rotation vector.
+    Placement in_grip; // frame on the held body, in the grip's frame
+    // Translations along x, y, z, then turns about them. Turns about several axes are the
+    // components of the rotation vector.
     std::array<JointAxis, 6> axes{};
 };
 

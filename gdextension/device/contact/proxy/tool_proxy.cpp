@@ -16,8 +16,8 @@ namespace spidar {
 namespace {
 
 constexpr int kMostPasses = 3;
-// A row that stops the proxy from further off than this, or whose normal turns from cycle to cycle by more than that, is
-// looked at again from where it stopped: of an edge it is only the tangent, which a proxy that slides over a seam must not
+// Distance or change per cycle above which a row that stopped the proxy is searched again from
+// there. For an edge such a row is only the tangent, which a proxy that slides over a seam must not
 // feel.
 constexpr double kAnticipated_m = 1e-6;
 
@@ -79,7 +79,8 @@ double ToolProxy::length_of(const Move &move, const Tool &tool) const noexcept {
            0.5 * std::abs(tool.jaws.slope_m_rad() * by.grasp_rad);
 }
 
-// Two steps that break no row have none between them that does: what gets out of the way, and a part of the rest.
+// Combines two steps that violate no row, so that no step between them does: the move out of the
+// way, and a share of the rest.
 Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &least,
                           const Tool &tool, double most_m) const noexcept {
     Rows rows = rows_;
@@ -87,7 +88,7 @@ Move ToolProxy::shortened(const Move &step, const std::array<double, kMaxRows> &
         const auto k = static_cast<std::size_t>(i);
         rows[k].depth = rows[k].depth == kOpen ? kOpen : least[k];
     }
-    // Without a row that the proxy stands in this costs nothing and is no move.
+    // When the proxy is inside no row, this is a zero move at no cost.
     Move move = nearest_to(Move{}, rows,
                            solve_rows<kMaxRows>(rows, row_count_, active_mask_, kRowSoftness));
     const double out_m = length_of(move, tool);
@@ -115,7 +116,8 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     if (tie_.is_tied()) {
         tie_.look(pose_, root_, settings_.damping_s, cycle_s_);
         back = tie_.correction();
-        // Joints that contradict each other, or a hand that is far off: not more in a cycle than any other step.
+        // Joints may contradict each other, or the hand may be far off: the correction per cycle is
+        // limited like any other step.
         const double back_m = length_of(back, tool);
         for (double &lane : back) {
             lane *= back_m > most_m ? most_m / back_m : 1.0;
@@ -136,7 +138,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         rows_[k].row = row;
         const bool moves = !tie_.is_tied() || tie_.leave(rows_[k].row);
         least[k] = comes_m - contact.gap_m - dot(row, back);
-        // What presses on a joint's locked axis alone is carried by the joint.
+        // A row that only pushes on locked axes is carried by the joint.
         rows_[k].depth = moves ? least[k] - dot(rows_[k].row, target) : kOpen;
     }
     const auto stop = static_cast<std::size_t>(count_);
@@ -145,7 +147,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
         const auto k = static_cast<std::size_t>(row_count_++);
         rows_[k] = ConstraintRow();
         rows_[k].row = tie_.limit_row(i);
-        // What lies beyond its limit comes back no faster than any other step.
+        // A coordinate beyond its limit returns no faster than any other step.
         Move whole = rows_[k].row;
         const double per_row = tie_.limit_least(i) / dot(whole, whole);
         for (double &lane : whole) {
@@ -182,7 +184,7 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     return cut || anticipated;
 }
 
-// The pushes that the hand feels: with damping, and with what gives way behind a surface.
+// Computes the pushes that the hand feels, with damping and the compliance of surfaces.
 void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                      const Twist &velocity, double dt_s) noexcept {
     const Move pull = scaled(between(device, pose_));
@@ -190,7 +192,7 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
     std::array<int, kMaxSceneParts> touching{};
     for (int i = 0; i < count_; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        // A row that the step left open would take over from one that a damper lets go.
+        // A row that the step left open would take over from one that a damper releases.
         rows[k].depth = (active_mask_ >> k & 1U) != 0 ? rows[k].depth : kOpen;
         touching[contacts_[k].scene_part] += rows[k].depth > 0.0 ? 1 : 0;
     }
@@ -223,7 +225,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
         const double height_m = other.traits.texture.depth_m > 0.0
                                     ? press_into(contact, other, own_push(rows[k]), speed_m_s, dt_s)
                                     : 0.0;
-        // The damper and the texture act as a deeper spring: so the push stays one-sided, and shared.
+        // The damper and the texture act as a deeper spring, so that the push stays one-sided and
+        // is shared.
         rows[k].depth = std::max(0.0, rows[k].depth + height_m -
                                           damping_s * glm::dot(contact.normal, speed_m_s));
         note_own(k);
@@ -245,7 +248,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
     const RowPushes<kMaxRows> solved =
         solve_rows<kMaxRows>(rows, row_count_, pushing_mask_, kRowSoftness);
     pushing_mask_ = solved.active_mask;
-    // Where no place satisfies all rows, their pushes have no bound; what they do together is bounded by what pulls.
+    // Where no pose satisfies all rows, the pushes are unlimited: the sum is limited relative to
+    // the pull.
     const Move pushed = nearest_to(Move{}, rows, solved);
     const double pushed_by = std::sqrt(dot(pushed, pushed));
     const double most = kMostPush * (std::sqrt(dot(pull, pull)) + deepest);
@@ -254,7 +258,8 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
     for (std::size_t dof = 0; dof < sum.size(); ++dof) {
         sum[dof] = part * pushed[dof] * root_[dof];
     }
-    // And each by itself, in a wedge of less than some 20 degrees or between two walls that are too near.
+    // Each push is limited too, for a wedge of less than some 20 degrees and two walls that are too
+    // near.
     const auto alone_too = [&](std::size_t k) {
         return std::min(part * solved.push[k], kMostPush * (alone[k] + deepest_n));
     };
@@ -307,7 +312,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     before_count_ = count_;
     count_ = 0;
     if (!known) {
-        return; // nothing pushes, and the proxy waits
+        return; // nothing pushes: the proxy stays
     }
     has_traits_ = std::any_of(scene.parts.begin(), scene.parts.begin() + scene.count,
                               [](const ScenePart &part) { return acts(part.traits); });
@@ -316,7 +321,7 @@ void ToolProxy::update(const Tool &tool, ContactScene &scene, const ToolPose &de
     if (tie_.is_tied()) {
         tie_.advance(dt_s);
     }
-    double left_s = dt_s; // of the scene's motion
+    double left_s = dt_s; // remaining time of the scene's motion
     bool again = true;
     for (int pass = 0; pass < kMostPasses && again; ++pass) {
         find_contacts(tool, scene, margin_m, memory);

@@ -1,11 +1,11 @@
-// The god-object of a tool of real shapes in a scene of real shapes, in seven degrees of freedom (contact-engine of
-// docs/why/haptic_rendering.md). The proxy follows the device as far as no surface is in its way: it never enters one, at any
-// speed. The wrench is the pull of the stiffnesses from the device to the proxy, damped along the contacts, with Coulomb
-// friction at each point.
+// The god-object of a tool in a scene of shapes, in seven degrees of freedom
+// (docs/why/haptic_rendering.md). The proxy follows the device as far as no surface is in its way,
+// and never enters a surface at any speed. The wrench is the pull of the springs from the device to
+// the proxy, damped along the contacts, with Coulomb friction at each point.
 //
-// Once a cycle: the closest points of tool and scene at the proxy give one-sided rows n . J dq >= -gap; the nearest pose to
-// the device's under all rows is the next proxy (god_object.h). A step is never longer than what the closest points
-// guarantee.
+// In each cycle the closest points of tool and scene at the proxy give one-sided rows n . J dq >=
+// -gap. The pose nearest to the device under all rows is the next proxy (god_object.h). No step is
+// longer than the closest points guarantee to be free.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +22,14 @@
 
 namespace spidar {
 
-// Of a contact that slides, single cycles hold, where the encoders step back: it slips until it has held for so long.
+// Time for which a sliding contact must stick before it counts as sticking: where the encoders step
+// back, it sticks for single cycles.
 inline constexpr double kHolds_s = 0.03;
 
-// A point where tool and scene are within the margin.
+// A point at which tool and scene are within the margin.
 struct ProxyContact {
-    std::uint8_t tool_part = 0; // place in Tool::parts and ContactScene::parts
+    // Indices into Tool::parts and ContactScene::parts.
+    std::uint8_t tool_part = 0;
     std::uint8_t scene_part = 0;
     std::int32_t tool_id = 0;
     std::int32_t scene_id = 0;
@@ -35,53 +37,60 @@ struct ProxyContact {
     Vec3 point_m{0.0}; // on the surface of the scene
     Vec3 normal{0.0};  // out of the scene
     double gap_m = 0.0;
-    double push_n = 0.0;      // along the normal, 0 when it does not touch
-    Vec3 friction_n{0.0};     // on the tool
-    Vec3 stretch_m{0.0};      // of the friction's spring
-    double slip_m_s = 0.0;    // along the surface; 0: its friction holds
-    double held_s = kHolds_s; // since its friction gave way last, up to kHolds_s
-    double slips_s = -1.0;    // for so long by now; below 0: it does not slip
-    double strained_s = 0.0;  // for so long it has been pulled beyond what it holds
-    bool rubs = false;        // some contact of its pair pushes: its stretch goes on
-    bool sticks = false;      // its pair has touched, and was not pulled apart since (adhesion)
-    Vec3 slope{0.0};          // of a texture's height where it pushes, along the surface
-    Vec3 drawn_n{0.0};        // on the tool, by texture, adhesion and magnet
+    double push_n = 0.0;   // along the normal; 0 without touch
+    Vec3 friction_n{0.0};  // on the tool
+    Vec3 stretch_m{0.0};   // of the friction's spring
+    double slip_m_s = 0.0; // along the surface; 0: friction holds
+    // Time since the friction last gave way, up to kHolds_s.
+    double held_s = kHolds_s;
+    // Time since it began to slide; negative: it does not slide.
+    double slips_s = -1.0;
+    // Time for which it has been pulled beyond its static limit.
+    double strained_s = 0.0;
+    // Some contact of the same pair pushes: the friction spring continues.
+    bool rubs = false;
+    // The pair has touched and was not pulled apart since (adhesion).
+    bool sticks = false;
+    // Slope of a texture's height at the contact, along the surface.
+    Vec3 slope{0.0};
+    // Force on the tool by texture, adhesion and magnet.
+    Vec3 drawn_n{0.0};
 };
 
-// What it gave a part of the scene in this cycle.
+// Force on a part of the scene in this cycle.
 struct PartForce {
     Vec3 force_n{0.0};
     Vec3 moment_nm{0.0}; // about the part's origin
 };
 
 struct ProxySettings {
-    // Between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
+    // Stiffness between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
     DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
-    // Damping of each contact and of the jaws' stop, in parts of its own stiffness (unit: s), along its normal and along
-    // its surface: 2 N s/m where it gives way by 1000 N/m.
+    // Damping of each contact and of the jaws' stop, as a share of its own stiffness (unit: s),
+    // along its normal and along its surface: 2 N s/m for 1000 N/m.
     double damping_s = 0.002;
-    // Surfaces nearer than this are looked at in a cycle, further where something moves: a hand at 2 m/s covers 2 mm in
-    // three looks.
+    // Distance within which surfaces are searched in a cycle; more where something moves. A hand at
+    // 2 m/s moves by 2 mm in three searches.
     double margin_m = 0.001;
 };
 
 class ToolProxy {
 public:
     void configure(const ProxySettings &settings) noexcept;
-    // The proxy is here: where the tool appears, in no surface.
+    // Places the proxy, which must lie outside all surfaces.
     void put(const ToolPose &pose) noexcept;
 
-    // The joints of a new scene, as they will be in later_s.
+    // Takes the joints of a new scene, as they will be in later_s.
     void tie(const Tool &tool, double later_s) noexcept { tie_.accept(tool, later_s, pose_); }
     [[nodiscard]] const JointTie &joints() const noexcept { return tie_; }
 
-    // One cycle of dt_s. device: filtered and predicted; velocity: of it. The scene as it was at the end of the last cycle;
-    // during this one its parts move on by their velocities, and `scene` is moved on with them.
+    // Takes one cycle of dt_s. device: filtered and predicted pose with its velocity. `scene` is at
+    // the end of the last cycle; its parts are moved through this cycle by their velocities.
     void update(const Tool &tool, ContactScene &scene, const ToolPose &device,
                 const Twist &velocity, double dt_s, ProxyMemory &memory) noexcept;
 
     [[nodiscard]] const ToolPose &pose() const noexcept { return pose_; }
-    // On the hand.
+    // Wrench on the hand.
     [[nodiscard]] const Wrench &wrench() const noexcept { return wrench_; }
     [[nodiscard]] int contact_count() const noexcept { return count_; }
     [[nodiscard]] const ProxyContact &contact(int i) const noexcept {
@@ -90,66 +99,72 @@ public:
     [[nodiscard]] const std::array<PartForce, kMaxSceneParts> &given() const noexcept {
         return given_;
     }
-    // The jaws' stop, N m of grasp torque: what the fingers press on each other, or on what they hold. 0 when open.
+    // Grasp torque of the jaws' stop (unit: N m), against each other or a held body. 0 when open.
     [[nodiscard]] double stop_push_nm() const noexcept { return stop_push_nm_; }
-    // Pairs whose closest points were asked for in the last cycle, and passes that it took.
+    // Number of closest-point queries in the last cycle.
     [[nodiscard]] int queries() const noexcept { return queries_; }
+    // Number of solver passes in the last cycle.
     [[nodiscard]] int passes() const noexcept { return passes_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
 
 private:
     using Contacts = std::array<ProxyContact, kMaxPoints>;
     using Rows = std::array<ConstraintRow, kMaxRows>;
-    // Of the margin, what the tool may move before the closest points are looked for again.
+    // Share of the margin by which the tool may move before the closest points are searched again.
     static constexpr double kPartOfMargin = 0.75;
-    // Normals further apart than this are of different surfaces (3e-3 rad).
+    // Cosine of 3e-3 rad: normals further apart belong to different surfaces.
     static constexpr double kTurned = 1.0 - 4.5e-6;
     static constexpr double kOpen = -1.0; // depth of a row that never pushes
-    // Points of a face depend on each other: they share the push, and this part of the stiffness is lost.
+    // Softness of the rows: points of a face depend on each other and share the push. This share of
+    // the stiffness is lost.
     static constexpr double kRowSoftness = 1e-7;
 
-    // Nothing is in reach: the proxy is where the device is.
+    // Nothing is in reach: puts the proxy at the device.
     void follow(const ToolPose &device) noexcept;
-    // Adds what a force on a point of the tool does to the hand, as far as the joints leave it.
+    // Adds the effect of a force on a point of the tool on the hand, as far as the joints allow.
     void add_force(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m, const Vec3 &force_n,
                    std::array<double, kDofCount> &sum) const noexcept;
-    // Adds what joints do beside their limits.
+    // Adds the forces of joints besides their limits.
     void add_joints(const Move &pull, const Move &pushed, const Twist &velocity) noexcept;
     [[nodiscard]] double part_at_levers(const Tool &tool, const ContactScene &scene,
                                         double all_n) const noexcept;
-    // How a point of the tool moves along `direction`, in units of sqrt(energy): a row of god_object.h.
+    // Returns how a point of the tool moves along `direction`, in units of sqrt(energy): a row of
+    // god_object.h.
     [[nodiscard]] Move unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
                                  const Vec3 &direction) const noexcept;
-    // How far to look at a part.
+    // Returns the search distance for a part.
     [[nodiscard]] double look_m(const ScenePart &part, double margin_m) const noexcept {
         return has_traits_ ? std::max(margin_m, reach_m(part.traits)) : margin_m;
     }
-    // How far to look in a cycle: the tool may move by kPartOfMargin of it, and what moves comes nearer meanwhile.
+    // Returns the search distance of a cycle. The tool may move by kPartOfMargin of it, while
+    // moving parts approach.
     [[nodiscard]] double margin_for(const ContactScene &scene, double dt_s) const noexcept;
     void find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
                        ProxyMemory &memory) noexcept;
     void offer(const ProxyContact &contact) noexcept;
     [[nodiscard]] Move scaled(const Displacement &by) const noexcept;
     [[nodiscard]] Displacement unscaled(const Move &move) const noexcept;
-    // The target moved by the pushes of the rows: as near to it as they let.
+    // Returns the target shifted by the pushes of the rows.
     [[nodiscard]] Move nearest_to(const Move &target, const Rows &rows,
                                   const RowPushes<kMaxRows> &pushes) const noexcept;
-    // No point of the tool moves further than this.
+    // Returns a bound of the movement of the tool's points.
     [[nodiscard]] double length_of(const Move &move, const Tool &tool) const noexcept;
-    // What breaks no row and is no longer than most_m, as near to `step` as can be told. least: what the proxy must move
-    // along each row.
+    // Returns a move near `step` that violates no row and is at most most_m long. least: required
+    // move along each row.
     [[nodiscard]] Move shortened(const Move &step, const std::array<double, kMaxRows> &least,
                                  const Tool &tool, double most_m) const noexcept;
-    // True: another look from where the proxy is now may bring it nearer to the device.
-    // margin_m: that of find_contacts(). dt_s: of the scene's motion that is still to come.
+    // Takes one step towards the device. Returns true when another search from the new proxy may
+    // bring it nearer. margin_m: that of find_contacts(). dt_s: remaining time of the scene's
+    // motion.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                       double margin_m, double dt_s, ProxyMemory &memory) noexcept;
-    // The pushes of rows_, over seams.
+    // Solves rows_ without the edges at seams.
     [[nodiscard]] RowPushes<kMaxRows> solve_over_seams(const Tool &tool, const ContactScene &scene,
                                                        double margin_m, double dt_s,
                                                        ProxyMemory &memory) noexcept;
-    // Opens the rows that push and belong to an edge flush with what the tool rests on. False: there is none.
+    // Opens pushing rows that belong to an edge flush with the surface on which the tool rests.
+    // Returns false when there is none.
     bool open_seams(const Tool &tool, const ContactScene &scene, const RowPushes<kMaxRows> &solved,
                     double margin_m, double dt_s, ProxyMemory &memory) noexcept;
     [[nodiscard]] bool is_flush(const ProxyContact &edge, const ProxyContact &floor,
@@ -159,20 +174,23 @@ private:
               const Twist &velocity, double dt_s) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
-    // The nearest contact of the last cycle on the same scene part whose surface is turned little; null: none. touching: one
-    // of the same tool part that pushed; otherwise one that rubs, of the same tool part if there is one.
+    // Returns the nearest contact of the last cycle on the same scene part with nearly the same
+    // normal, or null. touching: only one of the same tool part that pushed. Otherwise one that
+    // rubs, of the same tool part if there is one.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
-    // The friction coefficient of this cycle; sets slips_s and strained_s of the contact. last: the contact one cycle before,
-    // or null. stretch_m: of the friction's spring. m_per_coefficient: the stretch at which a coefficient of 1 slips.
+    // Updates slips_s and strained_s of the contact from `last`, the contact one cycle before (may
+    // be null), and returns the friction coefficient of this cycle. stretch_m: of the friction
+    // spring. m_per_coefficient: stretch at which a coefficient of 1 slides.
     double friction_now(ProxyContact &contact, const ScenePart &other, const ProxyContact *last,
                         double stretch_m, double m_per_coefficient, double slides_m_s,
                         double dt_s) const noexcept;
-    // Traits of the surfaces (tool_proxy_surface.cpp). How far off they are felt.
+    // Surface traits (tool_proxy_surface.cpp): distances at which they act.
     [[nodiscard]] double magnet_range_m(const SurfaceTraits &traits) const noexcept;
     [[nodiscard]] double reach_m(const SurfaceTraits &traits) const noexcept;
-    // Sets the contact's slope and damping along it; returns the height of the texture under it, at most 0. push_n: without the texture.
+    // Sets the contact's slope and the damping along it. Returns the height of the texture below
+    // it, at most 0. push_n: push without the texture.
     double press_into(ProxyContact &contact, const ScenePart &other, double push_n,
                       const Vec3 &speed_m_s, double dt_s) const noexcept;
     [[nodiscard]] bool stuck_before(const ProxyContact &contact) const noexcept;
@@ -184,7 +202,7 @@ private:
     ProxySettings settings_;
     Move root_{}; // of the stiffnesses
     JointTie tie_;
-    Move bent_{}; // by the joints' springs and motors, in the last pass
+    Move bent_{}; // shift by the joints' springs and motors in the last pass
     ToolPose pose_;
     ToolPose device_; // of the last cycle
     bool placed_ = false;
@@ -192,7 +210,7 @@ private:
     int count_ = 0;
     Contacts before_{}; // of the last cycle
     int before_count_ = 0;
-    // Of the last pass, for `contacts_`, and behind them the stop of the jaws.
+    // Rows of the last pass: those of `contacts_`, then the jaws' stop.
     Rows rows_{};
     int row_count_ = 0;
     std::uint32_t active_mask_ = 0;
@@ -201,8 +219,8 @@ private:
     std::array<PartForce, kMaxSceneParts> given_{};
     double stop_push_nm_ = 0.0;
     double cycle_s_ = 0.0;
-    bool idle_ = true;        // the last cycle left no contact and no force behind
-    bool has_traits_ = false; // some part in this cycle
+    bool idle_ = true;        // the last cycle left no contact and no force
+    bool has_traits_ = false; // some part of this cycle has traits
     int queries_ = 0;
     int passes_ = 0;
 };

@@ -1,4 +1,4 @@
-// Where the proxy's tool and the scene are near each other.
+// Search for the contacts between the proxy's tool and the scene.
 #include "device/contact/proxy/tool_proxy.h"
 
 #include <algorithm>
@@ -10,13 +10,13 @@ namespace spidar {
 
 namespace {
 
-// Two points of a pair closer than this, with normals that agree, say the same.
+// Two points of a pair closer than this, with equal normals, are redundant.
 constexpr double kSamePoint_m = 3e-4;
 constexpr double kSameNormal = 0.9998; // 1 degree
 
 } // namespace
 
-// The nearest are kept; of two that say the same the nearer one.
+// Keeps the nearest contacts; of two redundant ones the nearer.
 void ToolProxy::offer(const ProxyContact &contact) noexcept {
     int worst = 0;
     for (int i = 0; i < count_; ++i) {

@@ -11,14 +11,15 @@ namespace spidar {
 
 namespace {
 
-// A friction spring goes over to a contact whose surface is turned by less than this.
+// Cosine above which a friction spring continues on another contact's surface.
 constexpr double kSameSurface = 0.7;
-// A contact that begins to slip comes down from the static coefficient in this time: what is felt is a slip, not a blow.
+// Time in which a contact that begins to slide falls from the static coefficient, so that a slip
+// and not a jolt is felt.
 constexpr double kSlip_s = 0.005;
-// A contact slips once it has been pulled beyond its static limit for so long: the push of a grip at rest varies by some
-// percent from cycle to cycle, and the smallest of many pushes would end the hold too early.
+// Time beyond the static limit after which a contact slides. The push of a grip at rest varies by
+// some percent from cycle to cycle; without this time the smallest push would end the hold.
 constexpr double kBreaks_s = 0.003;
-// Slower than this, a contact that slipped stands: above what the velocity of a grip at rest shows.
+// Speed below which a contact that slid stands still: above the velocity noise of a grip at rest.
 constexpr double kStands_m_s = 0.003;
 
 double most_friction(const ScenePart &part) noexcept {
@@ -88,8 +89,8 @@ double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other,
     return other.friction + kept * more;
 }
 
-// Springs along surfaces turn the tool by their levers. They are softened where they would turn it harder than the springs
-// of its turns and grasp: the part that is left.
+// Springs along surfaces turn the tool by their levers. Returns the share of their stiffness that
+// does not turn it harder than the springs of its turns and grasp.
 double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
                                  double all_n) const noexcept {
     const DofGains &k = settings_.stiffness;
@@ -111,8 +112,8 @@ double ToolProxy::part_at_levers(const Tool &tool, const ContactScene &scene,
     return 1.0 / std::max(1.0, k[0] * turns);
 }
 
-// Coulomb friction: at each contact a spring between tool and surface, which slips beyond the cone. All springs together
-// are as stiff as one: each has the share of its push.
+// Coulomb friction: at each contact a spring between tool and surface, which slides beyond the
+// cone. All springs together are as stiff as one: each has a share in proportion to its push.
 void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                     const Twist &velocity, double dt_s) noexcept {
     const Displacement by = between(device_, device);
@@ -137,8 +138,9 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
             const ProxyContact *last = nearest_before(contact, false);
             const Vec3 carried_m = last != nullptr ? last->stretch_m : Vec3(0.0);
             Vec3 stretch_m = along_surface(carried_m + slid_m, contact.normal);
-            // Where the cone ends: the same for all points, for each has the share of its push of stiffness and limit. A corner
-            // that is lifted for a moment goes on with them, and finds its own place again.
+            // The limit of the cone is equal for all points, since stiffness and limit are both
+            // shared in proportion to the push. A corner that is lifted for a moment continues with
+            // them and finds its own place again.
             const double size_m = glm::length(stretch_m);
             const Vec3 slides_m_s = along_surface(
                 point_velocity(part, tool.jaws, device, velocity, contact.point_m) - surface_m_s,

@@ -1,4 +1,4 @@
-// What the joints of a tool let through to the hand.
+// Forces of a tool's joints on the hand.
 #include "device/contact/proxy/tool_proxy.h"
 
 #include <cmath>
@@ -8,7 +8,8 @@
 namespace spidar {
 
 void ToolProxy::add_joints(const Move &pull, const Move &pushed, const Twist &velocity) noexcept {
-    // Springs and contacts together hold the proxy where it is. A proxy that is still on its way there is not yet pulled so far.
+    // Springs and contacts together hold the proxy in place. A proxy that is still moving there is
+    // pulled less.
     const double most = kMostPush * (std::sqrt(dot(pull, pull)) + std::sqrt(dot(pushed, pushed)));
     const double bent = std::sqrt(dot(bent_, bent_));
     const double part = bent > most ? most / bent : 1.0;

@@ -1,4 +1,5 @@
-// Seams: where two bodies of the scene lie flush, the edge of the one is not an obstacle to a tool that rests on the other.
+// Seams: where two bodies of the scene lie flush, the edge of one is no obstacle to a tool that
+// rests on the other.
 #include "device/contact/proxy/tool_proxy.h"
 
 #include <cmath>
@@ -9,14 +10,15 @@ namespace spidar {
 
 namespace {
 
-// A step that the tool is led over: what tiles stand out by when they are placed in single precision, a metre from the
-// origin, is a hundredth of it.
+// Largest step over which the tool is led. Tiles placed in single precision a meter from the origin
+// stand out by a hundredth of it.
 constexpr double kStep_m = 5e-6;
 constexpr int kMostRounds = 3; // at a corner where four tiles meet
 
 } // namespace
 
-// Lifted by a step and moved on to just beyond the edge, the tool is free of what has the edge.
+// Returns whether the tool, lifted by a step and moved just beyond the edge, is free of the part
+// with the edge.
 bool ToolProxy::is_flush(const ProxyContact &edge, const ProxyContact &floor, const Tool &tool,
                          const ContactScene &scene, double margin_m, double dt_s,
                          ProxyMemory &memory) noexcept {
@@ -57,7 +59,7 @@ bool ToolProxy::open_seams(const Tool &tool, const ContactScene &scene,
         for (int j = 0; j < count_; ++j) {
             const auto l = static_cast<std::size_t>(j);
             const ProxyContact &floor = contacts_[l];
-            // The nearest one is never opened: something always carries.
+            // The nearest row is never opened: some row always carries the tool.
             const bool carries = rows_[l].depth > 0.0 && floor.gap_m < edge.gap_m &&
                                  floor.gap_m < kStep_m && floor.tool_part == edge.tool_part &&
                                  floor.scene_part != edge.scene_part &&

@@ -1,4 +1,4 @@
-// What the surfaces of the proxy's contacts do beside pushing and rubbing: textures, adhesion and magnets.
+// Surface traits of the proxy's contacts: textures, adhesion and magnets.
 #include "device/contact/proxy/tool_proxy.h"
 
 #include <algorithm>
@@ -16,13 +16,15 @@ namespace spidar {
 
 namespace {
 
-// Crests that pass faster than this, in crests a servo cycle, are flattened, and are gone at twice that: sampled so seldom
-// they would be felt as another, slower texture.
+// Crests per servo cycle above which a texture is flattened; at twice that it is gone. Sampled so
+// rarely, it would be felt as another, slower texture.
 constexpr double kFinestPassing = 0.125;
-// Of the stiffness between grip and proxy, what the slopes of a texture may add along the surface. A harder push would make a
-// valley so stiff that the link's latency lets the hand shake in it: there the texture is flattened.
+// Stiffness that the slopes of a texture may add along the surface, relative to that between grip
+// and proxy. A harder push would make a valley so stiff that the link's latency lets the hand shake
+// in it: the texture is flattened there.
 constexpr double kTextureShare = 0.25;
-// Adhesion rises with the stiffness between grip and proxy, and then falls as steeply: it ends at twice the way to its top.
+// Adhesion rises with the stiffness between grip and proxy and then falls as steeply: it ends at
+// this multiple of the distance to its maximum.
 constexpr double kAdhesionWays = 2.0;
 
 struct Relief {
@@ -40,8 +42,8 @@ Relief relief_at(const SurfaceTexture &texture, const Vec3 &local_m, const Vec3 
         relief.slope = -half_m * k_m * std::sin(phase) * texture.across;
         return relief;
     }
-    // Along the surface alone: an axis counts as far as it lies in it. The squares of a normal's parts add up to 1, so the
-    // shares do too.
+    // An axis counts as far as it lies in the surface. The squares of a normal's components add up
+    // to 1, and so do the shares.
     for (int axis = 0; axis < 3; ++axis) {
         const double share = 0.5 * (1.0 - normal[axis] * normal[axis]);
         relief.height_m += share * half_m * (std::cos(k_m * local_m[axis]) - 1.0);
@@ -129,7 +131,7 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
     // A relief has been made coarser first; what even its coarsest level is too fine for is flattened.
     const double kept = std::clamp(2.0 - passing_share, 0.0, 1.0) *
                         std::min(1.0, most_n_m / std::max(stiffens_n_m, most_n_m));
-    // What makes the surface stiffer along itself is damped as a contact is.
+    // The stiffness that a texture adds along the surface is damped like a contact.
     contact.drawn_n = -(settings_.damping_s * kept * stiffens_n_m) * slides_m_s;
     contact.slope = along_surface(kept * (turn * relief.slope), contact.normal);
     return kept * relief.height_m;
@@ -143,7 +145,7 @@ bool ToolProxy::stuck_before(const ProxyContact &contact) const noexcept {
                        });
 }
 
-// On the tool, towards the surface.
+// Returns the force on the tool towards the surface.
 double ToolProxy::attraction_n(const ProxyContact &contact, const ScenePart &other) const noexcept {
     const SurfaceTraits &traits = other.traits;
     const double gap_m = std::max(contact.gap_m, 0.0);
@@ -157,8 +159,8 @@ double ToolProxy::attraction_n(const ProxyContact &contact, const ScenePart &oth
     return pull_n;
 }
 
-// A pair of tool and scene parts attracts as its nearest point does, however many points it has: they share the pull by what
-// each would pull alone.
+// A pair of tool and scene parts attracts like its nearest point, however many points it has: they
+// share the pull in proportion to what each would pull alone.
 void ToolProxy::attract(const ContactScene &scene) noexcept {
     std::array<double, kMaxPoints> alone_n{};
     for (int i = 0; i < count_; ++i) {
@@ -194,7 +196,7 @@ void ToolProxy::act_by_traits(const Tool &tool, const ContactScene &scene) noexc
     DofLanes sum = lanes(wrench_);
     for (int i = 0; i < count_; ++i) {
         ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
-        // Downhill, as the height's own energy has it.
+        // Downhill, as the gradient of the height's energy.
         contact.drawn_n -= contact.push_n * contact.slope;
         if (contact.drawn_n == Vec3(0.0)) {
             continue;

@@ -13,7 +13,8 @@ namespace spidar {
 
 namespace {
 
-// Points on the tool nearer to each other than this (m) are one: they would push as one.
+// Points on the tool nearer to each other than this (unit: m) count as one, since they would push
+// as one.
 constexpr double kSpacing_m = 1e-3;
 
 Placement relative(const Placement &tool_at, const Placement &shape_at) noexcept {
@@ -21,7 +22,7 @@ Placement relative(const Placement &tool_at, const Placement &shape_at) noexcept
     return {back * (tool_at.origin_m - shape_at.origin_m), back * tool_at.rotation};
 }
 
-// A flat wall without end: every corner of the tool has its exact distance, on both sides.
+// An infinite plane: every corner of the tool has an exact distance on both sides.
 void half_space_contacts(const ShapeDescription &wall, const ToolShape::Data &tool,
                          const Placement &tool_at, double margin_m,
                          ContactCandidates &found) noexcept {

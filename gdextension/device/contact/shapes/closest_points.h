@@ -1,8 +1,7 @@
-// Where a tool and a shape of the scene are closest: what the proxy of the servo loop must not pass. All functions here
-// are for the servo side: no allocation, no lock, no exception.
+// Finds where a tool and a shape of the scene are closest, so that the proxy of the servo loop does
+// not pass through. All functions are servo-safe: no allocation, lock or exception.
 //
-// Errors against the exact answer while the cores are apart: 1e-7 m on spheres, 1e-5 m on everything else, normals
-// within 0.1 degree.
+// Errors while the cores are apart: 1e-7 m on spheres, else 1e-5 m; normals within 0.1 degree.
 #pragma once
 
 #include <array>
@@ -16,45 +15,50 @@
 namespace spidar {
 
 inline constexpr int kMaxContactPoints = 24; // of one tool on one shape
+// Largest number of points for one pair of faces.
 inline constexpr int kPointsPerFace = 4;
 
 struct ContactPoint {
-    Vec3 on_tool_m{0.0};  // on the tool's outer surface, device frame
+    Vec3 on_tool_m{0.0};  // on the outer surface of the tool, device frame
     Vec3 on_shape_m{0.0}; // device frame
     Vec3 normal{0.0};     // unit, from the shape to the tool, device frame
-    double gap_m =
-        0.0; // (on_tool - on_shape) . normal; below 0: the skin is inside the shape by so much
-    // Triangle of a mesh or height map, else face of the shape: tells contacts of one shape apart from cycle to cycle.
+    // (on_tool - on_shape) . normal. Negative when the skin penetrates the shape.
+    double gap_m = 0.0;
+    // Triangle of a mesh or height map, else face of the shape: identifies a contact over cycles.
     std::uint32_t face = 0;
-    // The tool's core is inside the shape: the gap is a way out, but not the exact distance. For recovery only.
+    // True when the tool's core is inside the shape. The gap then leads out but is not the exact
+    // distance: for recovery only.
     bool core_inside = false;
 };
 
 struct ClosestPoints {
     std::array<ContactPoint, kMaxContactPoints> points;
     int count = 0;
-    bool left_out = false; // more points lie within the margin than are listed or gathered
+    // More points lie within the margin than were listed or gathered.
+    bool left_out = false;
 };
 
 // A triangle of a mesh that was near the tool when the triangles were gathered.
 struct NearTriangle {
     std::uint32_t index = 0;
-    std::array<std::uint16_t, 3> neighbour{}; // over edge i: place in the list; kNoTriangle
-    std::array<float, 3> middle_m{};          // of a ball that holds the triangle
+    // Place in the list of the triangle across edge i, or kNoTriangle.
+    std::array<std::uint16_t, 3> neighbour{};
+    std::array<float, 3> middle_m{}; // center of a ball around the triangle
     float radius_m = 0.0F;
-    // Bit i: edge i is convex or a border; bit 4 + i: by more than 3 degrees.
+    // Bit i: edge i is convex or a border. Bit 4 + i: by more than 3 degrees.
     std::uint8_t sharp_edges = 0;
 };
 
-// A box of 40 mm on triangles of 2.5 mm^2 has 1100 of them near.
+// Largest number of gathered triangles. A box of 40 mm on triangles of 2.5 mm^2 has 1100 near it.
 inline constexpr int kMaxNearTriangles = 1536;
 inline constexpr std::uint16_t kNoTriangle = 0xffff;
 
-// What one tool remembers of one shape between cycles. It only saves time: forgetting it changes an answer by less than
-// the errors above. One for each pair of tool and shape: forget() comes before it serves another.
+// Memory of one pair of tool and shape between cycles. It only saves time: without it an answer
+// changes by less than the errors above. Call forget() before it serves another pair.
 struct PairMemory {
-    Vec3 axis{0.0}; // of the last answer, shape's frame: where to begin
-    // Meshes: the triangles that can come within the margin while the tool has moved less than slack_m.
+    // Direction of the last answer in the shape's frame, where the next search starts.
+    Vec3 axis{0.0};
+    // Meshes: `triangles` holds all that can come within the margin for slack_m of tool motion.
     Placement gathered_at; // tool in the shape's frame
     double slack_m = -1.0; // below 0: nothing is gathered
     double margin_m = 0.0;
@@ -70,13 +74,14 @@ struct PairMemory {
     }
 };
 
-// No point of the tool is within margin_m of the shape: told by its reach and the shape's bounding box, without looking at
-// the shape itself. tool_m: the tool's origin in the shape's frame.
+// Returns true when no point of the tool is within margin_m of the shape, as far as the tool's
+// reach and the shape's bounding box show. tool_m: the tool's origin in the shape's frame.
 [[nodiscard]] bool is_far(const ToolShape &tool, const Vec3 &tool_m, const CookedShape &shape,
                           double margin_m) noexcept;
 
-// All contact points with a gap of at most margin_m; none: the tool may move by margin_m without touching. Up to four
-// for each pair of faces, the nearest first. Status::not_finite: a placement or the margin is not finite, out is empty.
+// Finds all contact points with a gap of at most margin_m, up to four per pair of faces, the
+// nearest first. No points: the tool may move by margin_m without touching. Returns not_finite for
+// a placement or margin that is not finite; `out` is then empty.
 [[nodiscard]] Status closest_points(const ToolShape &tool, const Placement &tool_at,
                                     const CookedShape &shape, const Placement &shape_at,
                                     double margin_m, PairMemory &memory,

@@ -10,10 +10,11 @@ namespace spidar {
 
 namespace {
 
-// Normals within 3 degrees of each other press on one face (cosine).
+// Cosine of 3 degrees: normals closer than this belong to one face.
 constexpr double kOneFace = 0.9986;
 
-// Gaps that differ by less are the same (m): the one that was added first is the nearest.
+// Gaps that differ by less (unit: m) are equal: the candidate that was added first counts as
+// nearest.
 constexpr double kTie_m = 1e-11;
 
 } // namespace
@@ -60,7 +61,7 @@ void ContactCandidates::choose(const Placement &shape_at, double spacing_m,
     out.left_out = out.left_out || left_out_;
     const auto count = static_cast<std::size_t>(count_);
     const std::span<Candidate> points(points_.data(), count);
-    std::array<double, kMaxCandidates> apart; // to the nearest point taken of this face
+    std::array<double, kMaxCandidates> apart; // to the nearest selected point of this face
     while (out.count < kMaxContactPoints) {
         std::size_t first = count;
         for (std::size_t i = 0; i < count; ++i) {

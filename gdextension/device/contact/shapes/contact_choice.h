@@ -1,5 +1,5 @@
-// Which of many contact points are handed on: the nearest, then those that are farthest from the ones taken, up to four
-// for each direction of the normal.
+// Selects contact points from many candidates: the nearest, then those farthest from the selected
+// ones, up to four per direction of the normal.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace spidar {
 
 inline constexpr int kMaxCandidates = 256;
 
-// A contact point in the shape's frame. Nothing is set at first: there are many, and few are used.
+// A contact point in the shape's frame. Not initialized: of many candidates few are used.
 struct Candidate {
     Vec3 on_tool;
     Vec3 on_shape;
@@ -18,16 +18,17 @@ struct Candidate {
     double gap_m;
     std::uint32_t face;
     bool core_inside;
-    bool done; // taken, or behind one that was taken
+    // Already selected, or redundant behind a selected point.
+    bool done;
 };
 
 class ContactCandidates { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
-    // From points of both cores and the skins round them. A list that is full keeps the nearer ones.
+    // Adds a candidate from points of both cores and their skins. A full list keeps nearer ones.
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;
-    // Into the device frame; spacing_m: points nearer to each other than this are one.
+    // Selects points in the device frame. Points nearer to each other than spacing_m count as one.
     void choose(const Placement &shape_at, double spacing_m, ClosestPoints &out) noexcept;
 
 private:

@@ -1,4 +1,4 @@
-// What a convex shape is to the search for closest points: a core, and how far its skin lies round it. Inside this room.
+// Convex shape for closest-point searches: a core with a skin around it. Used in this folder only.
 #pragma once
 
 #include <cmath>
@@ -14,26 +14,26 @@ namespace spidar {
 
 enum class CoreKind : std::uint8_t { point, segment, disc, box, cylinder, points };
 
-// A face of a hull: a run of ConvexCore::face_points, counter-clockwise seen from outside.
+// A face of a hull: a range of ConvexCore::face_points, counter-clockwise seen from outside.
 struct HullFace {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    Vec3 normal{0.0}; // unit, outwards
+    Vec3 normal{0.0}; // unit vector, outwards
     double offset_m = 0.0;
 };
 
-// About its own origin; segment, disc and cylinder have their axis along Y.
+// The core about its own origin. Segment, disc and cylinder have their axis along Y.
 struct ConvexCore {
     CoreKind kind = CoreKind::point;
-    Vec3 half_m{0.0};           // of a box
-    double radius_m = 0.0;      // of a disc and a cylinder
-    double half_height_m = 0.0; // of a segment and a cylinder
-    std::vector<Vec3> points;   // of a hull
+    Vec3 half_m{0.0};           // box
+    double radius_m = 0.0;      // disc and cylinder
+    double half_height_m = 0.0; // segment and cylinder
+    std::vector<Vec3> points;   // hull
     std::vector<HullFace> faces;
-    std::vector<Vec3> face_points; // the faces' corners, face after face
+    std::vector<Vec3> face_points; // corners of all faces in order
 };
 
-// The same without its own memory: also for a single triangle, whose only face is itself.
+// Like ConvexCore without its own memory. Also used for a single triangle.
 struct CoreView {
     CoreKind kind = CoreKind::point;
     Vec3 half_m{0.0};
@@ -49,7 +49,7 @@ struct CoreView {
             core.points, core.faces,  core.face_points};
 }
 
-// The point of the core that is farthest along `way`, which need not be a unit vector and may be zero.
+// Returns the point of the core that is farthest along `way`, which may have any length, even zero.
 [[nodiscard]] inline Vec3 support(const CoreView &core, const Vec3 &way) noexcept {
     switch (core.kind) {
     case CoreKind::point:
@@ -85,18 +85,18 @@ struct CoreView {
     return *best;
 }
 
-// Half of the box round a turned core, about the core's origin: lower and upper corner.
+// Computes the bounding box of a rotated core, relative to the core's origin.
 inline void bounds_of(const CoreView &core, const Mat3 &rotation, Vec3 &lower_m,
                       Vec3 &upper_m) noexcept {
     const Mat3 back = glm::transpose(rotation);
     for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 way = back[axis]; // the axis, in the core's frame
+        const Vec3 way = back[axis]; // the axis in the core's frame
         upper_m[axis] = glm::dot(way, support(core, way));
         lower_m[axis] = glm::dot(way, support(core, -way));
     }
 }
 
-// From a point in the core's frame to the core, or less (m): 0 for a hull.
+// Lower bound of the distance from a point in the core's frame to the core (m); 0 for a hull.
 [[nodiscard]] inline double distance_to_core(const CoreView &core, const Vec3 &point) noexcept {
     const double above = std::fmax(std::abs(point.y) - core.half_height_m, 0.0);
     switch (core.kind) {
@@ -114,10 +114,10 @@ inline void bounds_of(const CoreView &core, const Mat3 &rotation, Vec3 &lower_m,
     case CoreKind::points:
         break;
     }
-    return 0.0; // its box is looked at elsewhere
+    return 0.0; // hulls are tested by their bounding box elsewhere
 }
 
-// Radius about the core's origin that holds the core.
+// Returns the radius about the core's origin that contains the core.
 [[nodiscard]] inline double reach_of(const CoreView &core) noexcept {
     switch (core.kind) {
     case CoreKind::point:

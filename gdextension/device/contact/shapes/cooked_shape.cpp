@@ -17,9 +17,11 @@ namespace spidar {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Points on a ball take a time that grows with their square: 0.2 s for so many.
+// Largest number of hull points: points on a ball take a time that grows with their square, 0.2 s
+// for this many.
 constexpr std::size_t kMostHullPoints = 4096;
-// Hulls and trees are built in float32, which must hold every square of a distance.
+// Largest coordinate: hulls and trees are built in single precision, which must hold every squared
+// distance.
 constexpr double kMost_m = 1e6;
 
 struct Refusal {
@@ -161,7 +163,7 @@ Refusal cook_height_map(CookedShape::Data &data) {
     if (refused(refusal)) {
         return refusal;
     }
-    constexpr int kMostPoints = 32768; // along one side: cells are counted in 32 bits
+    constexpr int kMostPoints = 32768; // per side; cells are counted in 32 bits
     if (map.columns < 2 || map.rows < 2 || map.columns > kMostPoints || map.rows > kMostPoints) {
         return wrong("A height map needs 2 to 32768 columns and rows.");
     }
@@ -198,7 +200,7 @@ Refusal cook_half_space(CookedShape::Data &data) {
     if (!(length > 0.0) || !std::isfinite(length)) {
         return wrong("normal of a half space has no length, or too much.");
     }
-    // One that has been brought to this length before stays as it is, to the bit.
+    // A normal that was normalized before stays unchanged, bit for bit.
     constexpr double kRoundings = 1e-14;
     if (std::abs(length - 1.0) > kRoundings) {
         wall.normal /= length;

@@ -6,16 +6,16 @@ namespace spidar {
 
 namespace {
 
-constexpr double kTouch_m = 1e-8; // nearer than this, a normal would be rounding
-constexpr double kEnd_m = 1e-9;   // a point this near to an end of the edge is the end
+constexpr double kTouch_m = 1e-8; // below this a normal would be rounding
+constexpr double kEnd_m = 1e-9;   // distance to an end of the edge that counts as the end
 
-// The distance of a point from + t * along of an edge to a disc, in the disc's frame: its axis is y.
+// Distance from the point from + t * along of an edge to a disc with axis y, in the disc's frame.
 struct EdgeOverDisc {
     Vec3 from;
     Vec3 along;
     double radius;
 
-    // Half of the derivative of the squared distance by t.
+    // Half of the derivative of the squared distance with respect to t.
     [[nodiscard]] double slope(double t) const noexcept {
         const Vec3 x = from + t * along;
         double slope = x.y * along.y;
@@ -27,7 +27,7 @@ struct EdgeOverDisc {
         return slope;
     }
 
-    // The squared distance is convex in t: its slope passes zero once.
+    // The squared distance is convex in t: its slope has one root.
     [[nodiscard]] double nearest() const noexcept {
         double low = 0.0;
         double low_slope = slope(0.0);
@@ -39,10 +39,11 @@ struct EdgeOverDisc {
         if (high_slope <= 0.0) {
             return 1.0;
         }
-        // Regula falsi by the Illinois rule, and a bisection after a step that did not halve the interval: at the rim the
-        // slope may be a thousand times steeper on one side. 10 steps are usual.
+        // Regula falsi by the Illinois rule, with a bisection after each step that did not halve
+        // the interval: at the rim the slope may be a thousand times steeper on one side. 10 steps
+        // are usual.
         constexpr int kMaxSteps = 80;
-        constexpr double kTolerance = 1e-12; // of the edge
+        constexpr double kTolerance = 1e-12; // relative to the edge
         const double small = kTolerance * glm::dot(along, along);
         double t = 0.5;
         int side = 0;
@@ -72,7 +73,7 @@ struct EdgeOverDisc {
     }
 };
 
-// The point of the edge is known: t of it.
+// The parameter t of the point on the edge is known.
 EdgeDistance finish(const Vec3 &from, const Vec3 &to, double t, const Vec3 &on_core,
                     double limit_m) noexcept {
     EdgeDistance found;
@@ -114,7 +115,7 @@ EdgeDistance from_core(const CoreView &core, const Placement &at, const Vec3 &fr
     CoreView edge;
     edge.kind = CoreKind::points;
     edge.points = ends;
-    // GJK begins best from the middle of the edge.
+    // GJK starts best from the middle of the edge.
     Vec3 axis = at.origin_m - 0.5 * (from + to);
     const CoreDistance apart = core_distance(core, at, edge, limit_m, axis);
     EdgeDistance found;

@@ -1,4 +1,4 @@
-// An edge of a triangle and a core: in closed form for a point and a flat disc, by GJK for the others.
+// Distance of a triangle's edge and a core: closed form for points and flat discs, else GJK.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
@@ -8,12 +8,14 @@ namespace spidar {
 
 struct EdgeDistance {
     enum End : std::uint8_t { inner, from, to }; // where on the edge
-    bool beyond = false;                         // farther than the limit; nothing else is set
-    bool overlap = false;                        // they meet; nothing else is set
+    // The distance exceeds the limit; the fields below are not set.
+    bool beyond = false;
+    // Edge and core meet; the fields below are not set.
+    bool overlap = false;
     End end = inner;
     Vec3 on_core{0.0};
     Vec3 on_edge{0.0};
-    Vec3 normal{0.0}; // unit, from the edge to the core
+    Vec3 normal{0.0}; // unit vector from the edge to the core
 };
 
 [[nodiscard]] EdgeDistance edge_distance(const CoreView &core, const Placement &core_at,

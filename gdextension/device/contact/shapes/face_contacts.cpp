@@ -8,16 +8,17 @@ namespace spidar {
 namespace {
 
 constexpr int kRimCorners = 8;
-// A rim is turned to its lowest point when tilted by more than this (sine); a flat one lies as its core does.
+// Tilt (sine) above which a rim is turned to its lowest point; a flatter one lies as its core does.
 constexpr double kFlat = 1e-6;
-// A disc or a cap seen at a smaller slant than this (cosine) is an edge, and a round side at a larger one is none.
+// Cosine of the slant below which a disc or cap counts as an edge, and above which a round side
+// does not.
 constexpr double kEdgeOn = 0.1;
 constexpr double kSideOn = 0.5;
-// Two edges nearer to parallel than this touch along a line (cosine).
+// Cosine above which two edges count as parallel and touch along a line.
 constexpr double kParallel = 0.995;
-constexpr double kMostAside =
-    0.1; // of two points that face each other, as a part of their distance
-constexpr double kMinFacing = 0.2; // of a face and the normal (cosine)
+// Largest sideways offset of two points that face each other, relative to their distance.
+constexpr double kMostAside = 0.1;
+constexpr double kMinFacing = 0.2; // between a face and the normal (cosine)
 
 CoreFace rim(const CoreView &core, const Vec3 &way, double y) noexcept {
     const double across = std::hypot(way.x, way.z);
@@ -79,7 +80,7 @@ CoreFace hull_face(const CoreView &core, const Vec3 &way) noexcept {
     return face;
 }
 
-// Convex polygon, clipped in place.
+// A convex polygon, clipped in place.
 struct Polygon { // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<Vec3, kMaxFacePairs> corners;
     int count = 0;
@@ -91,7 +92,7 @@ struct Polygon { // NOLINT(cppcoreguidelines-pro-type-member-init)
     }
 };
 
-// Keeps what lies where outward . x <= offset.
+// Keeps the part with outward . x <= offset.
 void clip(Polygon &polygon, const Vec3 &outward, double offset) noexcept {
     Polygon kept;
     const int edges = polygon.count == 2 ? 1 : polygon.count;
@@ -119,7 +120,7 @@ Vec3 middle_of(const CoreFace &face) noexcept {
     return sum / static_cast<double>(face.count);
 }
 
-// Clips by the sides of a face, or by the ends of an edge, as seen along the normal.
+// Clips by the sides of a face or the ends of an edge, as seen along the normal.
 void clip_by(Polygon &polygon, const CoreFace &face, const Vec3 &normal) noexcept {
     if (face.count == 2) {
         const Vec3 along = face.corners[1] - face.corners[0];
@@ -147,7 +148,7 @@ Polygon polygon_of(const CoreFace &face) noexcept {
     return polygon;
 }
 
-// Unit normal of a face of three corners or more; zero when it has no area.
+// Returns the unit normal of a face of three or more corners; zero when it has no area.
 Vec3 plane_of(const CoreFace &face) noexcept {
     Vec3 area(0.0);
     const auto count = static_cast<std::size_t>(face.count);

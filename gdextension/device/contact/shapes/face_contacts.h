@@ -1,4 +1,4 @@
-// Where two faces that look at each other overlap: the corners of the overlap carry a flat contact.
+// Overlap of two faces that face each other. The corners of the overlap carry a flat contact.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace spidar {
 
-inline constexpr int kMaxFaceCorners = 16; // of a face with more, evenly spread ones are taken
+// Largest number of corners per face; of a face with more corners evenly spread ones are used.
+inline constexpr int kMaxFaceCorners = 16;
 
 // A corner, an edge or a face of a core.
 struct CoreFace { // NOLINT(cppcoreguidelines-pro-type-member-init)
@@ -23,9 +24,9 @@ struct CoreFace { // NOLINT(cppcoreguidelines-pro-type-member-init)
     }
 };
 
-// The face of the core that looks most along `way`, a unit vector; of a round side the line, of a rim the corner.
+// Returns the core's face towards `way` (unit vector): a line at a round side, a corner at a rim.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Vec3 &way) noexcept;
-// The same of a placed core.
+// Same for a placed core.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Placement &at,
                                     const Vec3 &way) noexcept;
 
@@ -41,7 +42,8 @@ struct FacePairs { // NOLINT(cppcoreguidelines-pro-type-member-init)
     int count = 0;
 };
 
-// Corners of the overlap of both faces as seen along `normal`, which leads from shape to tool. None for a corner.
+// Returns the corners of the overlap of two faces as seen along `normal`, which points from shape
+// to tool. Empty when a face is a single corner.
 [[nodiscard]] FacePairs overlap_of(const CoreFace &tool, const CoreFace &shape,
                                    const Vec3 &normal) noexcept;
 

@@ -8,13 +8,14 @@ namespace spidar {
 namespace {
 
 constexpr int kMaxSteps = 64; // 5 to 20 are usual
-// The answer is this near to the exact distance (m). On a surface of 1 cm radius that is a normal within 1e-4 rad.
+// Largest error of the distance (unit: m). On a surface of 1 cm radius this gives normals within
+// 1e-4 rad.
 constexpr double kTolerance_m = 1e-11;
-constexpr double kRelativeTolerance = 1e-13; // rounding of far-off corners
-// Cores nearer than this meet (m): below it a normal would be rounding.
+constexpr double kRelativeTolerance = 1e-13; // rounding of distant corners
+// Distance below which cores meet (unit: m): the normal would be rounding.
 constexpr double kTouch_m = 1e-8;
 
-// A corner of the difference of both cores, and the points it was made of.
+// A corner of the difference of both cores, with the points that form it.
 struct Corner {
     Vec3 difference{0.0};
     Vec3 on_tool{0.0};
@@ -27,7 +28,7 @@ struct Simplex {
     int count = 0;
 };
 
-// The nearest point to the origin on a few corners: their places and weights.
+// The point nearest to the origin on a few corners, with their indices and weights.
 struct Nearest {
     std::array<int, 3> places{};
     std::array<double, 3> weights{};
@@ -67,13 +68,14 @@ Nearest nearest_on_triangle(const Simplex &s, int first, int second, int third) 
     const Vec3 &c = s.corners[static_cast<std::size_t>(third)].difference;
     const Vec3 normal = glm::cross(b - a, c - a);
     const double area2 = glm::dot(normal, normal);
-    // Weights of the foot of the origin on the plane.
+    // Weights of the origin's projection onto the plane.
     const double wa = glm::dot(glm::cross(b, c), normal);
     const double wb = glm::dot(glm::cross(c, a), normal);
     const double wc = glm::dot(glm::cross(a, b), normal);
     if (wa > 0.0 && wb > 0.0 && wc > 0.0 && area2 > 0.0) {
         const double sum = wa + wb + wc;
-        // From the weights, not from the normal: of a sliver they are off together with what they give.
+        // From the weights and not from the normal: for a sliver, weights and point then err
+        // together.
         const Vec3 foot = (wa * a + wb * b + wc * c) / sum;
         return {{first, second, third}, {wa / sum, wb / sum, wc / sum}, 3, foot};
     }
@@ -83,10 +85,10 @@ Nearest nearest_on_triangle(const Simplex &s, int first, int second, int third) 
     return best;
 }
 
-// False: the origin is inside.
+// Returns false when the origin is inside.
 bool nearest_on_tetrahedron(const Simplex &s, Nearest &best) noexcept {
     constexpr std::array<std::array<int, 4>, 4> kFaces{
-        {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}}; // the fourth lies behind
+        {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}}; // the fourth corner lies behind
     bool outside = false;
     for (const auto &face : kFaces) {
         const Vec3 &a = s.corners[static_cast<std::size_t>(face[0])].difference;
@@ -162,7 +164,7 @@ CoreDistance core_distance(const CoreView &tool, const Placement &tool_at, const
         corner.on_shape = support(shape, v);
         corner.difference = corner.on_tool - corner.on_shape;
         const double length = glm::length(v);
-        const double bound = glm::dot(corner.difference, v) / length; // the distance is at least so
+        const double bound = glm::dot(corner.difference, v) / length; // lower bound of the distance
         if (bound > limit_m) {
             axis = v / length;
             return {.beyond = true};
@@ -180,7 +182,7 @@ CoreDistance core_distance(const CoreView &tool, const Placement &tool_at, const
             return {.overlap = true};
         }
         const double nearest2 = length2_of(nearest);
-        if (nearest2 >= v2) { // rounding: no nearer any more
+        if (nearest2 >= v2) { // rounding: no progress
             --s.count;
             break;
         }

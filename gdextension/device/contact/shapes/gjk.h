@@ -1,5 +1,6 @@
-// Distance of two convex cores by Gilbert, Johnson and Keerthi (1988), in double precision. In float32, as in Jolt,
-// a core 1 mm from a floor of 40 m counts as touching it: docs/why/accuracy_and_speed.md.
+// Distance of two convex cores by Gilbert, Johnson and Keerthi (1988) in double precision. In
+// single precision, as in Jolt, a core 1 mm from a floor of 40 m counts as touching
+// (docs/why/accuracy_and_speed.md).
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
@@ -8,15 +9,19 @@
 namespace spidar {
 
 struct CoreDistance {
-    bool beyond = false;  // farther apart than the limit; nothing else is set
-    bool overlap = false; // the cores meet: no normal, no distance
+    // The distance exceeds the limit; the fields below are not set.
+    bool beyond = false;
+    // The cores meet: there is no normal and no distance.
+    bool overlap = false;
     double distance_m = 0.0;
-    Vec3 on_tool_m{0.0}; // on the tool's core; all in the shape's frame
+    // Point on the tool's core. All vectors are in the shape's frame.
+    Vec3 on_tool_m{0.0};
     Vec3 on_shape_m{0.0};
-    Vec3 normal{0.0}; // unit, from the shape to the tool
+    Vec3 normal{0.0}; // unit vector from the shape to the tool
 };
 
-// tool_at: in the shape's frame. axis: where to begin, from shape to tool, and what was found; zero: from the origins.
+// tool_at: placement in the shape's frame. axis: start direction from shape to tool (zero: use the
+// origins); receives the direction found.
 [[nodiscard]] CoreDistance core_distance(const CoreView &tool, const Placement &tool_at,
                                          const CoreView &shape, double limit_m,
                                          Vec3 &axis) noexcept;

@@ -13,9 +13,10 @@ namespace spidar {
 
 namespace {
 
-// Jolt takes a triangle of less than 1e-6 for none: hulls are built at this size.
+// Size at which hulls are built: Jolt ignores triangles of less than 1e-6.
 constexpr double kBuildSize = 100.0;
-// A point this near to the hull is on it, as a part of the hull's size: some roundings of float32.
+// Distance to the hull, relative to its size, at which a point lies on it: some roundings of single
+// precision.
 constexpr double kHullTolerance = 2e-6;
 
 Vec3 middle_of(std::span<const Vec3> points) {
@@ -28,7 +29,7 @@ Vec3 middle_of(std::span<const Vec3> points) {
     return 0.5 * (lower + upper);
 }
 
-// Newell's method: the mean plane of a polygon.
+// Returns the mean plane of a polygon (Newell's method).
 HullFace face_of(std::span<const Vec3> corners) {
     HullFace face;
     Vec3 area(0.0);
@@ -108,7 +109,8 @@ bool shrink_hull(const ConvexCore &hull, double &skin_m, ConvexCore &core) {
         inside = std::min(inside, face.offset_m - glm::dot(face.normal, middle));
     }
     skin_m = std::min(skin_m, 0.5 * inside);
-    // The dual: a plane n . x = d becomes the point n / d, and the faces of the dual's hull become the corners.
+    // The dual: a plane n . x = d becomes the point n / d, and the faces of the dual's hull become
+    // the corners.
     std::vector<Vec3> planes;
     planes.reserve(hull.faces.size());
     for (const HullFace &face : hull.faces) {

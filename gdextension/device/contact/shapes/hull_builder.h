@@ -1,4 +1,4 @@
-// Convex hulls and what is left of them when every face moves inwards, by Jolt's builder. Not for the servo thread.
+// Convex hulls, also with all faces moved inwards, by Jolt's builder. Not for the servo thread.
 #pragma once
 
 #include <span>
@@ -7,11 +7,12 @@
 
 namespace spidar {
 
-// False: the points span no volume. Otherwise core holds corners and faces.
+// Builds corners and faces of `core`. Returns false when the points span no volume.
 [[nodiscard]] bool build_hull(std::span<const Vec3> points, ConvexCore &core);
 
-// The hull with every face moved inwards by at most skin_m; what was taken is written to skin_m: a thin hull gives half
-// of the way from its middle to its nearest face. False: rounding left no volume.
+// Builds `core` as the hull with every face moved inwards by skin_m. A thin hull allows less,
+// namely half the distance from its center to its nearest face; skin_m receives the distance used.
+// Returns false when rounding left no volume.
 [[nodiscard]] bool shrink_hull(const ConvexCore &hull, double &skin_m, ConvexCore &core);
 
 } // namespace spidar

@@ -1,6 +1,6 @@
-// A point of a mesh counts when it is the nearest to the tool in its own surroundings. Inside a triangle that is the foot
-// of the tool's lowest point over it. On an edge or a corner the normal must lie between those of the triangles there;
-// so a seam is not felt, whatever the angle there.
+// A point of a mesh is a contact when it is the nearest to the tool locally. Inside a triangle that
+// is the foot below the tool's lowest point. On an edge or corner the normal must lie between those
+// of the adjacent triangles, so that a seam is not felt at any angle.
 #include "device/contact/shapes/mesh_contacts.h"
 
 #include "device/contact/shapes/edge_distance.h"
@@ -12,20 +12,23 @@ namespace spidar {
 
 namespace {
 
-// Nearer than this (m), the core meets the triangle's plane.
+// Distance below which the core meets the triangle's plane (unit: m).
 constexpr double kTouch_m = 1e-8;
-// A foot on the edge of two triangles must be inside one of them: this much outside counts as inside (m).
+// A foot on the edge of two triangles must be inside one of them: this much outside counts as
+// inside (unit: m).
 constexpr double kEdge_m = 1e-9;
-// A normal may lean out of its edge's or corner's cone by so much (sine): rounding, and below 0.02 degrees.
+// Sine by which a normal may lean out of the cone of its edge or corner: rounding, below 0.02
+// degrees.
 constexpr double kLean = 3e-4;
-// A flat tool lies on few faces at once; the corners of its contact are looked for on the first of them.
+// Largest number of mesh faces on which the contact corners of a flat tool are searched.
 constexpr int kMaxWideContacts = 12;
-constexpr int kMaxFan = 32;       // triangles round a corner
-constexpr double kAlong = 0.9986; // normals within 3 degrees
+constexpr int kMaxFan = 32;       // triangles around a corner
+constexpr double kAlong = 0.9986; // cosine of 3 degrees between normals
 
-// What the first look at a triangle says of its edges: bit i, the tool's lowest point over the triangle's plane lies
-// beyond edge i. Only where it does for both triangles of an edge can the edge be nearest to the tool.
-constexpr std::uint8_t kUnseen = 8; // seen from behind: the other triangle alone says it
+// Result of the first look at a triangle. Bit i: the tool's lowest point over the triangle's plane
+// lies beyond edge i. An edge can be nearest to the tool only where this holds for both of its
+// triangles.
+constexpr std::uint8_t kUnseen = 8; // seen from behind: the other triangle decides alone
 
 class MeshContacts {
 public:
@@ -39,7 +42,7 @@ public:
         if (core_.kind == CoreKind::disc || core_.kind == CoreKind::cylinder) {
             rims_[0] = face_towards(core_, at_, at_.rotation[1]);
             rims_[1] = face_towards(core_, at_, -at_.rotation[1]);
-            corner_step_ = 2; // four of eight: enough to keep a pad flat
+            corner_step_ = 2; // four of eight keep a pad flat
         }
     }
 
@@ -112,7 +115,7 @@ private:
         return beyond;
     }
 
-    // Does the core pass through the triangle?
+    // Returns whether the core passes through the triangle.
     [[nodiscard]] bool meets(const Corners &triangle) const noexcept {
         CoreView other;
         other.kind = CoreKind::points;
@@ -172,7 +175,7 @@ private:
         }
         if (!source_.two_sided() && !in_front(number, at.normal) &&
             !in_front(source_.neighbour(number, edge), at.normal)) {
-            return; // under the border of an open mesh
+            return; // below the border of an open mesh
         }
         add(place, at.on_core, at.on_edge, at.normal, false);
         if (at.end == EdgeDistance::inner || core_.kind != CoreKind::disc) {
@@ -187,7 +190,7 @@ private:
         return triangle != kNone && glm::dot(normal_of(source_.corners(triangle)), normal) > -kLean;
     }
 
-    // The triangle leads away from the edge, as seen along the normal.
+    // Requires that the triangle leads away from the edge, as seen along the normal.
     [[nodiscard]] static bool side_holds(const Vec3 &third, const Vec3 &from, const Vec3 &to,
                                          const Vec3 &normal) noexcept {
         const Vec3 along = to - from;
@@ -213,7 +216,8 @@ private:
         return true;
     }
 
-    // Every edge leads away from the corner, as seen along the normal. Both ways round: a border stops the one.
+    // Requires that every edge leads away from the corner, as seen along the normal. Walks both
+    // ways around, since a border stops one.
     [[nodiscard]] bool corner_holds(std::uint32_t triangle, std::uint32_t corner, std::size_t place,
                                     const Vec3 &at, const Vec3 &normal) const noexcept {
         return fan_holds(triangle, corner, place, at, normal) &&
@@ -255,7 +259,7 @@ private:
         return true;
     }
 
-    // Corners of the tool's face that stand over the inside of the triangle: what keeps a flat tool flat.
+    // Corners of the tool's face over the inside of the triangle keep a flat tool flat.
     void add_corners(int place, const Corners &triangle, const Vec3 &face,
                      const CoreFace &corners) noexcept {
         const Vec3 lower =
@@ -277,7 +281,8 @@ private:
         }
     }
 
-    // Edges of a face of the mesh, where they cross the tool's face: what keeps a large tool flat on a small block.
+    // Edges of a mesh face, where they cross the tool's face, keep a large tool flat on a small
+    // block.
     void add_creases(int place, const Corners &triangle, const Vec3 &face,
                      const CoreFace &corners) noexcept {
         const std::uint8_t creases = near(place).sharp_edges >> 4U;
@@ -313,7 +318,7 @@ private:
         return face;
     }
 
-    // A face on a face or along an edge touches in more than one point.
+    // A face on a face or along an edge touches in several points.
     void add_wide(int place, const Corners &triangle, const Vec3 &normal,
                   const CoreFace &part) noexcept {
         if (core_.kind == CoreKind::point || wide_contacts_ == kMaxWideContacts) {

@@ -1,4 +1,4 @@
-// Contacts of a tool with the triangles gathered from a mesh or a height map.
+// Contacts of a tool with the gathered triangles of a mesh or height map.
 #pragma once
 
 #include "device/contact/shapes/contact_choice.h"
@@ -7,7 +7,7 @@
 
 namespace spidar {
 
-// Everything in the mesh's frame.
+// Adds the contact candidates to `found`. All values are in the mesh's frame.
 void mesh_contacts(const CookedShape::Data &mesh, const ToolShape::Data &tool,
                    const Placement &tool_at, double margin_m, PairMemory &memory,
                    ContactCandidates &found) noexcept;

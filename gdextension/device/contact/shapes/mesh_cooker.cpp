@@ -12,7 +12,8 @@ namespace spidar {
 
 namespace {
 
-// A triangle whose height is less than this part of its longest side has no direction that could be trusted.
+// Smallest height of a triangle relative to its longest side: a flatter one has no reliable
+// direction.
 constexpr double kFlatTriangle = 1e-7;
 
 bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c) {

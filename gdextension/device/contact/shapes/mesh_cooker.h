@@ -1,4 +1,4 @@
-// A mesh made ready: equal corners are one, triangles without area are gone, and each knows those over its edges.
+// Prepares a mesh: merges equal corners, drops triangles without area, finds neighbors.
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@ namespace spidar {
 
 class TriangleSource;
 
-// Corners at the same place become one. Returns how many triangles were dropped.
+// Merges corners at the same place. Returns the number of dropped triangles.
 int weld(ShapeDescription &mesh);
 
-// For each triangle the one over edge i, from corner i to the next; 0xffffffff at a border, and where more than two meet.
+// Returns, per triangle, the neighbor across edge i (from corner i to the next). 0xffffffff at a
+// border and where more than two triangles meet.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>>
 find_neighbours(std::span<const std::uint32_t> indices);
 
-// For each triangle of a mesh whose neighbours are known, as NearTriangle::sharp_edges has it.
+// Returns NearTriangle::sharp_edges of each triangle of a mesh with known neighbors.
 [[nodiscard]] std::vector<std::uint8_t> find_sharp_edges(const TriangleSource &mesh);
 
 } // namespace spidar

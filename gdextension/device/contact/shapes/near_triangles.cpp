@@ -6,16 +6,17 @@ namespace spidar {
 
 namespace {
 
-// Beyond the margin (m): a hand at 0.4 m/s gathers every tenth cycle. A farther one would bring more triangles to look
-// at in each cycle.
+// Distance beyond the margin within which triangles are gathered (unit: m). At 0.4 m/s a hand
+// gathers every tenth cycle; a larger distance would bring more triangles to check in each cycle.
 constexpr double kSlack_m = 4e-3;
-// A tool on a mesh too fine for the list gathers anew after this (m), for the list can never be complete.
+// Movement after which a tool gathers again on a mesh too fine for the list (unit: m), since the
+// list is never complete there.
 constexpr double kLeastSlack_m = 1e-3;
 
-// Rounding of the ball round a triangle to float32, as a part of its size and place.
+// Rounding of a triangle's ball to single precision, relative to its size and position.
 constexpr double kFloat = 2e-7;
 
-// No point of the tool moves farther than this from the one placement to the other.
+// Returns a bound of the movement of the tool's points between two placements.
 double moved_at_most(const Placement &from, const Placement &to, double reach_m) noexcept {
     double turn2 = 0.0;
     for (int column = 0; column < 3; ++column) {
@@ -51,7 +52,7 @@ public:
                           [this](std::uint32_t triangle) { add(triangle); });
     }
 
-    // All triangles nearer to the core than this are in the list.
+    // Distance from the core within which the list holds all triangles.
     [[nodiscard]] double complete_to_m() const noexcept { return reach_m_; }
 
 private:
@@ -71,7 +72,8 @@ private:
         near.middle_m = {static_cast<float>(middle.x), static_cast<float>(middle.y),
                          static_cast<float>(middle.z)};
         near.radius_m = static_cast<float>(radius + kFloat * (radius + glm::length(middle)));
-        // At most the distance: between the boxes of both, and from the core to the ball round the triangle.
+        // A lower bound of the distance: between both boxes, and from the core to the triangle's
+        // ball.
         const Vec3 inside = back_ * (middle - origin_m_);
         insert(near, std::max(glm::length(apart), distance_to_core(core_, inside) - radius));
     }
@@ -81,7 +83,7 @@ private:
             return;
         }
         if (memory_.count == kMaxNearTriangles) {
-            // The farthest makes room: what is complete reaches as far as it was.
+            // The farthest triangle is replaced, and the complete distance shrinks accordingly.
             std::pop_heap(heap_.begin(), heap_.end(), NearerLast{distances_});
             const std::size_t farthest = heap_.back();
             reach_m_ = std::max(distances_[farthest], distance);
@@ -113,7 +115,7 @@ private:
     std::array<std::uint16_t, kMaxNearTriangles> heap_;
 };
 
-// Places of the list by the numbers of their triangles: a table at most half full.
+// Maps triangle numbers to list places: a hash table that is at most half full.
 class Places {
 public:
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
@@ -140,7 +142,7 @@ private:
     static constexpr std::size_t kSlots = 4096;
 
     static std::size_t slot_of(std::uint32_t triangle) noexcept {
-        return (triangle * 0x9e3779b1U) >> 20U; // Knuth's multiplication; the upper 12 bits
+        return (triangle * 0x9e3779b1U) >> 20U; // Knuth's multiplicative hash, upper 12 bits
     }
     static_assert(kSlots == 1U << 12U && kSlots / 2 > kMaxNearTriangles);
 
@@ -164,7 +166,7 @@ void link(const TriangleSource &source, PairMemory &memory) noexcept {
 
 bool still_near(const PairMemory &memory, const ToolShape::Data &tool, const Placement &tool_at,
                 double margin_m) noexcept {
-    // A list that is full reaches as far as it can: gathering it again where it is would not help.
+    // A full list reaches as far as it can: gathering again at the same place would not help.
     const double slack = memory.slack_m - (margin_m - memory.margin_m);
     return memory.slack_m >= 0.0 &&
            moved_at_most(memory.gathered_at, tool_at, tool.reach_m) <= slack;
@@ -178,7 +180,7 @@ void gather_triangles(const TriangleSource &source, const ToolShape::Data &tool,
     link(source, memory);
     memory.gathered_at = tool_at;
     memory.margin_m = margin_m;
-    // Too many triangles within the margin itself: what there is serves for a while.
+    // Too many triangles lie within the margin itself: the list is used for a while as it is.
     const double slack_m = gatherer.complete_to_m() - tool.skin_m - margin_m;
     memory.full = slack_m < kLeastSlack_m;
     memory.slack_m = std::max(slack_m, kLeastSlack_m);

@@ -7,10 +7,11 @@
 
 namespace spidar {
 
-// Does the memory still hold all triangles within margin_m of the tool?
+// Returns true when the memory still holds all triangles within margin_m of the tool.
 [[nodiscard]] bool still_near(const PairMemory &memory, const ToolShape::Data &tool,
                               const Placement &tool_at, double margin_m) noexcept;
 
+// Gathers the triangles near the tool into the memory.
 void gather_triangles(const TriangleSource &source, const ToolShape::Data &tool,
                       const Placement &tool_at, double margin_m, PairMemory &memory) noexcept;
 

@@ -17,7 +17,7 @@ Vec3 from_jolt(JPH::Vec3Arg v) noexcept {
             static_cast<double>(v.GetZ())};
 }
 
-// Both cores about the tool's origin, so that float32 serves where the shape is large.
+// Both cores relative to the tool's origin, so that single precision suffices for large shapes.
 struct PlacedCore {
     const CoreView &core;
     Mat3 rotation;
@@ -30,7 +30,7 @@ struct PlacedCore {
     }
 };
 
-// The way out along a given direction: exact, whatever the direction.
+// Returns the way out along a given direction, exactly.
 CoreDistance along(const CoreView &tool, const Placement &tool_at, const CoreView &shape,
                    const Vec3 &normal) noexcept {
     CoreDistance found{.overlap = true};
@@ -52,7 +52,8 @@ void keep_shorter(CoreDistance &best, const CoreDistance &other) noexcept {
 
 CoreDistance way_out(const CoreView &tool, const Placement &tool_at,
                      const CoreView &shape) noexcept {
-    // The axes of both: where the search below fails, one of them is near enough.
+    // Directions to try first: the axes of both cores. When the search below fails, one of them is
+    // close enough.
     CoreDistance best = along(tool, tool_at, shape, Vec3(0.0, 1.0, 0.0));
     for (int axis = 0; axis < 3; ++axis) {
         Vec3 unit(0.0);
@@ -67,13 +68,14 @@ CoreDistance way_out(const CoreView &tool, const Placement &tool_at,
     JPH::Vec3 on_a = JPH::Vec3::sZero();
     JPH::Vec3 on_b = JPH::Vec3::sZero();
     JPH::EPAPenetrationDepth search;
-    // A thousandth of the depth: a way out is taken in steps, and looked for again after each.
+    // Tolerance of a thousandth of the depth: a way out is taken in steps and searched again after
+    // each.
     constexpr float kTolerance = 1e-3F;
     constexpr float kTouch = 1e-7F;
     const auto status = search.GetPenetrationDepthStepGJK(a, 0.0F, b, 0.0F, kTouch, v, on_a, on_b);
     if (status == JPH::EPAPenetrationDepth::EStatus::Indeterminate &&
         search.GetPenetrationDepthStepEPA(a, b, kTolerance, v, on_a, on_b)) {
-        const Vec3 way = from_jolt(v); // moves the shape out
+        const Vec3 way = from_jolt(v); // direction that moves the shape out
         const double length = glm::length(way);
         if (length > 0.0 && std::isfinite(length)) {
             keep_shorter(best, along(tool, tool_at, shape, -way / length));

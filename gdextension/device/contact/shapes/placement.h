@@ -1,4 +1,4 @@
-// Where a shape is, in the device frame: a point x of the shape lies at origin_m + rotation * x.
+// Pose of a shape in the device frame: a point x of the shape lies at origin_m + rotation * x.
 #pragma once
 
 #include "core/base/finite.h"
@@ -8,10 +8,10 @@ namespace spidar {
 
 struct Placement {
     Vec3 origin_m{0.0};
-    Mat3 rotation{1.0}; // a rotation: orthonormal, right-handed
+    Mat3 rotation{1.0}; // orthonormal and right-handed
 };
 
-// A placement inside another: first `inner`, then `outer`.
+// Returns the placement `inner` inside `outer`: first `inner` is applied, then `outer`.
 [[nodiscard]] inline Placement operator*(const Placement &outer, const Placement &inner) noexcept {
     return {outer.origin_m + outer.rotation * inner.origin_m, outer.rotation * inner.rotation};
 }

@@ -1,4 +1,4 @@
-// What cooking leaves, for this room alone.
+// Result of cooking, used within this folder only.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
@@ -10,22 +10,24 @@
 namespace spidar {
 
 struct CookedShape::Data {
-    ShapeDescription description; // points of a mesh and heights of a height map stay here
+    // Holds the points of a mesh and the heights of a height map.
+    ShapeDescription description;
     Vec3 lower_m{0.0};
     Vec3 upper_m{0.0};
-    ConvexCore core; // of a convex kind
+    ConvexCore core; // convex kinds only
     double skin_m = 0.0;
-    TriangleTree tree;                                    // of a mesh
-    std::vector<std::uint8_t> sharp_edges;                // of a mesh: NearTriangle::sharp_edges
-    std::vector<ReliefLevel> relief;                      // of a relief: finest first
-    std::vector<std::array<std::uint32_t, 3>> neighbours; // of a mesh: over each edge, or kNone
+    TriangleTree tree;                     // mesh only
+    std::vector<std::uint8_t> sharp_edges; // mesh only: NearTriangle::sharp_edges
+    std::vector<ReliefLevel> relief;       // relief only: finest first
+    // Mesh only: neighbor across each edge, or kNone.
+    std::vector<std::array<std::uint32_t, 3>> neighbours;
 };
 
 struct ToolShape::Data {
     ToolDescription description;
     ConvexCore core;
     double skin_m = 0.0;
-    double reach_m = 0.0; // skin included
+    double reach_m = 0.0; // with skin
 };
 
 } // namespace spidar

@@ -13,10 +13,10 @@ namespace spidar {
 
 namespace {
 
-constexpr int kSectors = 32; // of a circle
+constexpr int kSectors = 32; // per circle
 constexpr int kGridCells = 8;
 
-// Lines of one shape, counted.
+// Counts the lines of one shape.
 class Lines {
 public:
     explicit Lines(std::vector<Vec3> &all) : all_(all), most_(all.size() + 2 * kMostOutlineLines) {}
@@ -26,7 +26,7 @@ public:
             all_.push_back(to);
         }
     }
-    // From the angle 0 on, which is at `middle + across`.
+    // Starts at the angle 0, at `middle + across`.
     void arc(const Vec3 &middle, const Vec3 &across, const Vec3 &up, double angle_rad) {
         const int count =
             static_cast<int>(std::ceil(kSectors * angle_rad / (2.0 * std::numbers::pi)));
@@ -50,7 +50,7 @@ private:
 struct Ball {
     Vec3 middle{0.0};
     double radius = 0.0;
-    // The box round the corners meets it.
+    // Returns whether the box around the corners meets the ball.
     [[nodiscard]] bool meets(std::span<const Vec3> corners) const {
         Vec3 lower = corners.front();
         Vec3 upper = corners.front();
@@ -98,7 +98,7 @@ void add_hull(const ConvexCore &core, const Ball &ball, Lines &lines) {
         }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const Vec3 &next = corners[(i + 1) % corners.size()];
-            if (before(corners[i], next)) { // the face beyond has it the other way round
+            if (before(corners[i], next)) { // the neighboring face has the edge in reverse
                 lines.add(corners[i], next);
             }
         }

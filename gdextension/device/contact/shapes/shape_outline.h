@@ -1,5 +1,5 @@
-// The lines that show a shape to people: edges of boxes, hulls and triangles, circles of what is round. Not for the servo
-// thread.
+// Lines that draw a shape: edges of boxes, hulls and triangles, circles of round shapes. Not for
+// the servo thread.
 #pragma once
 
 #include <cmath>
@@ -12,18 +12,18 @@
 
 namespace spidar {
 
-// Lines of one shape: of a mesh with more of them near, the rest is left out.
+// Largest number of lines per shape; further lines of a large mesh are omitted.
 inline constexpr std::size_t kMostOutlineLines = 3000;
 
-// Adds two points for each line, in the shape's frame (m). Of meshes, height maps and hulls the faces near a ball come, of a
-// half space a square grid over it; anything else comes whole.
+// Appends two points per line, in the shape's frame (unit: m). Meshes, height maps and hulls give
+// the faces near a ball, a half space gives a square grid near it; other shapes are drawn whole.
 void add_outline(const CookedShape &shape, const Vec3 &ball_m, double ball_radius_m,
                  std::vector<Vec3> &lines);
 
-// As add_outline, of a box about its own middle.
+// Like add_outline(), for a box about its center.
 void add_box_outline(const Vec3 &lower_m, const Vec3 &upper_m, std::vector<Vec3> &lines);
 
-// Some unit direction at right angles to this one, to draw round it. direction: not zero, of any length.
+// Returns a unit vector perpendicular to `direction`, which must not be zero.
 [[nodiscard]] inline Vec3 any_across(const Vec3 &direction) noexcept {
     const bool is_along_x = std::abs(direction.x) >= 0.7 * glm::length(direction);
     return glm::normalize(

@@ -24,7 +24,7 @@ ToolResult finish(std::unique_ptr<ToolShape::Data> data) {
     return result;
 }
 
-// A skin takes at most half of what there is.
+// A skin takes at most half of the shape's thickness.
 double skin_for(double wanted_m, double half_thickness_m) {
     return std::min(wanted_m, 0.5 * half_thickness_m);
 }

@@ -1,4 +1,4 @@
-// The triangles of a mesh, or of a height map's grid, by their number. Inside this room.
+// The triangles of a mesh or of a height map's grid, by number. Used within this folder only.
 #pragma once
 
 #include <array>
@@ -14,13 +14,14 @@ using Corners = std::array<Vec3, 3>; // counter-clockwise seen from the front
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Unit, to the front.
+// Returns the unit normal towards the front.
 [[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
     return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
 }
 
-// A cell of a height map has two triangles, 2 * cell and 2 * cell + 1, cut from (column + 1, row) to (column, row + 1)
-// as the engine's own physics cuts it. A cell is named by its lower corner, in rows of all columns.
+// A cell of a height map has the two triangles 2 * cell and 2 * cell + 1. They are cut from (column
+// + 1, row) to (column, row + 1), as in the engine's physics. A cell is numbered by its lower
+// corner, in rows of all columns.
 class TriangleSource {
 public:
     explicit TriangleSource(const CookedShape::Data &data) noexcept
@@ -28,7 +29,7 @@ public:
 
     [[nodiscard]] bool two_sided() const noexcept { return data_.description.two_sided; }
 
-    // The numbers of its corners: equal ones are one corner.
+    // Returns the numbers of a triangle's corners; equal numbers are one corner.
     [[nodiscard]] std::array<std::uint32_t, 3>
     corner_numbers(std::uint32_t triangle) const noexcept {
         if (!grid_) {
@@ -49,7 +50,7 @@ public:
         return {corner(numbers[0]), corner(numbers[1]), corner(numbers[2])};
     }
 
-    // The triangle on the other side of edge i, from corner i to the next; kNone at a border.
+    // Returns the triangle across edge i (from corner i to the next); kNone at a border.
     [[nodiscard]] std::uint32_t neighbour(std::uint32_t triangle, std::size_t edge) const noexcept {
         if (!grid_) {
             return data_.neighbours[triangle][edge];
@@ -68,7 +69,7 @@ public:
                            : grid_triangle(column + 1, row, 0);
     }
 
-    // Which edges stand out: NearTriangle::sharp_edges. Of a mesh it is known.
+    // Returns NearTriangle::sharp_edges: stored for a mesh, computed for a grid.
     [[nodiscard]] std::uint8_t sharp_edges(std::uint32_t triangle) const noexcept {
         return grid_ ? measure_edges(triangle) : data_.sharp_edges[triangle];
     }
@@ -89,7 +90,7 @@ public:
         return data_.description.indices.size() / 3;
     }
 
-    // Calls visit(triangle) for all triangles that may meet the box, and for some others.
+    // Calls visit(triangle) for all triangles that may meet the box, and possibly for others.
     template <class Visit>
     void visit_box(const Vec3 &lower_m, const Vec3 &upper_m, Visit &&visit) const {
         if (!grid_) {
@@ -120,11 +121,11 @@ private:
     static constexpr unsigned kSharp = 1;
     static constexpr unsigned kCrease = 16; // sharp by more than 3 degrees
 
-    // The bits of one edge, moved to edge 0.
+    // Returns the bits of one edge, shifted to edge 0.
     [[nodiscard]] unsigned sharpness(const Corners &triangle, std::uint32_t neighbour,
                                      std::uint32_t first_shared,
                                      std::uint32_t second_shared) const noexcept {
-        // Faces that turn from each other by less (sine) are one flat face: the edge between them is no edge.
+        // Faces that turn away from each other by less (sine) are one flat face.
         constexpr double kFlatEdge = 1e-6;
         constexpr double kOneFace = 0.9986; // cosine of 3 degrees
         if (neighbour == kNone) {
@@ -137,7 +138,7 @@ private:
             if (numbers[i] == first_shared || numbers[i] == second_shared) {
                 continue;
             }
-            // The far corner lies below the plane of this triangle: the edge stands out.
+            // The edge is convex when the other corner lies below the plane of this triangle.
             const Vec3 from = other[i] - triangle[0];
             const double rise = glm::dot(from, normal);
             const double limit = kFlatEdge * glm::length(from);
@@ -162,7 +163,7 @@ private:
                 (row - 0.5 * (shape.rows - 1)) * shape.spacing_z_m};
     }
 
-    // kNone outside the grid and at a hole.
+    // Returns kNone outside the grid and at a hole.
     [[nodiscard]] std::uint32_t grid_triangle(int column, int row, int half) const noexcept {
         const ShapeDescription &map = data_.description;
         if (column < 0 || row < 0 || column >= map.columns - 1 || row >= map.rows - 1) {
@@ -177,7 +178,7 @@ private:
         return triangle;
     }
 
-    // The cell that a coordinate falls into; the nearest one outside the grid.
+    // Returns the cell of a coordinate; outside the grid the nearest cell.
     [[nodiscard]] static int cell_at(double coordinate_m, double spacing_m, int points) noexcept {
         const double place = std::floor(coordinate_m / spacing_m + 0.5 * (points - 1));
         return static_cast<int>(std::fmin(std::fmax(place, 0.0), points - 2.0));
@@ -187,14 +188,15 @@ private:
     bool grid_;
 };
 
-// Does the foot of a point on the triangle's plane lie inside? A foot on an edge does, within rounding.
+// True when a point's foot on the triangle's plane is inside or, within rounding, on an edge.
 [[nodiscard]] inline bool over_triangle(const Vec3 &point, const Corners &triangle) noexcept {
     constexpr double kEdge_m = 1e-9; // this much outside counts as inside
     const Vec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const double slack = kEdge_m * glm::length(area);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 edge = triangle[(i + 1) % 3] - triangle[i];
-        const double length = std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z); // at least
+        // At least the length of the edge.
+        const double length = std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z);
         if (glm::dot(glm::cross(edge, point - triangle[i]), area) < -slack * length) {
             return false;
         }

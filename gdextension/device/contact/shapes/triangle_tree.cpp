@@ -14,7 +14,7 @@ namespace {
 
 constexpr JPH::uint kTrianglesInLeaf = 4;
 
-// float32 corners: a box is widened by their rounding.
+// Widens a box by the rounding of corners to single precision.
 float below(float value) {
     return std::nextafter(value, -std::numeric_limits<float>::infinity());
 }
@@ -27,11 +27,11 @@ public:
     Layout(const JPH::AABBTreeBuilder &builder, TriangleTree &tree)
         : nodes_(builder.GetNodes()), triangles_(builder.GetTriangles()), tree_(tree) {}
 
-    // Depth first; a stack of our own, since a tree of many equal triangles may be deep.
+    // Depth first, with an explicit stack, since a tree of many equal triangles may be deep.
     void lay_out(const JPH::AABBTreeBuilder::Node &root) {
         struct Step {
             const JPH::AABBTreeBuilder::Node *node;
-            std::size_t closes; // place whose skip is known now; node is null then
+            std::size_t closes; // place whose skip is now known; node is null then
         };
         std::vector<Step> steps{{&root, 0}};
         while (!steps.empty()) {

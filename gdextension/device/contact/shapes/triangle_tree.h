@@ -1,4 +1,4 @@
-// The boxes round the triangles of a mesh: cut by Jolt's builder, laid out so that a walk needs no stack.
+// Bounding boxes of a mesh's triangles, split by Jolt's builder; traversal needs no stack.
 #pragma once
 
 #include <algorithm>
@@ -11,20 +11,21 @@
 
 namespace spidar {
 
-// Nodes in the order of the walk. A node whose box is missed is followed by the one at `skip`.
+// Nodes in traversal order. When a node's box is missed, the traversal continues at `skip`.
 struct TreeNode {
     std::array<float, 3> lower{};
     std::array<float, 3> upper{};
     std::uint32_t skip = 0;
-    std::uint32_t first = 0; // of a leaf: place in `order`
-    std::uint32_t count = 0; // 0: no leaf
+    // Leaf: index into TriangleTree::order.
+    std::uint32_t first = 0;
+    std::uint32_t count = 0; // 0: not a leaf
 };
 
 struct TriangleTree {
     std::vector<TreeNode> nodes;
-    std::vector<std::uint32_t> order; // triangles, leaf after leaf
+    std::vector<std::uint32_t> order; // triangles of all leaves in order
 
-    // Calls visit(triangle) for every triangle whose leaf's box meets the box.
+    // Calls visit(triangle) for every triangle in a leaf whose box meets the given box.
     template <class Visit>
     void visit_box(const Vec3 &lower_m, const Vec3 &upper_m, Visit &&visit) const {
         std::size_t place = 0;
@@ -48,7 +49,7 @@ struct TriangleTree {
     }
 };
 
-// Three indices into points for each triangle. Not for the servo thread.
+// Builds the tree from three indices into points per triangle. Not for the servo thread.
 [[nodiscard]] TriangleTree build_tree(std::span<const Vec3> points,
                                       std::span<const std::uint32_t> indices);
 

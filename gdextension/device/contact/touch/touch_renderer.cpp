@@ -13,10 +13,10 @@ namespace spidar {
 
 namespace {
 
-// A part that a new scene puts further away than this was put there: nothing lies in between.
+// Distance of a part between two scenes above which it was teleported: nothing lies in between.
 constexpr double kJump_m = 0.05;
 constexpr double kJump_rad = 0.5;
-// Of a soft contact: the velocity is measured over some milliseconds.
+// Longest damping time, for soft contacts: their velocity is measured over some milliseconds.
 constexpr double kMostDamping_s = 0.01;
 
 bool same(const ToolPose &a, const ToolPose &b) noexcept {
@@ -35,7 +35,7 @@ Wrench blend(const Wrench &from, const Wrench &to, double share) noexcept {
     return (1.0 - share) * from + share * to;
 }
 
-// Caps a velocity's size and leaves its direction.
+// Limits the length of a velocity and keeps its direction.
 Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp) noexcept {
     const double speed_m_s = glm::length(velocity_m_s);
     const double given_m_s =
@@ -43,7 +43,8 @@ Vec3 capped_speed(const Vec3 &velocity_m_s, std::int32_t index, GainClamp &clamp
     return given_m_s < speed_m_s ? (given_m_s / speed_m_s) * velocity_m_s : velocity_m_s;
 }
 
-// What two motions have in common, axis by axis: the smaller of two of the same sign. A blow is seen once.
+// Returns the common part of two motions per axis: the smaller one where the signs agree. A single
+// jolt is thereby ignored.
 Vec3 shared(const Vec3 &a, const Vec3 &b) noexcept {
     Vec3 both(0.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,7 +82,7 @@ void TouchRenderer::use_wanted_springs() noexcept {
 }
 
 void TouchRenderer::tune(GainClamp &clamp) noexcept {
-    // The proxy divides by it.
+    // The proxy divides by this value.
     constexpr double kSoftest = 1e-6;
     for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
         const DofCap cap = stiffness_cap(caps_, dof);
@@ -91,7 +92,7 @@ void TouchRenderer::tune(GainClamp &clamp) noexcept {
                               : kAutomaticShare * cap.most;
         wanted_settings_.stiffness[dof] = std::max(wanted, kSoftest);
     }
-    // The same time for all DOF, so that none is damped more than its cap.
+    // One time constant for all DOF, so that none is damped above its cap.
     const double damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
                                         GainClamp::Gain::damping, 0, false, clamp);
     double stiffest_n_m = 0.0;
@@ -127,7 +128,7 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     }
     felt_ = touch.felt;
     if (!same(touch.load, load_) || load_age_s_ >= kCrossFade_s) {
-        // The same load again, from one of many ticks that share a drawn frame, goes on as it comes.
+        // The same load again, from ticks that share a drawn frame, continues unchanged.
         load_from_ = load_now_;
         load_ = touch.load;
         load_age_s_ = 0.0;
@@ -138,7 +139,7 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     renew(touch, stamped ? std::max(0.0, touch.state_time_s - state_time_s_) : 0.0, clamp);
     state_time_s_ = touch.state_time_s;
     if (empty()) {
-        strength_.set(1.0); // the game goes on and touches nothing: nothing to recover from
+        strength_.set(1.0); // the game continues without contacts: no onset is needed
     }
     return clamp;
 }
@@ -171,7 +172,8 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
     const ContactScene old = scene_;
     const std::array<Track, kMaxSceneParts> old_tracks = tracks_;
     scene_.count = touch.scene.count;
-    // Where a moving part was when the last cycle ended, and seen as far ahead as the grip is.
+    // Extrapolates a moving part from the end of the last cycle by the time by which the grip is
+    // predicted.
     const double later_s = clock_.carried_s() + lead_s_ - cycle_s_;
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
@@ -180,7 +182,7 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
             capped(part.friction, kMaxFriction, GainClamp::Gain::friction, s, false, clamp);
         part.traits.static_friction = capped(part.traits.static_friction, kMaxFriction,
                                              GainClamp::Gain::friction, s, false, clamp);
-        // The tool's own damping and the surface's together.
+        // The damping of the tool plus that of the surface.
         part.damping_n_s_m =
             capped(part.damping_n_s_m,
                    std::max(0.0, caps_.damping_n_s_m -
@@ -236,7 +238,7 @@ bool TouchRenderer::age(double dt_s) noexcept {
     clock_.advance(dt_s);
     cycle_s_ = dt_s;
     if (empty()) {
-        return false; // an empty scene never grows old
+        return false; // an empty scene does not expire
     }
     if (strength_.advance(clock_.age_s(), dt_s)) {
         return false;
@@ -249,7 +251,8 @@ bool TouchRenderer::carry(double dt_s) noexcept {
     const bool carries = clock_.carries();
     const double left_s = std::clamp(kCrossFade_s - clock_.age_s(), 0.0, dt_s);
     const double corrects = left_s / (kCrossFade_s * dt_s);
-    // The middle of this cycle, from the moment of the scene on, and seen as far ahead as the grip is.
+    // From the scene's time to the middle of this cycle, plus the time by which the grip is
+    // predicted.
     const double middle_s = clock_.carried_s() + lead_s_ - 0.5 * dt_s;
     bool moves = false;
     for (int s = 0; s < scene_.count; ++s) {
@@ -300,7 +303,7 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         load_age_s_ += dt_s;
         const double share = cross_fade(load_age_s_);
         load_now_ = blend(load_from_, load_, share);
-        // The load pulls on the proxy: as far as its springs give, or to what carries it.
+        // The load displaces the proxy's target by load / stiffness in each DOF.
         DofLanes gives = lanes(load_now_);
         for (std::size_t dof = 0; dof < gives.size(); ++dof) {
             gives[dof] /= settings_.stiffness[dof];
@@ -308,7 +311,7 @@ Wrench TouchRenderer::render(const GripMotion &motion, double dt_s) noexcept {
         device = moved(device, of_lanes<Displacement>(gives));
     }
     const double strength = strength_.value();
-    // Joints have springs, motors and slack that go on by themselves.
+    // Joints have springs, motors and slack that move by themselves.
     const bool waits = !carry(dt_s) && !changes && tool_.joint_count == 0 &&
                        same(device, device_) && same(motion.velocity, velocity_) &&
                        strength == rendered_strength_;

@@ -76,7 +76,7 @@ Status validate(const TouchScene &touch) noexcept {
     }
     if (!all_finite(touch.stiffness, touch.damping_n_s_m, touch.load, touch.state_time_s,
                     tool.jaws.open_m, tool.jaws.closed_rad) ||
-        std::isnan(tool.stop_rad)) { // infinite where nothing is held
+        std::isnan(tool.stop_rad)) { // infinite when nothing is held
         return Status::not_finite;
     }
     const bool good = touch.damping_n_s_m >= 0.0 && tool.jaws.open_m >= 0.0 &&

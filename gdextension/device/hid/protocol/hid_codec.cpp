@@ -11,15 +11,16 @@ namespace spidar {
 
 namespace {
 
-// "SPDG" and "ZERO" in ASCII: a feature report of something else does not pass for these.
+// "SPDG" and "ZERO" in ASCII: other feature reports are not accepted as these.
 constexpr std::uint32_t kCapabilitiesMagic = 0x47445053;
 constexpr std::uint32_t kZeroMagic = 0x4F52455A;
 constexpr std::size_t kCrcSize = 2;
-// The capabilities alone are sealed with this in every version, so that a host can read which version a device speaks.
+// Seed of the capabilities' CRC in every version, so that a host can read which version a device
+// uses.
 constexpr std::uint16_t kCapabilitiesSeed = 0;
 
-// Writes fields one after another, little-endian. seal() puts the CRC in the last two bytes, high byte first: only
-// then is a burst of wrong bits that reaches into the CRC one that the CRC is sure to find.
+// Writes fields one after another, little-endian. seal() puts the CRC in the last two bytes, high
+// byte first: only then does the CRC detect every burst of wrong bits that reaches into it.
 template <std::size_t size>
 class Writer {
 public:
@@ -29,7 +30,7 @@ public:
     void all(const Fields &...fields) noexcept {
         (put(fields), ...);
     }
-    // What every report of this kind holds here.
+    // Writes a constant that every report of this kind holds here.
     template <typename Integer>
     void constant(Integer value) noexcept {
         put(value);
@@ -63,7 +64,7 @@ private:
     std::size_t at_ = 0;
 };
 
-// Reads them back. Only over bytes whose length has been checked.
+// Reads the fields back. Requires bytes whose length was checked.
 class Reader {
 public:
     explicit Reader(ReportBytes bytes) noexcept : bytes_(bytes) {}
@@ -80,9 +81,9 @@ public:
     }
     void reserved() noexcept { ++at_; }
 
-    // Every constant was as expected.
+    // True when every constant had its expected value.
     [[nodiscard]] bool good() const noexcept { return good_; }
-    // True when all up to the CRC is zero.
+    // Returns true when all bytes up to the CRC are zero.
     [[nodiscard]] bool rest_is_zero() const noexcept {
         const ReportBytes rest = bytes_.subspan(at_, bytes_.size() - kCrcSize - at_);
         return std::all_of(rest.begin(), rest.end(), [](std::uint8_t byte) { return byte == 0; });
@@ -105,7 +106,7 @@ private:
     }
 
     ReportBytes bytes_;
-    std::size_t at_ = 1; // behind the report id
+    std::size_t at_ = 1; // after the report id
     bool good_ = true;
 };
 
@@ -124,7 +125,7 @@ private:
 template <typename T, typename Report>
 concept Either = std::same_as<std::remove_const_t<T>, Report>;
 
-// The fields of each report in their order on the wire, once for a Writer and for a Reader.
+// The fields of each report in wire order, used by Writer and Reader.
 template <typename Wire, Either<StateReport> Report>
 void fields(Wire &wire, Report &report) noexcept {
     wire.all(report.flags, report.sequence, report.accepted_command, report.device_time_us,
@@ -177,7 +178,7 @@ encoded(HidReportId id, const Report &report, std::uint16_t seed = kHidProtocolV
     return writer.seal(seed);
 }
 
-// good(report, reader): what must hold of the values.
+// good(report, reader): condition on the decoded values.
 template <typename Report, typename Good>
 [[nodiscard]] Decoded decoded(ReportBytes bytes, std::size_t size, HidReportId id, Report &report,
                               Good good, std::uint16_t seed = kHidProtocolVersion) noexcept {

@@ -1,5 +1,5 @@
-// Reports to bytes and back. Decoding trusts nothing: length, report id, CRC and ranges are checked in this order, and
-// the value is written only when all hold. noexcept, no allocation.
+// Conversion between reports and bytes. decode() checks length, report id, CRC and ranges in this
+// order, and writes `report` only when all are valid. noexcept, no allocation.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ encode(const HidCapabilities &report) noexcept;
 
 [[nodiscard]] Decoded decode(ReportBytes bytes, StateReport &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, CommandReport &report) noexcept;
-// Reads those of any protocol version: the caller compares protocol_version.
+// Accepts any protocol version: the caller compares protocol_version.
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidCapabilities &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidLimits &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidZero &report) noexcept;

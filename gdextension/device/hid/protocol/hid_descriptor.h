@@ -1,5 +1,5 @@
-// The HID report descriptor of a SPIDAR-G controller: a firmware author copies these bytes. docs/reference/hid_protocol.md
-// shows them too, and a test holds both together.
+// The HID report descriptor of a SPIDAR-G controller, to be copied into firmware.
+// docs/reference/hid_protocol.md shows the same bytes; a test compares the two.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// The HID protocol of a SPIDAR-G controller, version 1, as docs/reference/hid_protocol.md describes it: what its reports hold.
-// Integers only, little-endian; forces in mN, times in us or ms. hid_codec.h turns them into bytes and back.
+// The reports of the HID protocol, version 1, of a SPIDAR-G controller
+// (docs/reference/hid_protocol.md). Integers, little-endian; forces in mN, times in us or ms.
+// hid_codec.h converts them to bytes and back.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ enum class HidReportId : std::uint8_t {
     device_control = 0x13, // FEATURE
 };
 
-// Bytes, the report id and the CRC in the last two included.
+// Sizes in bytes, with the report id and the two CRC bytes.
 inline constexpr std::size_t kStateSize = 64;
 inline constexpr std::size_t kCommandSize = 32;
 inline constexpr std::size_t kCapabilitiesSize = 64;
@@ -38,26 +39,29 @@ inline constexpr std::uint8_t kActuatorPower = 0x08;   // the motors' supply is 
 inline constexpr std::uint8_t kEncoderFault = 0x10;    // latched; fault_strings names them
 inline constexpr std::uint8_t kOverTemperature = 0x20; // latched
 inline constexpr std::uint8_t kCommandClipped = 0x40;  // a limit of the device changed the command
-inline constexpr std::uint8_t kZeroed = 0x80; // since power-up and since the last USB reset
+// Zeroed since power-up and since the last USB reset.
+inline constexpr std::uint8_t kZeroed = 0x80;
 } // namespace state_flag
 
 namespace command_flag {
 inline constexpr std::uint8_t kEnable = 0x01;
 inline constexpr std::uint8_t kEmergencyStop = 0x02;
 inline constexpr std::uint8_t kClearFaults = 0x04; // acts only without kEnable
-inline constexpr std::uint8_t kHold = 0x08;        // minimum tension
+inline constexpr std::uint8_t kHold = 0x08;        // keep the minimum tension
 inline constexpr std::uint8_t kAll = 0x0F;
 } // namespace command_flag
 
+// Value of a tension that the device does not measure.
 inline constexpr std::uint16_t kNotMeasured = 0xFFFF;
 
 struct StateReport {
     std::uint8_t flags = 0; // state_flag
     std::uint16_t sequence = 0;
-    std::uint16_t accepted_command = 0xFFFF; // sequence of the last accepted command; 0xFFFF none
-    std::uint32_t device_time_us = 0;        // wraps
+    // Sequence number of the last accepted command; 0xFFFF: none.
+    std::uint16_t accepted_command = 0xFFFF;
+    std::uint32_t device_time_us = 0; // wraps
     CountArray counts{};
-    std::array<std::uint16_t, kStringCount> tensions_mn{}; // measured; kNotMeasured
+    std::array<std::uint16_t, kStringCount> tensions_mn{}; // measured, or kNotMeasured
     std::uint8_t buttons = 0;
     std::uint8_t fault_strings = 0; // bit i: string i
     std::uint16_t supply_mv = 0;
@@ -67,26 +71,27 @@ struct StateReport {
 struct CommandReport {
     std::uint8_t flags = 0; // command_flag
     std::uint16_t sequence = 0;
-    std::uint16_t valid_for_ms = 0; // from its arrival; 1 and up
+    std::uint16_t valid_for_ms = 0; // from its arrival; at least 1
     std::array<std::uint16_t, kStringCount> tensions_mn{};
-    std::uint16_t answers_state = 0xFFFF; // sequence of the state that this was computed from
-    std::uint32_t host_time_us = 0;       // for logs only
+    // Sequence number of the state from which the command was computed.
+    std::uint16_t answers_state = 0xFFFF;
+    std::uint32_t host_time_us = 0; // for logs only
     bool operator==(const CommandReport &) const = default;
 };
 
-// What a device is, and what it can do: the specification structure of each device.
+// What a device is and what it can do.
 struct HidCapabilities {
     std::uint8_t protocol_version = kHidProtocolVersion;
     std::uint8_t motor_count = kStringCount;
-    std::uint16_t capabilities = 0; // bit 0 measures tension, bit 1 has a local impedance
+    std::uint16_t capabilities = 0; // bit 0: measures tension, bit 1: has a local impedance
     std::uint16_t firmware_version = 0;
     std::array<std::uint8_t, 12> unique_id{};
     std::uint32_t counts_per_turn = 0;
     std::uint16_t max_tension_mn = 0;
     std::uint16_t max_tension_rate_mn_ms = 0;
-    std::uint16_t watchdog_limit_ms = 0; // a longer valid_for_ms is cut to it
+    std::uint16_t watchdog_limit_ms = 0; // a longer valid_for_ms is clamped to it
     std::uint16_t report_rate_hz = 0;
-    std::uint16_t max_force_mn = 0; // at the centre of the workspace
+    std::uint16_t max_force_mn = 0; // at the center of the workspace
     std::uint16_t max_moment_mnm = 0;
     std::uint16_t max_grasp_torque_mnm = 0;
     std::uint16_t max_stiffness_n_m = 0;
@@ -95,7 +100,7 @@ struct HidCapabilities {
     bool operator==(const HidCapabilities &) const = default;
 };
 
-// The device keeps the stricter of its own value and this one, and answers with what it keeps.
+// The device keeps the stricter of its own value and this one, and reports back what it keeps.
 struct HidLimits {
     std::uint16_t max_tension_mn = 0;
     std::uint16_t tension_rate_mn_ms = 0;
@@ -105,13 +110,13 @@ struct HidLimits {
     bool operator==(const HidLimits &) const = default;
 };
 
-// The counts that the encoders are to read here and now. Only while disabled.
+// Sets the encoders to these counts at the present pose. Accepted only with disabled motors.
 struct HidZero {
     CountArray counts{};
     bool operator==(const HidZero &) const = default;
 };
 
-// In the order of the USB PID class's device control usages.
+// Values follow the device control usages of the USB PID class.
 enum class DeviceControl : std::uint8_t {
     enable = 1,
     disable = 2,

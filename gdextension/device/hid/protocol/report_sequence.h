@@ -1,4 +1,4 @@
-// Sequence numbers of reports: 16 bits, counting 0 to 0xFFFE and round again; 0xFFFF is never used (it says "none").
+// Value of "no sequence number". Sequence numbers have 16 bits: 0 to 0xFFFE, then 0 again.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ inline constexpr std::uint16_t kNoSequence = 0xFFFF;
     return static_cast<std::uint16_t>(sequence >= kNoSequence - 1 ? 0 : sequence + 1);
 }
 
-// Is `candidate` newer than `than`? Their signed 16-bit difference is positive.
+// True when `candidate` is newer than `than`: their signed 16-bit difference is positive.
 [[nodiscard]] constexpr bool is_newer(std::uint16_t candidate, std::uint16_t than) noexcept {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(candidate - than)) > 0;
 }
 
-// Steps of next_sequence() from `from` to `to`, when `to` is newer; the number left out is not counted.
+// Returns the number of next_sequence() steps from `from` to a newer `to`.
 [[nodiscard]] constexpr std::uint32_t sequence_steps(std::uint16_t from,
                                                      std::uint16_t to) noexcept {
     const std::uint32_t difference = static_cast<std::uint16_t>(to - from);

@@ -54,7 +54,8 @@ void ByteWriter::varint(std::uint64_t value) {
 }
 
 void ByteWriter::sparse_word(std::uint64_t value) {
-    // High half of the first byte: zero bytes at the low end; low half: bytes that follow.
+    // High half of the first byte: number of zero bytes at the low end. Low half: number of bytes
+    // that follow.
     const unsigned low =
         value == 0 ? 0U : static_cast<unsigned>(std::countr_zero(value)) / kByteBits;
     const unsigned high = static_cast<unsigned>(std::countl_zero(value)) / kByteBits;

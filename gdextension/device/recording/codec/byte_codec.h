@@ -1,4 +1,4 @@
-// Numbers as bytes, little end first: what a recording file is made of.
+// Numbers as bytes in a recording file, little-endian.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,16 @@
 
 namespace spidar {
 
-// CRC-32 (ISO-HDLC: polynomial 0xEDB88320, reflected), continued from `before`. "123456789" gives 0xCBF43926.
+// Returns CRC-32 (ISO-HDLC: polynomial 0xEDB88320, reflected), continued from `before`. "123456789"
+// gives 0xCBF43926.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::uint8_t> bytes,
                                   std::uint32_t before = 0) noexcept;
 
-// Small numbers of either sign as small unsigned ones: 0, -1, 1, -2 -> 0, 1, 2, 3.
+// Maps small numbers of either sign to small unsigned ones: 0, -1, 1, -2 to 0, 1, 2, 3.
 [[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) noexcept {
     return (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63U);
 }
+// Inverse of zigzag().
 [[nodiscard]] constexpr std::int64_t from_zigzag(std::uint64_t value) noexcept {
     return static_cast<std::int64_t>((value >> 1U) ^ (~(value & 1U) + 1U));
 }
@@ -26,10 +28,10 @@ public:
     explicit ByteWriter(std::vector<std::uint8_t> &bytes) noexcept : bytes_(bytes) {}
 
     void fixed(std::uint64_t value, int size_bytes);
-    // 7 bits a byte: 1 byte below 128, 10 at most.
+    // Writes 7 bits per byte: 1 byte below 128, at most 10.
     void varint(std::uint64_t value);
     void signed_varint(std::int64_t value) { varint(zigzag(value)); }
-    // What changed in a 64-bit word: one byte that says which bytes are not zero, then those from the first to the last.
+    // Writes a 64-bit word of mostly zero bytes: one byte for the nonzero range, then that range.
     void sparse_word(std::uint64_t value);
     void raw(std::span<const std::uint8_t> bytes);
 
@@ -37,7 +39,7 @@ private:
     std::vector<std::uint8_t> &bytes_;
 };
 
-// Reads what ByteWriter wrote. Past the end it gives zeros, and good() is false from then on.
+// Reads what ByteWriter wrote. Past the end it returns zeros, and good() stays false.
 class ByteReader {
 public:
     ByteReader() noexcept = default;

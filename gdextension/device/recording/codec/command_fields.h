@@ -1,5 +1,5 @@
-// The one list of what a HapticCommand holds. A new field of the command is added here, and is then recorded, read,
-// compared and counted.
+// List of all fields of a HapticCommand. A new field must be added here; recording, reading and
+// comparing then include it.
 #pragma once
 
 #include "device/contract/haptic_command.h"
@@ -7,7 +7,7 @@
 
 namespace spidar {
 
-// A field added to one of these structs: add it to the list below, then correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<ContactPlane>() == 8, "ContactPlane changed: list its fields here");
 static_assert(count_members<Coupling>() == 11, "Coupling changed: list its fields here");
 static_assert(count_members<Effect>() == 11, "Effect changed: list its fields here");
@@ -52,7 +52,7 @@ void for_each_field(Command &command, Visit &&visit) requires
         ++i;
     }
     visit("contacts_state_time_s", 0, command.contacts_state_time_s);
-    visit("touch_sequence", 0, command.touch_sequence); // the scene itself: touch_words.h
+    visit("touch_sequence", 0, command.touch_sequence); // recorded by touch_words.h
     visit("coupling_sequence", 0, command.coupling_sequence);
     auto &coupling = command.coupling;
     visit_vector("coupling.position_m", 0, coupling.position_m, visit);

@@ -12,10 +12,11 @@ namespace spidar {
 
 namespace {
 
-// What follows in a cycle; the commonest come first, so that the flags are mostly one byte.
+// Flags for what follows in a cycle. The most frequent come first, so that the flags mostly take
+// one byte.
 constexpr std::uint64_t kCounts = 1;
 constexpr std::uint64_t kTensions = 2;
-constexpr std::uint64_t kReading = 4; // the rest of the reading is not what was to be expected
+constexpr std::uint64_t kReading = 4; // the rest of the reading differs from the expected one
 constexpr std::uint64_t kTimeStep = 8;
 constexpr std::uint64_t kCommand = 16;
 constexpr std::uint64_t kState = 32;
@@ -23,10 +24,10 @@ constexpr std::uint64_t kReadStatus = 64;
 constexpr std::uint64_t kWriteStatus = 128;
 constexpr std::uint64_t kMayArm = 256; // the flag itself, not a change of it
 constexpr std::uint64_t kSegment = 512;
-constexpr std::uint64_t kTouch = 1024; // the scene is another one than that of the last command
+constexpr std::uint64_t kTouch = 1024; // the scene differs from that of the last command
 constexpr std::uint64_t kAllFlags = 2047;
 
-// Where clock and sequence number stand in the list of a reading.
+// Indices of clock and sequence number in the list of a reading.
 constexpr std::size_t kClockWord = 0;
 constexpr std::size_t kSequenceWord = 1;
 constexpr std::size_t kLeastReadingWords = 2;
@@ -34,7 +35,7 @@ constexpr std::size_t kLeastReadingWords = 2;
 constexpr int kDigestBytes = 4;
 constexpr int kWordBytes = 8;
 constexpr double kNanosecond_s = 1e-9;
-constexpr double kLongestWhole_ns = 1e15; // llround() of more is not exact
+constexpr double kLongestWhole_ns = 1e15; // llround() of larger values is not exact
 
 std::int32_t difference(std::int32_t a, std::int32_t b) noexcept { // wraps, as the counts do
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
@@ -44,7 +45,8 @@ std::int32_t sum(std::int32_t a, std::int64_t b) noexcept {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-// Measured time steps are whole nanoseconds times 1e-9: three bytes. What is not, is kept as it is.
+// Measured time steps are whole nanoseconds and take three bytes. Any other value is stored as it
+// is.
 void encode_time_step(double dt_s, ByteWriter &to) {
     const double steps = dt_s / kNanosecond_s;
     if (std::abs(steps) < kLongestWhole_ns) {
@@ -67,7 +69,8 @@ double decode_time_step(ByteReader &from) noexcept {
     return static_cast<double>(from_zigzag(head >> 1U)) * kNanosecond_s;
 }
 
-// What a device says when nothing happens: its clock and sequence number go on as they did.
+// Returns the reading that is expected when nothing happens: clock and sequence number continue as
+// before.
 DeviceReading expected_after(const DeviceReading &before, std::uint64_t clock_step_us) noexcept {
     DeviceReading expected = before;
     expected.device_time_us += clock_step_us;
@@ -75,7 +78,7 @@ DeviceReading expected_after(const DeviceReading &before, std::uint64_t clock_st
     return expected;
 }
 
-// What changed in a row of words: pairs (words skipped, change), ended by a skip to the end.
+// Writes the changes in a row of words: pairs (words skipped, change), ended by a skip to the end.
 void encode_changes(std::span<const std::uint64_t> words, std::span<const std::uint64_t> before,
                     ByteWriter &to) {
     std::size_t done = 0;
@@ -110,7 +113,7 @@ CycleEncoder::CycleEncoder()
       reading_(count_fields(DeviceReading{})), expected_(reading_.size()) {}
 
 void CycleEncoder::encode(const CycleRecord &record, const HapticCommand &command, ByteWriter &to) {
-    if (record.segment_start) { // readable without what came before
+    if (record.segment_start) { // readable without the cycles before
         last_ = CycleRecord();
         last_tensions_mn_ = {};
         last_clock_step_us_ = 0;

@@ -1,4 +1,4 @@
-// Cycles as few bytes: each is written as its difference from the one before.
+// Encodes cycles compactly, each as its difference from the one before.
 #pragma once
 
 #include <span>
@@ -10,24 +10,25 @@
 
 namespace spidar {
 
-// What a file says about one cycle.
+// One cycle as read from a file.
 struct RecordedCycle : CycleState {
     CycleInput input;
     std::uint64_t tick = 0;
     bool segment_start = false;
     bool command_is_new = false;
     bool touch_is_new = false; // CycleDecoder::touch_words() have changed
-    // As last recorded, word by word (command_fields.h).
+    // The last recorded command as words (command_fields.h).
     std::vector<std::uint64_t> command_words;
     MillinewtonArray tensions_mn{};
-    std::uint32_t digest = 0; // of the whole output
+    // Digest of the whole output.
+    std::uint32_t digest = 0;
 };
 
 class CycleEncoder {
 public:
     CycleEncoder();
-    // command: the one in force; looked at when the record starts a segment or its command is new. The scene that it points
-    // to is looked at then too, if its number is new.
+    // Encodes a cycle. command: the command in force. The command and its scene are read only when
+    // the record starts a segment or its command is new; the scene also needs a new number.
     void encode(const CycleRecord &record, const HapticCommand &command, ByteWriter &to);
 
 private:
@@ -45,12 +46,13 @@ private:
 
 class CycleDecoder {
 public:
-    // How many words a command, the rest of a reading and a scene had when the recording was made. Of a reading with other
-    // fields than this build knows, the known ones are kept: new fields are added at the end of the list.
+    // Numbers of words per command, per rest of a reading and per scene in the recording. From
+    // readings with unknown fields the known ones are kept, since new fields are only added at the
+    // end of the list.
     CycleDecoder(std::size_t command_words, std::size_t reading_words, std::size_t touch_words);
-    // False: these bytes are no cycle; `cycle` then means nothing.
+    // Returns false when the bytes are not a cycle; `cycle` is then undefined.
     bool decode(ByteReader &from, RecordedCycle &cycle);
-    // The scene in force, as touch_words.h has it.
+    // The scene in force, as words of touch_words.h.
     [[nodiscard]] std::span<const std::uint64_t> touch_words() const noexcept { return touch_; }
 
 private:
@@ -59,7 +61,7 @@ private:
     void decode_reading(bool told, ByteReader &from);
     RecordedCycle last_;
     std::uint64_t last_clock_step_us_ = 0;
-    std::vector<std::uint64_t> reading_; // the rest of the last reading
+    std::vector<std::uint64_t> reading_; // the last reading without its counts
     std::vector<std::uint64_t> touch_;
 };
 

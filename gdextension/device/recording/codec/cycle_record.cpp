@@ -11,7 +11,7 @@ namespace spidar {
 
 namespace {
 
-// A row of doubles that is filled from the front.
+// Fills a row of doubles from the front.
 struct Filler {
     double *next;
     void put(double value) noexcept { *next++ = value; }
@@ -57,7 +57,7 @@ std::uint32_t digest_of(const CycleOutput &output) noexcept {
         constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15U; // 2^64 / golden ratio
         constexpr unsigned kHalf = 32;
         hash = (hash ^ word) * kOdd;
-        hash ^= hash >> kHalf; // the product's high bits are its best
+        hash ^= hash >> kHalf; // the high bits of the product mix best
     };
     for (const double value : output.values) {
         mix(std::bit_cast<std::uint64_t>(value));
@@ -75,7 +75,7 @@ std::uint32_t digest_of(const CycleOutput &output) noexcept {
 
 MillinewtonArray millinewtons_of(const CycleOutput &output) noexcept {
     constexpr double kPerNewton = 1000.0;
-    constexpr double kMost = 1e9; // the conversion is defined, whatever the value
+    constexpr double kMost = 1e9; // makes the conversion defined for any value
     MillinewtonArray tensions{};
     for (std::size_t i = 0; i < tensions.size(); ++i) {
         const double value = kPerNewton * output.values[kOutputTensions + i];

@@ -1,5 +1,5 @@
-// One servo cycle as it is handed from the loop to whoever writes it down: everything that ServoStep::step and
-// report_write() were given, and what came out.
+// One servo cycle as the loop passes it to the recorder: all inputs of ServoStep::step() and
+// report_write(), and the outputs.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-// What changes rarely in an output, and together.
+// Outputs that change rarely and together.
 struct CycleState {
     DeviceState state = DeviceState::closed;
     GraspPhase grasp = GraspPhase::open;
@@ -23,41 +23,46 @@ struct CycleState {
     bool operator==(const CycleState &) const = default;
 };
 
-// What a replay must reproduce to the bit: what went to the motors, and what the game was told.
+// Outputs that a replay must reproduce bit for bit: commands to the motors and values for the game.
 struct CycleOutput : CycleState {
     static constexpr std::size_t kValues = 42;
-    // currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force scale, time_s
+    // Order: currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force
+    // scale, time_s.
     std::array<double, kValues> values{};
 };
 
-inline constexpr std::size_t kOutputTensions = 8; // where tensions_n begin in CycleOutput::values
+// Index of the first tension in CycleOutput::values.
+inline constexpr std::size_t kOutputTensions = 8;
 
 void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
                  CycleOutput &output) noexcept;
 
-// All bits of an output as one number.
+// Returns a hash of all bits of an output.
 [[nodiscard]] std::uint32_t digest_of(const CycleOutput &output) noexcept;
 
-// Tensions as they are stored to be read without a replay (unit: mN).
+// Tensions that can be read without a replay (unit: mN).
 using MillinewtonArray = std::array<std::int32_t, kStringCount>;
 [[nodiscard]] MillinewtonArray millinewtons_of(const CycleOutput &output) noexcept;
 
-// The game looked at the device: what it saw then is the snapshot of this cycle.
+// A read of the device by the game: the game saw the snapshot of this cycle.
 struct GameRead {
-    std::uint64_t tick = 0;    // of the cycle, as CycleRecord::tick
-    bool physics_tick = false; // the look of a physics tick; else one between two of them
-    std::uint64_t contacts_sequence =
-        0; // of the newest set of contacts that the game had asked for
+    std::uint64_t tick = 0; // of the cycle, as CycleRecord::tick
+    // True for the read of a physics tick, false for one between two ticks.
+    bool physics_tick = false;
+    // Sequence number of the newest contacts that the game had requested.
+    std::uint64_t contacts_sequence = 0;
     bool operator==(const GameRead &) const = default;
 };
 
 struct CycleRecord {
     CycleInput input;
     CycleOutput output;
-    std::uint64_t lost_before = 0; // cycles that found the ring full, since the recording began
-    std::uint64_t tick = 0;        // cycles since the device was opened; this one included
-    bool segment_start = false;    // a memory of the step goes before it
-    bool command_is_new = false;   // differs from the cycle before
+    // Cycles that were dropped because the ring was full, since the recording began.
+    std::uint64_t lost_before = 0;
+    // Cycles since the device was opened, including this one.
+    std::uint64_t tick = 0;
+    bool segment_start = false;  // the memory of the step is stored before it
+    bool command_is_new = false; // the command differs from the last cycle's
 };
 
 } // namespace spidar

@@ -1,6 +1,6 @@
-// Structs as rows of named 64-bit words. A struct lists its fields once, in a function
+// Converts structs to rows of named 64-bit words. A struct lists its fields once, in a function
 //   for_each_field(struct, visit)   which calls   visit(name, index, field)
-// for every field; all that writes, reads, names or counts them goes through that list.
+// for every field. Writing, reading, naming and counting use that list.
 #pragma once
 
 #include <bit>
@@ -35,10 +35,10 @@ void from_word(std::uint64_t word, T &value) noexcept {
     }
 }
 
-// How many members a plain struct has: a list that was not told of a new one is found out when it is compiled.
+// Counts a plain struct's members at compile time: a list that lacks one does not compile.
 struct AnyMember {
     template <typename T>
-    operator T() const noexcept; // never defined: only types are asked
+    operator T() const noexcept; // never defined: only its type is used
 };
 template <typename Struct, typename... Members>
 [[nodiscard]] constexpr std::size_t count_members() noexcept {
@@ -49,7 +49,7 @@ template <typename Struct, typename... Members>
     }
 }
 
-// Helpers for lists: a vector is three fields, an array as many as it has elements. `index` counts within a name.
+// Helpers for field lists: a vector has three fields, an array one per element (`index`).
 template <typename Vector, typename Visit>
 void visit_vector(std::string_view name, int index, Vector &vector, Visit &&visit) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +82,7 @@ void visit_vectors(std::string_view name, Vectors &vectors, Visit &&visit) {
     }
 }
 
-// Fields in the list of a struct.
+// Returns the number of fields in a struct's list.
 template <typename Struct>
 [[nodiscard]] std::size_t count_fields(const Struct &value) noexcept {
     std::size_t count = 0;
@@ -90,7 +90,8 @@ template <typename Struct>
     return count;
 }
 
-// Names, order and types of the list as one number: equal only when words mean the same.
+// Returns a hash of names, order and kinds (floating-point or integer) of a list. Equal hashes mean
+// that words have the same meaning.
 template <typename Struct>
 [[nodiscard]] std::uint64_t schema_of(const Struct &value) noexcept {
     std::uint64_t hash = 0xCBF29CE484222325U; // FNV-1a
@@ -108,7 +109,7 @@ template <typename Struct>
     return hash;
 }
 
-// words must have count_fields() elements.
+// Stores all fields; `words` must have count_fields() elements.
 template <typename Struct>
 void store_words(const Struct &value, std::span<std::uint64_t> words) noexcept {
     std::size_t next = 0;
@@ -118,6 +119,7 @@ void store_words(const Struct &value, std::span<std::uint64_t> words) noexcept {
     });
 }
 
+// Loads all fields from words of store_words().
 template <typename Struct>
 void load_words(std::span<const std::uint64_t> words, Struct &value) noexcept {
     std::size_t next = 0;

@@ -1,5 +1,5 @@
-// The one list of what a DeviceReading holds beside its counts. Clock and sequence number stay the first two
-// (cycle_codec.cpp); new fields go to the end.
+// List of the fields of a DeviceReading except its counts. Clock and sequence number must stay the
+// first two (cycle_codec.cpp); new fields must be added at the end.
 #pragma once
 
 #include "device/contract/transport.h"

@@ -27,7 +27,7 @@ void decode_fields(ByteReader &from, Struct &value) {
     });
 }
 
-// How many elements of a list follow; none where the bytes of so many do not.
+// Reads the length of a list; 0 when the bytes for so many elements are missing.
 std::size_t decode_count(ByteReader &from, std::size_t bytes_each, bool &good) {
     const std::uint64_t count = from.varint();
     good = good && from.good() && count <= from.rest().size() / bytes_each;

@@ -1,4 +1,4 @@
-// Shapes in a recording: each is kept once, as the description that it was cooked from, under its number.
+// Shapes in a recording. Each description is stored once, with a number, and cooked on reading.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,20 @@ namespace spidar {
 void encode_shape(const CookedShape &shape, ByteWriter &to);
 void encode_shape(const ToolShape &tool, ByteWriter &to);
 
-// The shapes of a recording, cooked again, by the numbers that they had when they were recorded.
+// The shapes of a recording, cooked again and found by their recorded numbers.
 class RecordedShapes {
 public:
-    // What encode_shape() wrote. False: no shape can be made of it. Allocates, and takes as long as cooking does. A shape
-    // whose number is known already is left out: pointers to the first one stay good until clear().
+    // Reads the bytes of encode_shape() and cooks the shape. Returns false when no shape can be
+    // made. A shape with a known number is ignored, so that pointers stay valid until clear().
+    // Allocates, and takes as long as cooking.
     [[nodiscard]] bool take(std::span<const std::uint8_t> bytes);
     void clear() noexcept;
-    // Null: there is none of this number.
+    // Returns null when no shape has this number.
     [[nodiscard]] const CookedShape *shape(std::uint64_t number) const noexcept;
     [[nodiscard]] const ToolShape *tool(std::uint64_t number) const noexcept;
 
 private:
-    // Trees: numbers that were chosen to do harm make no search slow.
+    // Ordered maps: in a malicious file, chosen numbers cannot slow the search down.
     std::map<std::uint64_t, std::shared_ptr<const CookedShape>> shapes_;
     std::map<std::uint64_t, std::shared_ptr<const ToolShape>> tools_;
 };

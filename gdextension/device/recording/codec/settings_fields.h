@@ -1,4 +1,4 @@
-// The one list of what ServoSettings hold: what the head of a recording tells about the device.
+// List of all fields of ServoSettings, used by the head of a recording.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace spidar {
 
-// A field added to one of these structs: add it to the list below, then correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<FrameGeometry>() == 3, "FrameGeometry changed: list its fields here");
 static_assert(count_members<GripGeometry>() == 4, "GripGeometry changed: list its fields here");
 static_assert(count_members<StringCalibration>() == 3, "StringCalibration changed: list them here");

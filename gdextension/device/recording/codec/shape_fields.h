@@ -1,4 +1,4 @@
-// The lists of what descriptions of shapes and tools hold, beside their points, indices and heights.
+// Lists of the fields of shape and tool descriptions, except points, indices and heights.
 #pragma once
 
 #include <type_traits>
@@ -9,11 +9,11 @@
 
 namespace spidar {
 
-// A field added to one of these structs: add it to the lists below, then correct the number.
+// A failing assertion means that a struct changed: add the field below, then correct the number.
 static_assert(count_members<ShapeDescription>() == 14, "ShapeDescription changed: list it here");
 static_assert(count_members<ToolDescription>() == 5, "ToolDescription changed: list it here");
 
-// Of a description, what is no list.
+// Visits the fields of a shape description that are not lists.
 template <typename Shape, typename Visit>
 void for_each_field(Shape &shape, Visit &&visit) requires
     std::is_same_v<std::remove_const_t<Shape>, ShapeDescription> {

@@ -6,7 +6,8 @@
 
 namespace spidar {
 
-// A field added to one of these structs: add it to the lists below, then correct the number.
+// A failing assertion means that a struct has changed: add the field to the lists below, then
+// correct the number.
 static_assert(count_members<TouchScene>() == 9, "TouchScene changed: list its fields here");
 static_assert(count_members<ToolJoint>() == 6, "ToolJoint changed: list its fields here");
 static_assert(count_members<JointAxis>() == 7, "JointAxis changed: list its fields here");
@@ -25,7 +26,7 @@ void visit_placement(Place &at, Visit &&visit) {
     visit_matrix("rotation", 0, at.rotation, visit);
 }
 
-// Beside the parts.
+// Fields besides the parts.
 template <typename Touch, typename Visit>
 void visit_head(Touch &touch, Visit &&visit) {
     visit("tool.count", 0, touch.tool.count);
@@ -104,7 +105,7 @@ std::size_t count_visits(VisitAll &&visit_all) noexcept {
     return count;
 }
 
-// How many words each part of a scene takes; the first word of all says whether there is one.
+// Number of words per part of a scene; the first word of a scene is 1 when there is one.
 struct Layout {
     std::size_t head = 0;
     std::size_t tool_part = 0;
@@ -141,7 +142,7 @@ std::uint64_t word_of(const T &value) noexcept {
     return to_word(value);
 }
 
-// The first `count` parts, each from its own place on.
+// Visits the first `count` parts, each from its own index on.
 template <typename Parts, typename Use>
 void for_parts(Parts &parts, int count, std::size_t first, std::size_t words_each, Use &&use) {
     const int most = static_cast<int>(parts.size());
@@ -151,7 +152,7 @@ void for_parts(Parts &parts, int count, std::size_t first, std::size_t words_eac
     }
 }
 
-// All fields of a scene's parts that are there, with the places of their words.
+// Visits all fields of a scene's existing parts, with the indices of their words.
 template <typename Touch, typename Visit>
 void visit_parts(Touch &touch, Visit &&visit) noexcept {
     const Layout &sizes = layout();

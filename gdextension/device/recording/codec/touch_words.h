@@ -1,4 +1,4 @@
-// A scene of shapes as a row of words of always the same length; shapes are named by their numbers.
+// A scene of shapes as a fixed number of words, with shapes given by their numbers.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,13 @@ namespace spidar {
 
 [[nodiscard]] std::size_t count_touch_words() noexcept;
 
-// Null: no scene. Words of parts that are not there are left as they are: they cost nothing where only changes are kept. A
-// scene that is not valid (validate) is kept too, as far as it has parts.
+// Stores a scene; null: no scene. Words of parts that do not exist stay unchanged, which costs
+// nothing when only changes are recorded. An invalid scene is stored as well, up to its part count.
 void store_touch(const TouchScene *touch, std::span<std::uint64_t> words) noexcept;
 
-// False: there is no scene. What no servo loop would render comes back as that: validate() refuses it as it did then. The
-// scene does not own its shapes. words: count_touch_words() of them, of any value.
+// Loads a scene from count_touch_words() words of any value. Returns false when there is no scene.
+// A scene that was invalid when recorded is invalid again: validate() refuses it. The scene does
+// not own its shapes.
 [[nodiscard]] bool load_touch(std::span<const std::uint64_t> words, const RecordedShapes &shapes,
                               TouchScene &touch) noexcept;
 

@@ -8,15 +8,17 @@ namespace spidar {
 
 namespace {
 
-// Less push than this is no touch.
+// Smallest push that counts as a touch.
 constexpr double kLeastPush_n = 0.02;
-// A longer touch is the hand's own push, which may leave as fast as it likes.
+// Longest touch that counts: a longer one is the hand's own push, which may leave at any speed.
 constexpr double kLongestTouch_s = 0.080;
-// Slower ones are felt as rough at most.
+// Smallest speed that counts: slower bounces feel rough at most.
 constexpr double kLeastSpeed_m_s = 0.06;
-// Of the speed of arrival; a little more than the filter of the twist can make of a lossless bounce.
+// Ratio of leaving to arrival speed that counts: slightly more than the filter of the twist can
+// make of a lossless bounce.
 constexpr double kGain = 1.1;
-// So many in a row, each within this time of the last: nobody taps so, for a tap leaves slower than it came.
+// Bounces in a series, and the longest time between them. Tapping cannot cause a series, since a
+// tap leaves slower than it came.
 constexpr int kBounces = 3;
 constexpr double kLongestPause_s = 0.4;
 
@@ -50,7 +52,7 @@ bool BounceMonitor::update(const Twist &twist, const Wrench &push, double dt_s) 
         return false;
     }
     if (!touching_) {
-        row_ = since_s_ > kLongestPause_s ? 0 : row_; // too long ago to go on
+        row_ = since_s_ > kLongestPause_s ? 0 : row_; // the last bounce is too long ago
         return false;
     }
     touching_ = false;

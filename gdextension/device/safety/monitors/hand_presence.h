@@ -1,5 +1,5 @@
-// Does a hand hold the grip? No sensor tells; but a hand is never quite still, and strings that hold a grip alone
-// are. A device with a real hand arms only when the grip moved lately.
+// Estimates whether a hand holds the grip. A hand is never quite still; a grip held by strings
+// alone is. A real device arms only when the grip has moved lately.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,20 @@ namespace spidar {
 
 class HandPresence {
 public:
-    // Twenty counts at the pole ends: more than an encoder flickers, less than any hand stays within.
+    // Movement that counts (unit: m): twenty counts at the pole ends, more than encoder flicker.
     static constexpr double kMove_m = 0.0005;
 
     void configure(const SafetySettings &safety) noexcept {
         limit_s_ = safety.hand_presence_s;
         restart();
     }
-    // Still for longer than any limit, until it moves.
+    // Counts the grip as still until it moves.
     void restart() noexcept {
         known_ = false;
         moved_ = false;
         still_s_ = 0.0;
     }
-    // A pose that stays changes nothing but for how long it has.
+    // True when the last pose did not move: only the time without motion changes.
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
     void advance_at_rest(double dt_s) noexcept { still_s_ += dt_s; }
     void update(const GripPose &pose, double dt_s) noexcept {
@@ -45,11 +45,11 @@ public:
         anchor_ = pose;
         still_s_ = 0.0;
     }
-    // Always, when the limit is 0.
+    // True when the grip moved within the limit, or when the limit is 0.
     [[nodiscard]] bool present() const noexcept {
         return !(limit_s_ > 0.0) || (moved_ && still_s_ <= limit_s_);
     }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(known_, moved_, moving_); }
 
 private:
@@ -57,7 +57,7 @@ private:
     double still_s_ = 0.0;
     bool known_ = false;
     bool moved_ = false;
-    bool moving_ = false; // in the last update()
+    bool moving_ = false; // moved in the last update()
     GripPose anchor_{};
 };
 

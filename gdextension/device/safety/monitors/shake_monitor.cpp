@@ -11,24 +11,26 @@ namespace spidar {
 
 namespace {
 
-// Four whole periods in a row: no tap swings so often.
+// Swings in a series: four whole periods, more than a tap gives.
 constexpr int kSwings = 8;
-// The forces come back to full within this, once the grip is calm.
+// Time in which the forces return once the grip is calm.
 constexpr double kRecovery_s = 1.0;
 constexpr double kLeastScale = 0.25;
-// Of a grip at rest (m/s), of a contact left (N): so little is nothing.
+// Slow parts that count as zero: of a grip at rest (m/s) and of a contact that was left (N).
 constexpr double kStill = 1e-9;
-// A swing so long ago is no longer in a row.
+// Time after which a swing no longer belongs to a series.
 constexpr double kLongAgo_s = 0.15;
 
 } // namespace
 
-// Least: 1 mm to and fro at 40 Hz, five times what a good rendering may dither; rubbing along three surfaces at once shows
-// nearly as much and is felt as rough, not as a danger. Longest half: of 8 Hz; a light hand bounces off a wall so slowly,
-// and nobody shakes a grip as fast for long. Slow: a corner of 13 Hz.
+// Smallest swing: 1 mm peak to peak at 40 Hz, five times what a good rendering dithers; rubbing
+// along three surfaces at once shows nearly as much and only feels rough. Longest half period: 8
+// Hz; a light hand bounces off a wall no slower, and nobody shakes a grip as fast for long. Slow
+// part: below 13 Hz.
 constexpr ShakeMonitor::Kind ShakeMonitor::kSpeed{0.10, 0.060, 0.012};
-// Least: ten times what a good wall dithers; a firm hand lets a bad one move it by less than the above. Longest half: of
-// 6.7 Hz; so slowly swings a firm hand on what is too stiff, and no hand presses and leaves as often. Slow: 3 Hz.
+// Smallest swing: ten times what a good wall dithers; a bad wall moves a firm hand by less than the
+// limit above. Longest half period: 6.7 Hz, the slowest swing of a firm hand on a wall that is too
+// stiff; no hand presses and leaves as often. Slow part: below 3 Hz.
 constexpr ShakeMonitor::Kind ShakeMonitor::kPush{2.0, 0.075, 0.050};
 
 void ShakeMonitor::found(double swing_m_s) noexcept {

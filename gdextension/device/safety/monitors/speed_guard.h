@@ -1,5 +1,5 @@
-// Is the grip faster than a hand moves it? Above the first limits for kHold_s the wrench fades until it slows;
-// above the second ones the motors go off at once.
+// Detects a grip that is faster than a hand moves it. Above the fade limits for kHold_s the wrench
+// fades until the grip slows; above the maximum limits the motors go off at once.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,10 @@ public:
         fast_s_ = 0.0;
         too_fast_ = false;
     }
-    // fastest_m_s: of the grip's centre and the pole ends.
+    // fastest_m_s: speed of the fastest point among grip center and pole ends.
     void update(double fastest_m_s, const Twist &twist, double dt_s) noexcept {
         const double turn_rad_s = glm::length(twist.angular_rad_s);
-        // Written so that NaN is too fast.
+        // Written so that NaN counts as too fast.
         too_fast_ = !(fastest_m_s <= safety_.max_grip_speed_m_s) ||
                     !(turn_rad_s <= safety_.max_turn_rate_rad_s);
         const bool fast = too_fast_ || fastest_m_s > safety_.fade_grip_speed_m_s ||
@@ -33,12 +33,12 @@ public:
     }
 
     [[nodiscard]] bool at_rest() const noexcept { return fast_s_ == 0.0; }
-    // Half a step of slack: sums of time steps carry rounding.
+    // True when fast for kHold_s. Half a time step of slack covers rounding of summed steps.
     [[nodiscard]] bool fast(double dt_s) const noexcept {
         return fast_s_ > 0.0 && fast_s_ + 0.5 * dt_s >= kHold_s;
     }
     [[nodiscard]] bool too_fast() const noexcept { return too_fast_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(too_fast_); }
 
 private:

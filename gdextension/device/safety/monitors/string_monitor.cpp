@@ -7,28 +7,32 @@ namespace spidar {
 
 namespace {
 
-// The parity error that is usual at a place changes over centimetres of motion: tenths of a second.
+// Time constant of the usual parity error, which changes over centimeters of motion.
 constexpr double kUsual_s = 0.15;
-// Nearer than this to the usual it is the usual.
+// Difference from the usual error that counts as none.
 constexpr double kSame_m = 1e-9;
-// A disagreement that stays this long is no disturbance.
+// Time after which a disagreement is no disturbance.
 constexpr double kSuspicion_s = 0.100;
 constexpr double kLarge_s = 0.050;
-// An error that grew too slowly to be noticed as new: where one string is hardly redundant, a slip shows late.
+// Duration of an error that grew too slowly to be new: where one string is hardly redundant, a slip
+// shows late.
 constexpr double kAbove_s = 0.250;
-// A suspicion ends when the parity error is back to this part of what raised it.
+// Share of the parity error that raised a suspicion, below which the suspicion ends.
 constexpr double kBack = 0.5;
-// A count within this of where it was has not moved (flicker of the encoder).
+// Largest change of a count that counts as standing still (encoder flicker).
 constexpr std::int32_t kStillCounts = 2;
 constexpr double kStill_s = 0.030;
-// One string shows about a third of its error: 3 mm of motion that it did not follow, twice what tension stretches.
+// Change of the parity error that shows a stuck string. One string shows about a third of its
+// error: this is 3 mm of motion that the string did not follow, twice what tension stretches.
 constexpr double kStuckParity_m = 1.0e-3;
-// Errors that the observer names are acted upon from here: below, the fade of the parity error decides.
+// Smallest error for which a named string is acted on; below it the fade by the parity error
+// applies.
 constexpr double kNamedError_m = 4.0e-3;
-// What a newton of tension may add to the parity error: a braid of EA = 3 kN stretches by 0.14 mm/N at 0.4 m, and the
-// eight add up by their weights. 0.25 mm/N is the most that simulated play shows in the range of a hand.
+// Parity error per newton of tension (unit: m/N). A braid of EA = 3 kN stretches by 0.14 mm/N at
+// 0.4 m, and the eight strings add up by their weights. 0.25 mm/N is the most that simulated play
+// shows.
 constexpr double kStretch_m_n = 0.3e-3;
-// The observer knows nothing of stretch: it is asked while there is little.
+// Largest tension at which the observer runs, since it does not model stretch.
 constexpr double kNamingMost_n = 3.0;
 
 } // namespace
@@ -37,7 +41,8 @@ Status StringMonitor::configure(const ServoSettings &settings) noexcept {
     FaultObserverSettings observed;
     observed.tick_s = 1.0 / settings.rate_hz;
     StringFaultObserver observer;
-    // The observer knows crossed grips. Of a rigid one the parity error tells that, not what and where.
+    // The observer handles crossed grips only. For a rigid grip the parity error shows a fault but
+    // not the string.
     const bool names = settings.grip.kind == GripKind::crossed;
     const Status status =
         names ? observer.configure(settings.frame, settings.grip, settings.strings, observed)
@@ -82,7 +87,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
         const bool small =
             (found.fault == StringFault::slipped || found.fault == StringFault::slack) &&
             !(std::abs(found.error_m) >= kNamedError_m);
-        // A string may rightly stand still for a while: what is named must show in the lengths, too.
+        // A string may stand still legitimately: a named string must also show in the lengths.
         const bool shows = parity_m > kStuckParity_m + stretch_m;
         named_ = small || !shows ? FaultEvidence() : found;
         if (named_.fault != StringFault::none) {
@@ -114,7 +119,7 @@ void StringMonitor::update(const CountArray &counts, const StringArray &lengths_
     }
     const double rise_m = parity_m - usual_m_;
     if (suspicious_s_ > 0.0) {
-        // The usual error stands still meanwhile: a fault must not become the usual.
+        // The usual error is frozen meanwhile, so that a fault does not become usual.
         suspicious_s_ += dt_s;
         if (!(rise_m > kBack * (fade_m_ + stretch_m)) && stuck < 0) {
             suspicious_s_ = 0.0;

@@ -1,6 +1,6 @@
-// Do the eight lengths agree? They are one more than the grip has degrees of freedom: the part that no pose
-// explains is the parity error. A string that sticks, slips, slackens or breaks changes it within milliseconds;
-// StringFaultObserver (core) names the string in a second or so.
+// Checks whether the eight lengths agree. They are one more than the grip's DOF; the part that no
+// pose explains is the parity error. A string that sticks, slips, slackens or breaks changes it
+// within milliseconds. StringFaultObserver (core) finds the string in about a second.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -13,33 +13,33 @@ namespace spidar {
 class StringMonitor {
 public:
     Status configure(const ServoSettings &settings) noexcept;
-    // The strings were given another zero, or a fault was cleared.
+    // Restarts after a new zero or a cleared fault.
     void reset() noexcept;
 
-    // One good sample, `moved`: the pose is new. strongest_n: largest tension commanded; it stretches strings, which
-    // makes the lengths disagree too.
+    // Takes one good sample. moved: the pose is new. strongest_n: largest commanded tension;
+    // stretch makes the lengths disagree too.
     void update(const CountArray &counts, const StringArray &lengths_m, const GripState &grip,
                 bool moved, double strongest_n, double dt_s) noexcept;
 
-    // The lengths began to disagree: the wrench has to fade.
+    // True when the lengths have begun to disagree: the wrench must fade.
     [[nodiscard]] bool suspicious() const noexcept { return suspicious_s_ > 0.0; }
-    // They disagree for good: motors off.
+    // True when the disagreement lasts: motors off.
     [[nodiscard]] bool faulty() const noexcept { return faulty_; }
-    // What the observer found; fault none while it is not sure or the error is small.
+    // Finding of the observer. Its fault is none while the observer is unsure or the error small.
     [[nodiscard]] const FaultEvidence &named() const noexcept { return named_; }
-    // No suspicion, and nothing changes any more while the counts stay.
+    // True when there is no suspicion, and nothing changes while the counts stay.
     [[nodiscard]] bool at_rest() const noexcept;
-    // 0-7: the string that stands still or that the observer names; -1 when not known.
+    // The string (0-7) that stands still or that the observer found; -1 when unknown.
     [[nodiscard]] int string() const noexcept { return string_; }
     [[nodiscard]] double parity_m() const noexcept { return parity_m_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
         return are_flags(names_, started_, faulty_) && is_string_or_none(string_) &&
                observer_.is_sound() && spidar::is_sound(named_);
     }
 
 private:
-    struct Still { // where a string's count last moved
+    struct Still { // state when the string's count last moved
         std::int32_t count = 0;
         double parity_m = 0.0;
         double still_s = 0.0;
@@ -53,10 +53,10 @@ private:
     std::array<Still, kStringCount> still_{};
     bool started_ = false;
     double parity_m_ = 0.0;
-    double usual_m_ = 0.0; // the parity error of the last tenths of a second
+    double usual_m_ = 0.0; // the usual parity error: mean of the last tenths of a second
     double suspicious_s_ = 0.0;
-    double large_s_ = 0.0; // parity above fault_m_ for this long
-    double above_s_ = 0.0; // and above fade_m_
+    double large_s_ = 0.0; // time with parity above fault_m_
+    double above_s_ = 0.0; // time with parity above fade_m_
     int string_ = -1;
     bool faulty_ = false;
 };

@@ -15,7 +15,8 @@ void ThermalBudget::spend(const StringArray &tensions_n, double dt_s) noexcept {
     const double gain = std::min(1.0, dt_s * rate_1_s_);
     for (std::size_t i = 0; i < heat_.size(); ++i) {
         const double square = tensions_n[i] * tensions_n[i] * share_per_n2_;
-        heat_[i] += gain * ((square < 1e6 ? square : 0.0) - heat_[i]); // NaN and nonsense: no heat
+        // NaN and absurd values do not heat.
+        heat_[i] += gain * ((square < 1e6 ? square : 0.0) - heat_[i]);
     }
     find_warmest();
 }

@@ -1,5 +1,6 @@
-// I^2 t: how warm each motor's winding is, from the tensions it was told to pull. Heat follows the squared tension
-// with the winding's time constant; the budget is what the continuous tension heats to.
+// I^2 t model: the heat of each motor's winding from its commanded tensions. Heat follows the
+// squared tension with the winding's time constant; the budget is the heat of the continuous
+// tension.
 #pragma once
 
 #include "core/base/types.h"
@@ -10,20 +11,20 @@ namespace spidar {
 class ThermalBudget {
 public:
     void configure(const SafetySettings &safety) noexcept;
-    // One cycle at these tensions (unit: N). What is not finite heats nothing.
+    // Takes one cycle at these tensions (unit: N). Values that are not finite do not heat.
     void spend(const StringArray &tensions_n, double dt_s) noexcept;
 
-    // The same tensions change nothing but the heat: spend() goes on at rest, too.
+    // True when constant tensions change nothing but the heat. spend() must be called at rest too.
     [[nodiscard]] bool at_rest() const noexcept { return spent() < kDerateFrom; }
-    // Share of the warmest motor's budget that is spent: 1 = as warm as it may be.
+    // Used share of the warmest motor's budget; 1: as warm as allowed.
     [[nodiscard]] double spent() const noexcept { return warmest_; }
-    // NaN counts as too warm.
+    // True when the budget is spent. NaN counts as spent.
     [[nodiscard]] bool is_spent() const noexcept { return !(warmest_ < 1.0); }
-    // Share of its budget that each motor has spent: what outlasts a loop (safety/motor_heat.h).
+    // Used share of each motor's budget. It outlasts a loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return heat_; }
     void set_heat(const StringArray &heat) noexcept;
     [[nodiscard]] int warmest_string() const noexcept;
-    // 1 up to kDerateFrom of the budget, then down to 0 at all of it, in a straight line.
+    // Scale of the forces: 1 up to kDerateFrom, then linearly down to 0 at the whole budget.
     [[nodiscard]] double scale() const noexcept;
 
     static constexpr double kDerateFrom = 0.7;
@@ -31,7 +32,7 @@ public:
 private:
     void find_warmest() noexcept;
 
-    StringArray heat_{}; // share of the budget
+    StringArray heat_{}; // used share of the budget
     double share_per_n2_ = 0.0;
     double rate_1_s_ = 0.0;
     double warmest_ = 0.0;

@@ -6,11 +6,11 @@ namespace spidar {
 
 namespace {
 
-// Soft: felt within a centimetre, passive in every hand without damping of its own.
+// Stiffness of the wall: felt within a centimeter, passive in every hand without damping.
 constexpr double kWallStiffness_n_m = 300.0;
 constexpr double kWallMost_n = 3.0;
-// Smallest pivots (about sigma7 squared) between which the forces fade: of the paper's device, every pose that a
-// hand takes has 0.05 and more; near singular poses are flagged at 0.0001.
+// Smallest pivots (about sigma7 squared) between which the forces fade. Poses that a hand takes
+// with the paper's device have at least 0.05; near-singular poses are flagged at 0.0001.
 constexpr double kFadeFromPivot = 0.01;
 constexpr double kFadedPivot = 0.001;
 

@@ -1,5 +1,5 @@
-// The edge of the workspace: a soft wall before the reach of the grip ends, and less force where the strings can
-// hardly tell or turn it.
+// The edge of the workspace: a soft wall before the reach of the grip ends, and less force where
+// the strings barely determine a direction.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -11,18 +11,18 @@ namespace spidar {
 
 class WorkspaceGuard {
 public:
-    // The reach: the box around the motors, less half a pole.
+    // The reach is the box around the motors less a pole's half length.
     void configure(const ServoSettings &settings) noexcept;
 
-    // Pushes P0 back inside; zero inside.
+    // Returns the wrench that pushes P0 back inside; zero inside.
     [[nodiscard]] Wrench wall(const GripState &grip) const noexcept;
-    // Scale of all requests: 1, and down to 0 where the pose loses a direction.
+    // Scale of all requests: 1, falling to 0 where the pose loses a direction.
     [[nodiscard]] static double scale(const GripState &grip) noexcept;
-    // How far P0 is beyond the start of the wall (unit: m); 0 inside.
+    // Returns how far P0 is beyond the start of the wall (unit: m); 0 inside.
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
-    // In which there is no wall (device frame).
+    // The box without wall, device frame (unit: m).
     [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
-    // core/base/sound_state.h
+    // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(on_); }
 
 private:

@@ -1,4 +1,5 @@
-// Commands for the motor boards as bytes, with the zeros behind them that the boards need, and their rarer replies read.
+// Commands for the motor boards as bytes, followed by the zeros that the boards need, and decoding
+// of their rare replies.
 #pragma once
 
 #include <array>
@@ -11,12 +12,12 @@
 namespace spidar {
 
 using BoardBytes = std::span<const std::uint8_t>;
-using BoardCurrents = std::array<std::int16_t, kMostBoardMotors>; // in the board's own unit
+using BoardCurrents = std::array<std::int16_t, kMostBoardMotors>; // in the board's unit
 
-// Bytes to send in one go. Never allocates; what does not fit is dropped, and whole() says so.
+// Bytes to send at once. Never allocates. Excess bytes are dropped and clear whole().
 class BoardFrame {
 public:
-    static constexpr std::size_t kCapacity = 1024; // eight of the longest CURRENT with their zeros
+    static constexpr std::size_t kCapacity = 1024; // eight longest CURRENT commands with zeros
 
     void byte(std::uint8_t value) noexcept {
         whole_ = whole_ && size_ < kCapacity;
@@ -34,7 +35,7 @@ public:
             byte(0);
         }
     }
-    // Something could not be said: the frame is not to be sent.
+    // Marks the frame as incomplete: it must not be sent.
     void spoil() noexcept { whole_ = false; }
     [[nodiscard]] BoardBytes bytes() const noexcept { return BoardBytes(bytes_).first(size_); }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -50,26 +51,27 @@ private:
     bool whole_ = true;
 };
 
-// Zeros that end any command which a board may still be in the middle of.
+// Number of zeros that complete any command that a board may be receiving.
 inline constexpr std::size_t kResyncZeros = 84;
 
-// Each is appended to the frame. INFO is asked before anything of the board is known: its zeros are the handshake's own.
+// Appends INFO. The board is unknown at that time; the zeros are those of the handshake.
 void append_info(BoardFrame &frame, std::uint8_t id) noexcept;
-// For all boards of the bus: how long the commands for this one are.
+// Appends the lengths of this board's commands, for all boards of the bus.
 void append_command_lengths(BoardFrame &frame, const BoardLayout &board) noexcept;
 void append_current(BoardFrame &frame, const BoardLayout &board,
                     const BoardCurrents &currents) noexcept;
-// The board answers with the parameter that was asked for before: ask twice.
+// Appends GET_PARAM. The board answers with the parameter of the previous question: ask twice.
 void append_get_parameter(BoardFrame &frame, const BoardLayout &board,
                           BoardParameter parameter) noexcept;
-// All parameters but the torque limits are written to the board's flash. Data that is too long is dropped: not whole().
+// Appends SET_PARAM. All parameters except the torque limits are written to the board's flash. Data
+// that is too long makes the frame incomplete.
 void append_set_parameter(BoardFrame &frame, const BoardLayout &board, BoardParameter parameter,
                           BoardBytes data) noexcept;
 void append_reset(BoardFrame &frame, const BoardLayout &board, bool motors, bool forces) noexcept;
 
-// `bytes` is a whole reply, header first. False: it is none of this board's.
+// Decodes a whole INFO reply. Returns false when it is not from board `id` or not plausible.
 [[nodiscard]] bool decode_info(BoardBytes bytes, std::uint8_t id, BoardInfo &info) noexcept;
-// data: empty on failure, else what follows the parameter's number, into `bytes`.
+// Decodes a parameter. data: a view into `bytes` behind the parameter's number; empty on failure.
 [[nodiscard]] bool decode_parameter(BoardBytes bytes, const BoardLayout &board,
                                     BoardParameter parameter, BoardBytes &data) noexcept;
 

@@ -12,7 +12,7 @@ constexpr std::size_t kPeriodAndCount = 3; // u16 and u8
 constexpr std::size_t kInfoPayload = 6;
 constexpr std::size_t kLeastPadding = 5;
 constexpr std::size_t kPaddingBeyondReply = 20;
-constexpr int kMostChannels = 100; // a board that says more is none
+constexpr int kMostChannels = 100; // more is not a board
 
 } // namespace
 
@@ -67,7 +67,7 @@ std::size_t reply_length(const BoardLayout &board, BoardCommand command) noexcep
     case BoardCommand::none:
     case BoardCommand::all:
     case BoardCommand::interpolate:
-    case BoardCommand::force_control: // never asked for here
+    case BoardCommand::force_control: // not used here
     case BoardCommand::set_command_lengths:
     case BoardCommand::set_parameter:
     case BoardCommand::reset:

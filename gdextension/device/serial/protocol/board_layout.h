@@ -1,5 +1,6 @@
-// The serial motor boards B1M to B5M as bytes on a wire (docs/reference/serial_boards.md): numbers of commands, and how long each
-// command and reply of a board is. All lengths count the header. Facts from public sources; none was tried on hardware.
+// Protocol of the serial motor boards B1M to B5M (docs/reference/serial_boards.md): command
+// numbers, and lengths of commands and replies including the header. From public sources; not
+// tested on hardware.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,10 @@ inline constexpr std::uint32_t kBoardBaud = 2'000'000;
 inline constexpr std::size_t kMostBoards = 8; // ids 0 to 7
 inline constexpr std::size_t kMostBoardMotors = 8;
 inline constexpr std::size_t kMostBoardForces = 8;
-inline constexpr std::size_t kBoardCommandCount = 12; // 0 to 11, as SET_CMDLEN wants them
+inline constexpr std::size_t kBoardCommandCount = 12; // 0 to 11, as SET_CMDLEN needs them
 
 enum class BoardCommand : std::uint8_t {
-    none = 0, // a byte of padding
+    none = 0, // padding byte
     info = 1,
     set_command_lengths = 2,
     all = 3,
@@ -37,13 +38,13 @@ enum class BoardParameter : std::uint8_t {
     board_id = 3,
     heat_limits = 5,
     magnets = 6,
-    quadrature_mask = 7, // u32, bit i: motor i is read by its quadrature encoder
+    quadrature_mask = 7, // 32 bits; bit i: motor i has a quadrature encoder
     pwm_period = 8,
 };
 
 enum class BoardModel : std::uint8_t { b1m = 1, b1f, b2m, b2f, b3m, b3f, b5m };
 
-// What a board says of itself: the payload of INFO's reply.
+// Description of a board: the payload of INFO's reply.
 struct BoardInfo {
     std::uint8_t model = 0;
     std::uint8_t targets = 0;
@@ -55,17 +56,17 @@ struct BoardInfo {
     friend bool operator==(const BoardInfo &, const BoardInfo &) = default;
 };
 
-// "B5M"; "model 9" for one that is not known. The pointer is to a static text.
+// Returns "B5M", or "model 9" for an unknown model. The text is static.
 [[nodiscard]] const char *name_of_model(std::uint8_t model) noexcept;
 
 struct BoardLayout {
     std::uint8_t id = 0;
     BoardInfo info;
-    // CURRENT's reply ends with this many words more than the model's table says: some builds add the currents.
+    // Words of CURRENT's reply beyond the model's table: some firmware appends the currents.
     std::uint8_t extra_words = 0;
 
     [[nodiscard]] std::size_t motors() const noexcept { return info.motors; }
-    // Of the firmware's control loop, the unit of speeds (unit: Hz).
+    // Rate of the firmware's control loop (unit: Hz). Speeds are counts per control cycle.
     [[nodiscard]] double control_rate_hz() const noexcept {
         return info.model == static_cast<std::uint8_t>(BoardModel::b5m) ? 11'100.0 : 3'000.0;
     }
@@ -75,13 +76,15 @@ struct BoardLayout {
     return static_cast<std::uint8_t>(static_cast<unsigned>(command) << 3U | (id & 7U));
 }
 
-// Of a command, and of its reply; 0: none. The lengths follow from the numbers of motors, currents and forces.
+// Returns the length of a command. It follows from the numbers of motors, currents and forces.
 [[nodiscard]] std::size_t command_length(const BoardLayout &board, BoardCommand command) noexcept;
+// Returns the length of a command's reply; 0 for none.
 [[nodiscard]] std::size_t reply_length(const BoardLayout &board, BoardCommand command) noexcept;
-// Zeros behind a command: they clock the reply out and bring the board's receiver to its interrupt.
+// Returns the number of zeros after a command. They clock the reply out and fill the board's
+// receive buffer up to its interrupt.
 [[nodiscard]] std::size_t padding(const BoardLayout &board, BoardCommand command) noexcept;
 
-// A board that the host can drive: a known model, with counts that fit the largest command.
+// True for a board that the host can drive: a known model whose numbers fit the largest command.
 [[nodiscard]] bool is_plausible(const BoardInfo &info) noexcept;
 
 } // namespace spidar

@@ -1,4 +1,4 @@
-// Is a step of a board's counts one that a string can make? And 16 bits of a count unwrapped to 32.
+// Checks whether a string can make a step of counts, and unwraps 16-bit counts to 32 bits.
 #pragma once
 
 #include <algorithm>
@@ -11,28 +11,28 @@
 namespace spidar {
 
 struct CountLimits {
-    // 5 m/s at 25 um a count. No string is faster.
+    // Largest speed: 5 m/s at 25 um per count, faster than any string.
     double fastest_counts_s = 200'000.0;
-    // 100 m/s^2: more than a hand or a motor gives.
+    // Largest acceleration: 100 m/s^2, more than a hand or a motor gives.
     double acceleration_counts_s2 = 4'000'000.0;
-    // False: the speeds that the boards report are not looked at. For firmware that counts them in another unit.
+    // False: the reported speeds are not checked, for firmware that uses another unit.
     bool check_speeds = true;
 };
 
-// What one reply of CURRENT says.
+// Contents of one reply to CURRENT.
 struct BoardMotion {
     std::array<std::uint16_t, kMostBoardMotors> positions{}; // low 16 bits of the counts
-    std::array<std::int16_t, kMostBoardMotors> speeds{};     // counts a cycle of the control loop
-    std::array<std::int16_t, kMostBoardForces> forces{};     // of its force sensors
+    std::array<std::int16_t, kMostBoardMotors> speeds{};     // counts per control cycle
+    std::array<std::int16_t, kMostBoardForces> forces{};     // of the board's force sensors
 };
 
 [[nodiscard]] constexpr std::int32_t signed_step(std::uint16_t from, std::uint16_t to) noexcept {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
 }
 
-// Replies come through a USB bridge: their times are known no better than this (unit: s).
+// Uncertainty of a reply's arrival time behind a USB bridge (unit: s).
 inline constexpr double kArrivalJitter_s = 0.002;
-// A reported speed is a whole number of counts a control cycle, so it is wrong by one; and a margin of one.
+// Uncertainty of a reported speed: one count per control cycle of rounding and one of margin.
 inline constexpr double kSpeedRounding_counts = 2.0;
 
 [[nodiscard]] inline bool speeds_are_possible(const BoardMotion &motion, const BoardLayout &board,
@@ -44,7 +44,7 @@ inline constexpr double kSpeedRounding_counts = 2.0;
                        [most](std::int16_t speed) { return std::abs(speed) <= most; });
 }
 
-// dt_s: between the arrivals of the two.
+// dt_s: time between the arrivals of both replies.
 [[nodiscard]] inline bool step_is_possible(const BoardMotion &before, const BoardMotion &now,
                                            double dt_s, const BoardLayout &board,
                                            const CountLimits &limits) noexcept {

@@ -6,10 +6,11 @@ namespace spidar {
 
 namespace {
 
-// A driver that lets go of the line may leave a few zeros behind a reply. More is the rest of another one.
+// Largest number of stray zeros: a driver that releases the line may leave a few behind a reply;
+// more belong to another reply.
 constexpr std::size_t kMostStrayZeros = 3;
 constexpr double kSecondsPerMicrosecond = 1e-6;
-// Half a turn of 16 bits is where a step's sign is lost; a quarter leaves room.
+// Largest plausible step: half a turn of 16 bits loses the sign of a step; a quarter leaves room.
 constexpr double kSureStep_counts = 16384.0;
 
 std::uint16_t word_at(BoardBytes bytes, std::size_t at) noexcept {
@@ -64,7 +65,7 @@ int ReplyReader::board_of(std::uint8_t byte) const noexcept {
 // Bytes of this reply are missing when the next one begins inside it.
 bool ReplyReader::runs_on(std::size_t start, const Board &board) const noexcept {
     const std::size_t behind = start + board.length;
-    // The last byte is the upper half of a force or a speed, which never is a header's number.
+    // The last byte is the upper half of a force or a speed, which never equals a header.
     if (board_of(buffer_[behind - 1]) >= 0) {
         return true;
     }
@@ -128,7 +129,7 @@ void ReplyReader::believe(Board &board, const BoardMotion &motion, std::uint64_t
 
 bool ReplyReader::completes_round(std::size_t board) noexcept {
     if (board != next_in_round_ && board != 0) {
-        next_in_round_ = 0; // one between is missing
+        next_in_round_ = 0; // a reply in between is missing
         return false;
     }
     next_in_round_ = board + 1;

@@ -1,4 +1,4 @@
-// How often a bus of boards can be asked: what one round of CURRENT commands takes on the wire.
+// How often a bus can be asked, from the wire time of one round of CURRENT commands.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace spidar {
 
-inline constexpr double kBitsPerByte = 10.0; // start, eight of data, stop
-// Part of the wire's time that commands may fill: a USB bridge sends in packets, with gaps between them.
+inline constexpr double kBitsPerByte = 10.0; // start bit, eight data bits, stop bit
+// Share of the wire's time that commands may fill: a USB bridge sends packets with gaps.
 inline constexpr double kWireShare = 0.9;
 
-// Bytes of one round to all boards, with their zeros.
+// Returns the bytes of one round to all boards, with their zeros.
 [[nodiscard]] inline std::size_t round_bytes(std::span<const BoardLayout> boards) noexcept {
     std::size_t bytes = 0;
     for (const BoardLayout &board : boards) {
@@ -28,7 +28,7 @@ inline constexpr double kWireShare = 0.9;
     return static_cast<double>(round_bytes(boards)) * kBitsPerByte / baud;
 }
 
-// The highest rate of rounds (unit: Hz); 0 without boards.
+// Returns the highest rate of rounds (unit: Hz); 0 without boards.
 [[nodiscard]] inline double highest_rate_hz(std::span<const BoardLayout> boards,
                                             std::uint32_t baud) noexcept {
     const double time_s = round_time_s(boards, baud);

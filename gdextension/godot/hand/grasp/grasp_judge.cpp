@@ -17,11 +17,11 @@ namespace {
 using godot::PhysicsServer3D;
 using godot::RigidBody3D;
 
-// Faces further from opposite would be squeezed out of the jaws.
+// Smallest angle between the two sides' normals: less opposite faces would slip out of the jaws.
 constexpr double kMinOpposition_deg = 150.0;
-// Slower than this the hand has done closing.
+// Rate below which the hand has finished closing.
 constexpr double kSettledRate_rad_s = 0.2;
-// A hand that has closed and still squeezes too little for this long is told so.
+// Time after which a closed hand that squeezes too little is told so.
 constexpr double kRefuseAfter_s = 0.25;
 
 template <typename... Values>
@@ -36,7 +36,7 @@ double gravity_on(const RigidBody3D &body) {
     return state != nullptr ? static_cast<double>(state->get_total_gravity().length()) : 0.0;
 }
 
-// Empty: it holds.
+// Returns the reason against a hold, or an empty string.
 std::string problem_of(const Pinch &pinch, const RigidBody3D &body, const GraspJudge::Terms &terms,
                        double finger_force_n) {
     const double friction = pinch.facts.resting_friction(terms.pad_friction);

@@ -1,4 +1,5 @@
-// Decides whether the squeeze on a body between the pads holds it: opposing faces and a friction check.
+// Decides whether squeezing a body between the pads holds it: the faces must oppose each other and
+// friction must suffice.
 #pragma once
 
 #include <string>
@@ -16,14 +17,15 @@ public:
     enum class Verdict { wait, hold, refuse };
 
     struct Terms {
-        double pad_friction = 1.0; // on a body that says nothing of its own
-        double min_force_n = 0.1;  // least finger force that holds anything, however light
-        double weight_scale = 1.0; // of the weight that friction has to carry
+        double pad_friction = 1.0; // for bodies without a friction of their own
+        double min_force_n = 0.1;  // smallest finger force that holds anything
+        double weight_scale = 1.0; // factor on the weight that friction must carry
     };
 
-    // A new body, or the jaws have opened: the next squeeze is a new attempt.
+    // Starts a new attempt, after a new body or when the jaws have opened.
     void reset() noexcept;
-    // finger_force_n: on each pad. body: null for what is no RigidBody3D. Refuses once an attempt: reason() tells why.
+    // finger_force_n: force on each pad. body: null for anything but a RigidBody3D. Refuses once
+    // per attempt; reason() then returns why.
     [[nodiscard]] Verdict judge(const Pinch &pinch, godot::RigidBody3D *body, const Terms &terms,
                                 double finger_force_n, double grasp_rate_rad_s, double delta_s);
     [[nodiscard]] const std::string &reason() const noexcept { return reason_; }

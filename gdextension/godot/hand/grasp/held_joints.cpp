@@ -41,7 +41,8 @@ JointAxis limited(double lower, double upper) {
     return axis;
 }
 
-// As the engine counts: the second body in the first one's frame, turns the other way round.
+// The engine gives the pose of the second body in the first one's frame, with turns in the opposite
+// sense.
 Axes axes_of(const HingeJoint3D &joint, double tick_s) {
     Axes axes{};
     JointAxis &hinge = axes[kTurns + 2];
@@ -159,7 +160,7 @@ Axes axes_of(const godot::Joint3D &joint, double tick_s) {
     return ball_axes();
 }
 
-// Counted the other way round.
+// Returns the axis counted in the opposite sense.
 JointAxis mirrored(const JointAxis &axis) {
     JointAxis other = axis;
     other.lower = -axis.upper;
@@ -169,8 +170,8 @@ JointAxis mirrored(const JointAxis &axis) {
     return other;
 }
 
-// The held body in the other one's frame, in device metres. A force is the same in both; a moment of the scene acts at levers
-// that are `scale` times as long.
+// Converts an axis from scene to device meters. Forces are equal in both; a moment of the scene acts
+// at levers that are `scale` times as long.
 JointAxis in_device(const JointAxis &axis, bool is_turn, double scale) {
     JointAxis device = axis;
     if (is_turn) {
@@ -190,7 +191,8 @@ JointAxis in_device(const JointAxis &axis, bool is_turn, double scale) {
     return device;
 }
 
-// The body's own dampings, by which the engine slows it: along and about the axes that are not locked.
+// Adds the body's own dampings, by which the engine slows it, along and about the axes that are not
+// locked.
 void add_damping(const godot::RigidBody3D &body, const Transform3D &frame, Axes &axes) {
     auto *const state =
         godot::PhysicsServer3D::get_singleton()->body_get_direct_state(body.get_rid());
@@ -216,7 +218,7 @@ void add_damping(const godot::RigidBody3D &body, const Transform3D &frame, Axes 
     }
 }
 
-// A body that nothing keeps in place hangs on the held one: the physics engine takes it along.
+// A body that nothing holds in place hangs on the held one: the physics engine moves it.
 bool gives_way(const godot::PhysicsBody3D *body) {
     const auto *const rigid = Object::cast_to<godot::RigidBody3D>(body);
     return rigid != nullptr && !rigid->is_freeze_enabled();
@@ -267,7 +269,8 @@ std::vector<ToolJoint> HeldJoints::now(const godot::RigidBody3D &body, const Tra
         add_damping(body, base, axes);
         for (std::size_t axis = 0; axis < axes.size(); ++axis) {
             const bool is_turn = axis >= kTurns;
-            // The engine counts ways of the second body in the first, and turns of the first in the second.
+            // The engine measures translations of the second body in the first, and turns of the
+            // first in the second.
             const JointAxis &counted =
                 one.held_is_first == is_turn ? axes[axis] : mirrored(axes[axis]);
             joint.axes[axis] = in_device(counted, is_turn, frame.scale);

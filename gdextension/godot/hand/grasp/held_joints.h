@@ -1,5 +1,6 @@
-// The joints that tie a held body, as the servo loop takes them: its hinges, slides and sockets, their limits, springs,
-// dampers and motors. Which way the engine counts is told in docs/why/haptic_rendering.md, "Held things on joints". Main thread only.
+// The joints of a held body for the servo loop: hinges, slides and sockets with their limits,
+// springs, dampers and motors. docs/why/haptic_rendering.md, "Held things on joints", gives the
+// engine's sign conventions. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +19,22 @@ namespace spidar {
 
 class HeldJoints {
 public:
-    // A body has just been caught. Returns how many of its joints are more than the servo loop takes.
+    // Takes the joints of a newly grasped body. Returns how many exceed the servo loop's limit.
     int take(SceneJoints &joints, const godot::RigidBody3D &body);
     void drop() {
         held_.clear();
         bases_.clear();
     }
 
-    // Those to something that stands or is moved by itself, as they are now. in_grip: of the held body, scene metres; frame: of the device's node; tick_s: of a physics tick.
+    // Returns the present joints to static, kinematic or animated bodies. in_grip: pose of the held
+    // body in the grip, scene meters. frame: of the device's node. tick_s: physics tick.
     [[nodiscard]] std::vector<ToolJoint> now(const godot::RigidBody3D &body,
                                              const godot::Transform3D &in_grip,
                                              const WorldFrame &frame, double tick_s);
 
 private:
     std::vector<SceneJoints::Found> held_;
-    // By the joint, of the last tick: how fast it moves.
+    // Bases of the last tick by joint, for their velocities.
     std::unordered_map<std::uint64_t, Placement> bases_;
 };
 

@@ -11,15 +11,17 @@ namespace spidar {
 
 namespace {
 
-// Acceleration is differenced at game rate; above this it is noise and delay.
+// Cut-off of the acceleration, which is a difference at game rate: higher frequencies are noise and
+// delay.
 constexpr double kAccelerationCutoff_hz = 10.0;
-// A game-rate inertia force acts about 30 ms late, like a mass added with delay: it swings when it nears the hand's own
-// mass. A light hand with grip and rotors has 0.16 kg (gain margin above 4); at 0.1 kg a normal hand that squeezes hard in
-// a far corner, where a string nears its limit, swung into the speed limit in simulation.
+// Largest mass whose inertia is rendered. Inertia at game rate acts about 30 ms late, like a
+// delayed mass, and oscillates near the hand's own mass. A light hand with grip and rotors has 0.16
+// kg (gain margin above 4). At 0.1 kg a normal hand that squeezes hard in a far corner, where a
+// string nears its limit, reached the speed limit in simulation.
 constexpr double kMaxInertiaMass_kg = 0.05;
-// Part of the device's greatest force that inertia may use, so that weight is never masked by a jerk.
+// Share of the device's largest force that inertia may use, so that a jerk never masks the weight.
 constexpr double kInertiaForceShare = 0.3;
-// Weight comes on over this time: a step would be felt as a knock.
+// Time over which the weight is applied: a step would be felt as a knock.
 constexpr double kOnsetTime_s = 0.1;
 
 Vec3 limited(const Vec3 &force_n, double most_n) noexcept {
@@ -54,7 +56,8 @@ void HeldLoad::follow(const Vec3 &center_m, double since_s) noexcept {
         center_m_ = center_m;
         known_ = true;
     }
-    // The mean velocity: the device's own twist, sampled at game rate, would alias the strings' 100 Hz.
+    // Uses the mean velocity: the device's own twist, sampled at game rate, would alias the 100 Hz
+    // of the strings.
     const Vec3 newest = (center_m - center_m_) / since_s;
     // Each mean velocity belongs to the middle of its interval.
     const double apart_s = since_s_ > 0.0 ? 0.5 * (since_s + since_s_) : since_s;
@@ -74,7 +77,8 @@ HeldLoad::Pull HeldLoad::pull(const Body &body, const Terms &terms) const noexce
     }
     Vec3 force_n = weight_n;
     if (terms.with_inertia) {
-        // Of the hand's own motion, so that a large scale does not turn a small jerk into a large force.
+        // Limits the hand's own motion, so that a large scale does not turn a small jerk into a
+        // large force.
         const double mass_kg = std::min(terms.gain * body.mass_kg, kMaxInertiaMass_kg);
         force_n -= limited(mass_kg * acceleration_m_s2_, kInertiaForceShare * terms.max_force_n);
     }

@@ -15,7 +15,7 @@ namespace spidar {
 
 namespace {
 
-// Of what is not convex itself.
+// Cooks the hull of a shape that is not convex.
 CookResult cook_hull(const ShapeNumbers &numbers, const Vec3 &scale) {
     ShapeDescription hull = describe(numbers, scale);
     hull.kind = ShapeKind::hull;
@@ -64,7 +64,7 @@ bool HeldShapes::ready(const Waiting &one) {
         return false;
     }
     if (piece.shape == nullptr) {
-        return true; // never felt: the gatherer has told why when it stood near
+        return true; // not rendered; the gatherer reported why
     }
     if (piece.shape->convex()) {
         add(*piece.shape, one.in_body);

@@ -1,5 +1,5 @@
-// The shapes of a held body as parts of the tool: convex, with rounded edges, in device metres. What is not convex is held by
-// its hull. Main thread only.
+// The shapes of a held body as parts of the tool: convex, with rounded edges, in device meters. A
+// shape that is not convex is replaced by its hull. Main thread only.
 #pragma once
 
 #include <memory>
@@ -22,18 +22,18 @@ class HeldShapes {
 public:
     struct Part {
         std::shared_ptr<const ToolShape> shape;
-        Placement in_body; // device metres
-        TurnedBox box;     // in the body
+        Placement in_body; // device meters
+        TurnedBox box;     // in the body's frame
     };
 
-    // A body has just been caught. workspace_scale: scene metres per device metre.
+    // Takes a body that was just grasped. workspace_scale: scene meters per device meter.
     void take(godot::RigidBody3D &body, double workspace_scale);
-    // Once a tick while it is held: large shapes are ready later than small ones.
+    // Called once per tick while the body is held: adds large shapes when they are ready.
     void update();
     void drop();
 
     [[nodiscard]] const std::vector<Part> &parts() const noexcept { return parts_; }
-    // Round all its shapes, in the body.
+    // Box around all shapes, in the body's frame.
     [[nodiscard]] const TurnedBox &box() const noexcept { return box_; }
 
 private:

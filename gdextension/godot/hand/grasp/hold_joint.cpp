@@ -23,11 +23,12 @@ using godot::RigidBody3D;
 using godot::Transform3D;
 using godot::Vector3;
 
-// The pads close on the middle of a body that was caught off-centre within this time.
+// Time in which the pads center a body that was grasped off-center.
 constexpr double kCentringTime_s = 0.08;
-// What comes off a seat is brought to the grip within this time, not in one tick.
+// Time in which a body that leaves a seat is moved to the grip, instead of in one tick.
 constexpr double kComingOff_s = 0.08;
-// Speed left to a body that is let go (device m/s), so that a solver's last correction never throws it.
+// Largest speed of a released body (device m/s), so that a solver's last correction never throws
+// it.
 constexpr double kMaxReleaseSpeed_m_s = 2.0;
 
 struct Holders {
@@ -35,7 +36,7 @@ struct Holders {
     bool could_sleep = true; // before the first one
 };
 
-// Of each held body, by its instance: two hands may hold one.
+// Holders of each held body by its instance id: two hands may hold one body.
 std::unordered_map<std::uint64_t, Holders> &all_holders() {
     static std::unordered_map<std::uint64_t, Holders> holders;
     return holders;
@@ -180,7 +181,8 @@ void HoldJoint::jump(const Transform3D &grip) {
 }
 
 Transform3D HoldJoint::carried_grip() const {
-    // By the body as it is drawn, a physics step behind the anchor, so that pads do not run ahead into what they hold.
+    // Uses the body as drawn, one physics step behind the anchor, so that the pads do not run into
+    // what they hold.
     RigidBody3D *const held = body();
     const Transform3D anchor =
         held != nullptr ? held->get_global_transform_interpolated() * caught_.affine_inverse()
@@ -202,7 +204,8 @@ void HoldJoint::tie(const Transform3D &anchor_at) {
     anchor_->set_sync_to_physics(false);
     anchor_->set_collision_layer(0);
     anchor_->set_collision_mask(0);
-    // Placed before it enters: a kinematic body that enters elsewhere sweeps to its place, and the caught body with it.
+    // Placed before it enters the tree: otherwise a kinematic body sweeps to its place and takes
+    // the grasped body along.
     anchor_->set_transform(anchor_at);
     rig_->add_child(anchor_);
     tie_body();

@@ -1,4 +1,5 @@
-// Decides when the world takes a held body away: when it has pressed on the body, or torn it from the grip, for long enough.
+// Decides when the world takes a held body away: when it presses on the body, or pulls it from the
+// grip, for long enough.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +8,12 @@ namespace spidar {
 
 class HoldWatch {
 public:
-    // A body has just been caught.
+    // Restarts for a body that was just grasped.
     void reset() noexcept { *this = HoldWatch(); }
 
-    // Once a physics tick of tick_s. press_n: what the world presses on the body; since_s: device time since it was told
-    // before, 0 when nothing new is known of it. stretch_m: device metres between the body and its place in the grip.
+    // Called once per physics tick of tick_s. Returns true when the hold breaks. press_n: force of
+    // the world on the body. since_s: device time since the last value of press_n; 0: no new value.
+    // stretch_m: device meters between the body and its target in the grip.
     [[nodiscard]] bool breaks(double press_n, double break_force, double since_s, double stretch_m,
                               double tick_s) noexcept {
         if (since_s > 0.0) {
@@ -22,9 +24,9 @@ public:
     }
 
 private:
-    // A held body torn this far from the grip is stuck behind something.
+    // Distance from the grip at which a held body counts as stuck behind something (unit: m).
     static constexpr double kMaxStretch_m = 0.015;
-    // How long it takes to break a hold: a load by the device's time, a stretch by the number of physics ticks.
+    // Time until a hold breaks (unit: s), of load in device time or of stretch in physics ticks.
     static constexpr double kBreakTime_s = 0.05;
 
     double overload_s_ = 0.0;

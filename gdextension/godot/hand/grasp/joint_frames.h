@@ -1,4 +1,4 @@
-// A joint of the servo loop, from where its two frames are in the scene.
+// Makes a joint of the servo loop from its two frames in the scene.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 
 namespace spidar {
 
-// object: the instance id of what ties. base: of the other body, in the world. tool: of the held body, in the grip; scene metres.
-// Nothing moves yet, and all axes are locked.
+// object: instance id of the joint or hand. base: frame on the other body, in the world. tool:
+// frame on the held body, in the grip; scene meters. All axes are locked and the base does not
+// move.
 [[nodiscard]] inline ToolJoint joint_between(std::uint64_t object, const godot::Transform3D &base,
                                              const godot::Transform3D &tool,
                                              const WorldFrame &frame) {

@@ -10,10 +10,11 @@ namespace spidar {
 
 namespace {
 
-// Of the springs between a device and its proxy: stiff enough that what the hands do is felt, and soft enough that a reply a
-// game's tick late, which is multiplied by 2/3 on each of its two ways, dies out.
+// Stiffness of a tie relative to the springs between a device and its proxy. Stiff enough to feel
+// the other hand, and soft enough that a reply one tick late, which is multiplied by 2/3 on each of
+// its two ways, dies out.
 constexpr double kPartOfOwn = 2.0;
-// A hand that lets go is taken out gradually: by then its spring is gone.
+// Time after which a tie is removed: its spring has faded by then.
 constexpr double kLeaves_s = 0.2;
 
 JointAxis spring(double stiffness) {

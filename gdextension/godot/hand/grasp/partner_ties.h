@@ -1,4 +1,4 @@
-// The springs between hands that hold one body: what each feels of the others. Main thread only.
+// Springs between hands that hold one body: each hand feels the others. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ namespace spidar {
 class PartnerTies {
 public:
     void drop() { ties_.clear(); }
-    // stiffness: of the device's own springs in use (TouchReport). in_grip: of the held body, scene metres.
+    // Returns the present ties. stiffness: of the device's own springs in use (TouchReport).
+    // in_grip: pose of the held body in the grip, scene meters.
     [[nodiscard]] std::vector<ToolJoint> now(const std::vector<SharedHold> &others,
                                              const DofGains &stiffness,
                                              const godot::Transform3D &in_grip,
@@ -25,7 +26,7 @@ public:
 private:
     struct Tie {
         ToolJoint joint;
-        double left_s = 0.0; // above 0: that hand holds it, or has let go of it so lately
+        double left_s = 0.0; // above 0: that hand holds it or released it recently
     };
     std::vector<Tie> ties_;
 };

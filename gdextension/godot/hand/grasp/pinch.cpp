@@ -10,12 +10,12 @@ namespace spidar {
 
 namespace {
 
-// A pad this near to a surface lies on it.
+// Distance at which a pad lies on a surface.
 constexpr double kTouch_m = 5e-5;
-// A body that one pad lies on is pinched when the other is this near: the fingers seldom close in its middle. Until then a
-// light body gives way, and would be felt a millimetre late.
+// Distance of the second pad at which a body is pinched, since the fingers seldom close in its
+// middle. Until then a light body yields and would be felt a millimeter late.
 constexpr double kAlmost_m = 3e-4;
-// Where a pad lies without a force, all its points count alike.
+// Smallest weight of a point: where a pad lies without force, all its points count equally.
 constexpr double kLeastWeight_n = 1e-6;
 
 struct Side {
@@ -29,7 +29,7 @@ struct Pressed {
     const TouchedBody *body = nullptr;
     std::array<Side, 2> sides{};
 
-    // Below 0: not between the pads.
+    // Negative: not between the pads.
     [[nodiscard]] double rank() const noexcept {
         const bool is_between =
             sides[0].is_near && sides[1].is_near && (sides[0].touches || sides[1].touches);

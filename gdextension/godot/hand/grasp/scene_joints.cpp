@@ -29,7 +29,8 @@ SceneJoints::Side side_of(const Joint3D &joint, const godot::NodePath &path) {
     return side;
 }
 
-// In the order in which the engine counts angles and ways: of a body that is tied to the world, the world is the first.
+// In the order in which the engine counts angles and ways: for a body that is tied to the world, the
+// world is the first.
 std::array<SceneJoints::Side, 2> sides_of(const Joint3D &joint) {
     std::array<SceneJoints::Side, 2> sides{side_of(joint, joint.get_node_a()),
                                            side_of(joint, joint.get_node_b())};
@@ -93,7 +94,7 @@ std::vector<SceneJoints::Found> SceneJoints::of(std::uint64_t body) {
         const std::array<Side, 2> now = sides_of(*node);
         std::array<Side, 2> &then = one->second.sides;
         if (now[0].body != then[0].body || now[1].body != then[1].body) {
-            then = now; // it was given other bodies since
+            then = now; // the joint was moved to other bodies
         }
         for (const int side : {0, 1}) {
             const auto k = static_cast<std::size_t>(side);

@@ -1,5 +1,6 @@
-// The joints of the scene, and where their frames lay in the two bodies when each came into it: what an angle or a way is
-// measured from. The engine does not tell that later. Scene coordinates. Main thread only.
+// The joints of the scene, with the poses of their frames in both bodies when each joint entered
+// the scene. Angles and distances are measured from there, and the engine does not report them
+// later. Scene coordinates. Main thread only.
 #pragma once
 
 #include <array>
@@ -26,17 +27,18 @@ public:
         std::uint64_t joint = 0;
         Side held;
         Side other;
-        bool held_is_first = false; // Joint3D.node_a; false where the other is the world
+        // The held body is Joint3D.node_a; false when the other body is the world.
+        bool held_is_first = false;
     };
 
-    // All that is there now.
+    // Reads all joints below `root`.
     void read(godot::Node &root);
-    // A node has come into the tree; its bodies may come after it.
+    // Notes a node that entered the tree; its bodies may enter later.
     void note(godot::Node &node);
     void clear();
-    // Once a physics tick.
+    // Called once per physics tick.
     void update();
-    // Those that tie the body, without the joints by which hands hold it.
+    // Returns the joints of the body, except those by which hands hold it.
     [[nodiscard]] std::vector<Found> of(std::uint64_t body);
 
 private:

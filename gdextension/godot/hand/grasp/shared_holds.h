@@ -1,4 +1,4 @@
-// Bodies that two hands hold: where each hand would have the body. Scene coordinates. Main thread only.
+// Bodies that two hands hold, with the target of each hand. Scene coordinates. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@ namespace spidar {
 
 struct SharedHold {
     std::uint64_t hand = 0;  // instance id
-    godot::Transform3D body; // as this hand would have it
-    godot::Vector3 velocity; // of the body's origin
+    godot::Transform3D body; // target of this hand
+    godot::Vector3 velocity; // of the target's origin
     godot::Vector3 turning;
 };
 
-// Of a hand that holds the body now; again in each tick.
+// Called in each tick by a hand that holds the body.
 void note_hold(std::uint64_t body, const SharedHold &hold);
 void forget_hold(std::uint64_t body, std::uint64_t hand);
 [[nodiscard]] std::vector<SharedHold> other_holds(std::uint64_t body, std::uint64_t hand);
-// In the middle of all that the hands would have.
+// Returns the mean of all hands' targets.
 [[nodiscard]] godot::Transform3D shared_place(const godot::Transform3D &mine,
                                               const std::vector<SharedHold> &others);
 

@@ -1,5 +1,5 @@
-// Whose surface a point of the device's report lies on. The device tells of the scene that it rendered last, which may be
-// older than the one that stands near the hand now.
+// Maps the points of the device's report to bodies. The report refers to the scene that was
+// rendered last, which may be older than the present one.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace spidar {
 struct TouchedBody {
     godot::RID rid;
     std::uint64_t collider = 0; // instance id; 0: a body without an object
-    bool is_pushed = false;     // physics moves it
+    bool is_pushed = false;     // physics moves the body
     BodyFacts facts;
-    Placement at; // of the shape, as it was published last; device frame
+    Placement at; // of the shape when last published; device frame
     std::int64_t tick = 0;
 
     [[nodiscard]] std::uint64_t key() const noexcept {
@@ -26,7 +26,7 @@ struct TouchedBody {
 
 class TouchedBodies {
 public:
-    // Once a tick, when the scene was gathered.
+    // Called once per tick, after the scene was gathered.
     void note(const std::vector<NearShape> &shapes) {
         ++tick_;
         for (const NearShape &shape : shapes) {
@@ -36,7 +36,7 @@ public:
         std::erase_if(bodies_,
                       [this](const auto &one) { return tick_ - one.second.tick > kKeptTicks; });
     }
-    // By the id of a part of the scene; null: unknown.
+    // Finds a body by the id of a scene part; null when unknown.
     [[nodiscard]] const TouchedBody *find(std::int32_t id) const {
         const auto found = bodies_.find(id);
         return found != bodies_.end() ? &found->second : nullptr;
@@ -44,6 +44,7 @@ public:
     void clear() noexcept { bodies_.clear(); }
 
 private:
+    // Ticks for which a body is remembered after it was last near.
     static constexpr std::int64_t kKeptTicks = 30;
 
     std::unordered_map<std::int32_t, TouchedBody> bodies_;

@@ -52,7 +52,7 @@ std::vector<std::string> BodyFactsReader::take_messages() {
     return std::exchange(messages_, {});
 }
 
-// 0: it says nothing.
+// Returns 0 when the metadata is not set.
 double BodyFactsReader::from_metadata(const Object &object, OldName &old) {
     if (!object.has_meta(old.name)) {
         return 0.0;
@@ -82,7 +82,7 @@ double BodyFactsReader::from_metadata(const Object &object, OldName &old) {
 
 BodyFacts BodyFactsReader::read(const godot::RID &body, std::uint64_t object, bool is_node) {
     auto *const server = PhysicsServer3D::get_singleton();
-    // The server keeps both flags as a minus sign.
+    // The server stores both flags as a minus sign.
     const auto friction =
         static_cast<double>(server->body_get_param(body, PhysicsServer3D::BODY_PARAM_FRICTION));
     const auto bounce =

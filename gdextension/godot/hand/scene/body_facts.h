@@ -1,5 +1,6 @@
-// How a body feels: what its SpidarGSurface, its metadata, its PhysicsMaterial and the project's default material say of it.
-// The order among them is the table "Which material counts" of docs/why/haptic_rendering.md. Main thread only.
+// Properties of a body's surface from its SpidarGSurface, its metadata, its PhysicsMaterial and the
+// project's default material. The table "Which material counts" of docs/why/haptic_rendering.md
+// gives their order. Main thread only.
 #pragma once
 
 #include <algorithm>
@@ -18,24 +19,26 @@
 namespace spidar {
 
 struct BodyFacts {
-    // Of its PhysicsMaterial; has_physics_material is false for a node without one, and for a server body as the server
-    // made it.
+    // False for a node without a PhysicsMaterial, and for a server body with default values.
     bool has_physics_material = false;
     double physics_friction = 1.0;
-    bool rough = false; // of two frictions the larger one counts
-    // Of what slips on it; below 0: not said, by the body's own material and by the project's.
+    bool rough = false; // the larger of two frictions applies
+    // Sliding friction of the body's own material; negative: not set.
     double friction = SpidarGMaterial::kNotSaid;
+    // Sliding friction of the project's default material; negative: not set.
     double default_friction = SpidarGMaterial::kNotSaid;
-    // 0: not said.
+    // Stiffness, damping and squeeze stiffness; 0: not set.
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
     double squeeze_nm_rad = 0.0;
-    SurfaceTraits traits;                      // scene metres, the body's axes
-    std::shared_ptr<const CookedShape> relief; // owns traits.texture.relief
+    SurfaceTraits traits; // scene meters, axes of the body
+    // Owner of traits.texture.relief.
+    std::shared_ptr<const CookedShape> relief;
 
-    // Coulomb coefficient of what slips on the body; mine: of a hand that touches what says nothing.
+    // Returns the Coulomb coefficient of sliding on the body. mine: the hand's value, used when
+    // nothing else is set.
     [[nodiscard]] double slipping_friction(double mine) const noexcept;
-    // Of what rests on it.
+    // Returns the coefficient of sticking to the body.
     [[nodiscard]] double resting_friction(double mine) const noexcept {
         return std::max(slipping_friction(mine), traits.static_friction);
     }
@@ -43,17 +46,17 @@ struct BodyFacts {
 
 class BodyFactsReader {
 public:
-    // Reads the project's default material. Once, where the hand enters its scene.
+    // Reads the project's default material. Called once, when the hand enters its scene.
     void open();
-    // object: the body's instance id; 0: it has none. is_node: the object is the CollisionObject3D that made the body.
+    // object: instance id of the body; 0: none. is_node: object is the body's CollisionObject3D.
     [[nodiscard]] BodyFacts read(const godot::RID &body, std::uint64_t object, bool is_node);
-    // Of old names that bodies still use, each once. Empties the list.
+    // Returns messages about old names that bodies still use, each once, and empties the list.
     [[nodiscard]] std::vector<std::string> take_messages();
 
 private:
     struct OldName {
         godot::StringName name;
-        const char *property; // of SpidarGMaterial, in its place
+        const char *property; // property of SpidarGMaterial that replaces it
         bool told = false;
     };
     [[nodiscard]] double from_metadata(const godot::Object &object, OldName &old);

@@ -1,4 +1,4 @@
-// How far two boxes are apart at least: their largest separation along the axes of either.
+// Lower bound of the distance of two boxes: largest separation along the face axes of either.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace spidar {
 
 struct TurnedBox {
-    Placement at; // of its middle
+    Placement at; // of its center
     Vec3 half_extents_m{0.0};
 };
 
-// m; below 0 when they overlap along all six axes. Never more than their distance.
+// Returns the bound (unit: m); negative when the boxes overlap along all six axes.
 [[nodiscard]] inline double clearance(const TurnedBox &a, const TurnedBox &b) noexcept {
     const Mat3 turn = glm::transpose(a.at.rotation) * b.at.rotation;
     const Vec3 apart = b.at.origin_m - a.at.origin_m;
@@ -35,7 +35,7 @@ struct TurnedBox {
     return largest;
 }
 
-// The same of a box and the half space below normal . x = offset_m.
+// Same for a box and the half space below normal . x = offset_m; exact.
 [[nodiscard]] inline double clearance(const TurnedBox &box, const Vec3 &normal,
                                       double offset_m) noexcept {
     double result = glm::dot(normal, box.at.origin_m) - offset_m;

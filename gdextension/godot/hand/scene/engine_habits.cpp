@@ -15,7 +15,8 @@ namespace {
 
 using godot::PhysicsServer3D;
 
-// In a space of its own: is the origin inside a boundary that is solid up to 1 m above it?
+// Tests, in a space of its own, whether the origin lies inside a boundary that is solid up to 1 m
+// above it.
 bool turns_boundaries() {
     auto *server = PhysicsServer3D::get_singleton();
     const godot::RID space = server->space_create();

@@ -24,7 +24,7 @@ double left_turn(const OnPlane &a, const OnPlane &b, const OnPlane &c) noexcept 
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// Andrew's monotone chain: the corners of the hull, counter-clockwise.
+// Returns the corners of the hull, counter-clockwise, by Andrew's monotone chain.
 std::vector<std::uint32_t> outline(std::vector<OnPlane> points) {
     std::sort(points.begin(), points.end(), [](const OnPlane &a, const OnPlane &b) {
         return a.u != b.u ? a.u < b.u : a.v < b.v;
@@ -81,7 +81,7 @@ std::vector<Vec3> outermost_points(const std::vector<Vec3> &points_m) {
     std::vector<bool> taken(points_m.size());
     std::vector<Vec3> found;
     for (int i = 0; i < kDirections; ++i) {
-        // A spiral of the golden angle from pole to pole.
+        // A golden-angle spiral from pole to pole.
         const double y = 1.0 - (2.0 * i + 1.0) / kDirections;
         const double angle = 2.0 * std::numbers::pi * i / std::numbers::phi;
         const double across = std::sqrt(1.0 - y * y);

@@ -1,4 +1,4 @@
-// Shapes that our cooking has no kind for, as points or triangles.
+// Shapes without a cooked kind of their own, as points or triangles.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,17 @@
 
 namespace spidar {
 
-// Points round a sphere (half_height 0) or capsule, along Y, within 0.5 % of its radius; hull of them.
+// Points around a sphere (half_height 0) or a capsule along Y; hull within 0.5 % of the radius.
 [[nodiscard]] std::vector<Vec3> round_points(double radius, double half_height);
-// The same of a cylinder: its two rims.
+// Returns points on the two rims of a cylinder along Y.
 [[nodiscard]] std::vector<Vec3> rim_points(double radius, double half_height);
 
-// The points that stand out farthest in evenly spread directions: their hull is within 0.2 % of the size of the hull of all.
+// Returns the outermost points in evenly spread directions. Their hull is within 0.2 % of the size
+// of the hull of all points.
 [[nodiscard]] std::vector<Vec3> outermost_points(const std::vector<Vec3> &points_m);
 
-// A hull whose points lie in one plane, as a mesh with two sides. No triangles: the points lie on a line.
+// Returns a two-sided mesh for a hull whose points lie in one plane. It has no triangles when the
+// points lie on a line.
 [[nodiscard]] ShapeDescription flat_mesh(const std::vector<Vec3> &points_m);
 
 } // namespace spidar

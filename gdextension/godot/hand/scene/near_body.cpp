@@ -28,7 +28,7 @@ using godot::Object;
 using godot::ObjectDB;
 using godot::PhysicsServer3D;
 
-// Shapes beyond those near that are looked at in a tick.
+// Number of shapes, besides the near ones, that are checked per tick.
 constexpr std::size_t kShapesPerTick = 8;
 
 Placement in_frame(const WorldFrame &frame, const Mat3 &axes, const Vec3 &origin) {
@@ -82,7 +82,8 @@ NearBody::NearBody(const godot::RID &rid, std::uint64_t object) : rid_(rid), obj
     is_node_ = node != nullptr && node->get_rid() == rid;
 }
 
-// Of all questions to the server this one alone may be asked of a body that was freed. It is null of soft bodies too.
+// This is the only server call that is valid for a freed body. It also returns null for soft
+// bodies.
 bool NearBody::is_there(const godot::RID &space) {
     auto *server = PhysicsServer3D::get_singleton();
     state_ = server->body_get_direct_state(rid_);
@@ -119,7 +120,7 @@ void NearBody::read_place(const Moment &moment) {
     const bool is_static = mode_ == PhysicsServer3D::BODY_MODE_STATIC;
     frame_ = is_static ? moment.now : moment.in_space;
     if (is_static) {
-        // The server learns of a node's move only at the end of a tick.
+        // The server learns of a node's motion only at the end of a tick.
         if (auto *node = Object::cast_to<Node3D>(ObjectDB::get_instance(object_));
             node != nullptr && node->is_inside_tree()) {
             node->force_update_transform();
@@ -129,15 +130,17 @@ void NearBody::read_place(const Moment &moment) {
     mass_kg_ = 0.0;
     const Placement at = in_frame(frame_, basis_, origin_);
     center_m_ = at.origin_m;
-    // What is carried along with the node rests for the device. A place that a script sets is a jump: NodeMotion leaves it out.
+    // An object that moves with the node is at rest for the device. NodeMotion ignores the jump of
+    // a teleported object.
     motion_.note({at.rotation, at.origin_m, 1.0}, moment.tick_s);
     velocity_m_s_ = motion_.velocity_at(Vec3(0.0));
     angular_rad_s_ = motion_.angular_rad_s();
     read_belt(moment);
 }
 
-// Jolt does not tell the server's state of them, so a node is asked. A static body without a node is asked in the server,
-// where only GodotPhysics answers; of an animated one the server mixes them with its motion.
+// Jolt's server state does not contain them, so that a node is read. A static body without a node
+// is read from the server, which only GodotPhysics supports; for an animated one the server mixes
+// them with its motion.
 void NearBody::read_belt(const Moment &moment) {
     Vec3 velocity(0.0);
     Vec3 turning(0.0);
@@ -153,7 +156,7 @@ void NearBody::read_belt(const Moment &moment) {
         turning = to_core(state_->get_angular_velocity());
     }
     if (turning != Vec3(0.0)) {
-        // The engines turn it about the centre of mass.
+        // The engines apply the turn about the center of mass.
         velocity -= glm::cross(turning, to_core(state_->get_center_of_mass()));
     }
     belt_m_s_ = frame_.velocity_to_device(moment.time_scale * velocity);

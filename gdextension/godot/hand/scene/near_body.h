@@ -1,4 +1,4 @@
-// One body of the physics server that stands near the hand: its shapes, its place, its motion and how it feels. Main thread.
+// One physics body near the hand: its shapes, pose, motion and surface. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -28,26 +28,28 @@ struct BodyShape {
     godot::RID shape;
     godot::Transform3D local;
     std::int32_t id = 0;
-    std::int64_t owner = -1; // shape owner of a CollisionObject3D; below 0: none
+    std::int64_t owner = -1; // shape owner in a CollisionObject3D; below 0: none
     bool disabled = false;
     bool listed = false; // in the last tick
-    // A ball round it in the body's frame (scene units; the body's own scale left out). Infinite: not known.
+    // A ball around the shape in the body's frame (scene units, without the body's own scale).
+    // Infinite: unknown.
     Vec3 middle{0.0};
     double radius = 0.0;
-    std::uint64_t bounded = 0; // Source::bounds that the ball is of; 0: none yet
+    std::uint64_t bounded = 0; // Source::bounds of the ball; 0: none yet
     std::shared_ptr<ShapeShelf::Source> source;
 };
 
-// How the device and its frame stand in the scene in this tick.
+// Device and node in the scene in this tick.
 struct Moment {
-    WorldFrame now;                   // where the node is
-    WorldFrame in_space;              // where it was at the last physics step
-    const NodeMotion *node = nullptr; // its motion through the scene, until that step
+    WorldFrame now;                   // pose of the node in this tick
+    WorldFrame in_space;              // pose of the node at the last physics step
+    const NodeMotion *node = nullptr; // motion of the node until that step
     double tick_s = 0.0;
     double time_scale = 1.0; // 0 while physics stands still
 };
 
-// Calls use(owner, index, disabled) for each shape of the body that has a shape owner; index: its place in the server's list.
+// Calls use(owner, index, disabled) for each shape of the body that has a shape owner. index:
+// position in the server's list.
 void for_owned_shapes(
     godot::CollisionObject3D &body,
     const std::function<void(std::uint32_t owner, std::size_t index, bool disabled)> &use);
@@ -58,15 +60,16 @@ public:
 
     [[nodiscard]] const godot::RID &rid() const noexcept { return rid_; }
     [[nodiscard]] std::uint64_t object() const noexcept { return object_; }
-    // Whether the server still has the body, in that space. Call it in each tick, before all that reads.
+    // Returns whether the server still has the body in that space. Call it first in each tick.
     [[nodiscard]] bool is_there(const godot::RID &space);
 
-    // Reads mode, place and motion.
+    // Reads mode, pose and motion.
     void read_place(const Moment &moment);
-    // Sees to the list of shapes. next_id: the first id that is free.
+    // Updates the list of shapes. next_id: the first free id; it grows with each new shape.
     void read_shapes(ShapeShelf &shelf, std::int32_t &next_id);
     void read_facts(BodyFactsReader &reader);
-    // It has that body among its collision exceptions. Unknown, so false, of a body without a node.
+    // Returns whether the body has `other` among its collision exceptions; false for a body without
+    // a node, whose exceptions are unknown.
     [[nodiscard]] bool spares(std::uint64_t other) const;
 
     [[nodiscard]] std::string name() const;
@@ -78,25 +81,27 @@ public:
     [[nodiscard]] const BodyFacts &facts() const noexcept { return facts_; }
     [[nodiscard]] std::vector<BodyShape> &shapes() noexcept { return shapes_; }
 
-    // Scene: axes with their scale, and origin.
+    // Axes with their scale, in the scene.
     [[nodiscard]] const Mat3 &basis() const noexcept { return basis_; }
+    // Origin in the scene.
     [[nodiscard]] const Vec3 &origin() const noexcept { return origin_; }
-    // The frame that its place belongs to.
+    // The device's frame that belongs to the body's pose.
     [[nodiscard]] const WorldFrame &frame() const noexcept { return frame_; }
-    // Device frame, for a second of device time, beside the node's own motion.
+    // Velocity relative to the moving node, device frame, per second of device time.
     [[nodiscard]] Vec3 velocity_at(const Vec3 &point_m) const noexcept {
         return velocity_m_s_ + glm::cross(angular_rad_s_, point_m - center_m_);
     }
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_rad_s_; }
-    // How its surface runs along itself, as its constant velocities say. Zero for what physics moves. Device frame.
+    // Velocity of a surface that runs along itself, from the body's constant velocities. Zero for a
+    // body that physics moves. Device frame.
     [[nodiscard]] Vec3 belt_velocity_at(const Vec3 &point_m) const noexcept {
         return belt_m_s_ + glm::cross(belt_rad_s_, point_m - center_m_);
     }
     [[nodiscard]] const Vec3 &belt_rad_s() const noexcept { return belt_rad_s_; }
 
     std::int64_t near_tick = 0;  // last time that one of its shapes was near
-    std::int64_t facts_tick = 0; // when its facts are to be read again
-    bool spares_held = false;    // it has the held body among its collision exceptions
+    std::int64_t facts_tick = 0; // tick of the next reading of the facts
+    bool spares_held = false;    // has the held body among its collision exceptions
 
 private:
     void read_list(ShapeShelf &shelf, std::int32_t &next_id, int count);
@@ -110,8 +115,8 @@ private:
     godot::RID rid_;
     std::uint64_t object_;
     godot::PhysicsDirectBodyState3D *state_ = nullptr; // in this tick
-    bool is_node_ =
-        false; // its object is the CollisionObject3D that made it, so it has shape owners
+    // The object is the CollisionObject3D that made the body, so that it has shape owners.
+    bool is_node_ = false;
     std::vector<BodyShape> shapes_;
     std::size_t rolling_ = 0;
     godot::PhysicsServer3D::BodyMode mode_ = godot::PhysicsServer3D::BODY_MODE_STATIC;
@@ -120,7 +125,7 @@ private:
     Mat3 basis_{1.0};
     Vec3 origin_{0.0};
     WorldFrame frame_;
-    NodeMotion motion_; // of what physics does not move, in the device frame
+    NodeMotion motion_; // of bodies that physics does not move, device frame
     Vec3 center_m_{0.0};
     Vec3 velocity_m_s_{0.0};
     Vec3 angular_rad_s_{0.0};
@@ -128,11 +133,11 @@ private:
     Vec3 belt_rad_s_{0.0};
 };
 
-// Axes of one length each and at right angles, taken apart.
+// Axes with perpendicular directions, split into rotation and scale.
 struct TurnAndScale {
     Mat3 turn{1.0};
     Vec3 scale{1.0};      // x below zero: mirrored
-    bool sheared = false; // axes that are not at right angles, or that have no length
+    bool sheared = false; // axes not perpendicular, or one without length
 };
 [[nodiscard]] TurnAndScale take_apart(const Mat3 &axes) noexcept;
 

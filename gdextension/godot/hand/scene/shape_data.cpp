@@ -24,7 +24,8 @@ using godot::Variant;
 
 constexpr std::int64_t kMostPointsAtOnce = 1500; // 500 triangles, half a millisecond
 constexpr std::int64_t kMostHullPointsAtOnce = 300;
-// A hull of more is made of the outermost ones: what cook() takes, and the time of a hull grows with their square.
+// Largest number of hull points; of more the outermost are used. It is what cook() accepts, and the
+// time grows with its square.
 constexpr std::size_t kMostHullPoints = 4096;
 constexpr std::int64_t kMostHeightsAtOnce = 65536;
 
@@ -48,7 +49,7 @@ bool same_elements(const T *a, const T *b, std::int64_t count) {
            (count > 0 && std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0);
 }
 
-// The corners of a height map that lies mirrored: our height maps cannot.
+// Returns the corners of a mirrored height map, which a cooked height map cannot represent.
 ShapeDescription mesh_of_heights(const ShapeNumbers &map, const Vec3 &scale) {
     ShapeDescription mesh;
     mesh.kind = ShapeKind::mesh;
@@ -95,7 +96,7 @@ ShapeDescription describe_heights(const ShapeNumbers &map, const Vec3 &scale) {
     result.spacing_x_m = scale.x;
     result.spacing_z_m = scale.z;
     result.heights_m.resize(static_cast<std::size_t>(map.height_count));
-    constexpr float kHole = std::numeric_limits<float>::max(); // another way to tell one
+    constexpr float kHole = std::numeric_limits<float>::max(); // a second mark of a hole
     std::transform(map.heights, map.heights + map.height_count, result.heights_m.begin(),
                    [&scale](float height) {
                        return height == kHole
@@ -114,7 +115,7 @@ ShapeDescription describe_points(const ShapeNumbers &shape, const Vec3 &scale) {
     std::transform(shape.points, shape.points + shape.point_count, result.points_m.begin(),
                    [&scale](const godot::Vector3 &point) { return scale * to_core(point); });
     if (mesh) {
-        // Clockwise there, counter-clockwise here; a mirror turns it over once more.
+        // Clockwise in the engine, counter-clockwise here; a mirror reverses the order once more.
         const std::uint32_t second = scale.x < 0.0 ? 1 : 2;
         const auto corners = static_cast<std::uint32_t>(shape.point_count);
         result.indices.reserve(corners);
@@ -142,7 +143,7 @@ bool is_uneven(const ShapeNumbers &shape, const Vec3 &scale) noexcept {
     }
 }
 
-// A round shape that is no longer round.
+// Returns the hull of a round shape with uneven scale.
 ShapeDescription stretched(const ShapeNumbers &shape, const Vec3 &scale) {
     ShapeDescription hull;
     hull.kind = ShapeKind::hull;
@@ -284,7 +285,7 @@ ShapeBounds bounds_of(const ShapeNumbers &shape) {
         double highest = -kInfinite;
         for (std::int64_t i = 0; i < shape.height_count; ++i) {
             const auto height = static_cast<double>(shape.heights[i]);
-            lowest = height < lowest ? height : lowest; // not where it is no number
+            lowest = height < lowest ? height : lowest; // false for NaN
             highest = height > highest ? height : highest;
         }
         box.upper = {0.5 * (shape.width - 1), highest, 0.5 * (shape.depth - 1)};

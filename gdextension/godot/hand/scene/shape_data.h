@@ -1,4 +1,4 @@
-// What the physics server knows of one shape: its kind and its sizes, in the shape's own frame and the scene's units.
+// Kind and sizes of a shape of the physics server, in the shape's frame and scene units.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-// Plain numbers that any thread may read. The points and heights belong to the ShapeData that holds them.
+// Plain numbers that any thread may read; ShapeData owns the points and heights.
 struct ShapeNumbers {
     godot::PhysicsServer3D::ShapeType type = godot::PhysicsServer3D::SHAPE_CUSTOM;
     double radius = 0.0;
@@ -26,44 +26,46 @@ struct ShapeNumbers {
     double offset = 0.0;    // of a world boundary: solid below normal . x = offset
     bool two_sided = false;
     bool evened = true; // round shapes of uneven scale take the mean of their scales
-    const godot::Vector3 *points = nullptr; // of a hull; of a mesh three a triangle, clockwise
+    const godot::Vector3 *points = nullptr; // of a hull; of a mesh, three per triangle, clockwise
     std::int64_t point_count = 0;
-    const float *heights = nullptr; // of a height map: width times depth of them
+    const float *heights = nullptr; // of a height map: width times depth values
     std::int64_t height_count = 0;
     int width = 0;
     int depth = 0;
 };
 
-// Infinite: of a world boundary, or not known yet.
+// Bounding box; infinite for a world boundary, or when unknown.
 struct ShapeBounds {
     Vec3 lower{-std::numeric_limits<double>::infinity()};
     Vec3 upper{std::numeric_limits<double>::infinity()};
     [[nodiscard]] bool known() const noexcept { return std::isfinite(upper.x); }
 };
 
-// The numbers with what they point to. Main thread only.
+// The numbers and the data they point to. Main thread only.
 struct ShapeData {
     ShapeNumbers numbers;
     godot::PackedVector3Array points;
     godot::PackedFloat32Array heights;
     ShapeBounds bounds;
-    bool readable = false; // the server gave what its kind should have
+    bool readable = false; // the server's data match the shape's kind
 };
 
-// How new data differ from old ones.
+// Difference between new and old data.
 enum class DataChange : std::uint8_t {
     none,
-    copied, // equal, but the server made a copy to tell so: looking is as dear as the data are many
+    // Equal, but the server copied the data to return them: reading time grows with their size.
+    copied,
     changed
 };
 
-// Reads shapes from the physics server. Holds the names of the data's parts, so that no text is made at each look.
+// Reads shapes from the physics server. Keeps the names of the data's parts, so that reading
+// creates no strings.
 class ShapeReader {
 public:
     ShapeReader();
-    // The bounds of a large shape are left open: bounds_of() takes long.
+    // Reads a shape. Large shapes get no bounds, since bounds_of() takes long for them.
     [[nodiscard]] ShapeData read(const godot::RID &shape) const;
-    // Reads again, into `data`.
+    // Reads the shape again into `data`.
     [[nodiscard]] DataChange read_again(const godot::RID &shape, ShapeData &data) const;
 
 private:
@@ -77,16 +79,16 @@ private:
     godot::Variant depth_;
 };
 
-// Any thread.
+// Computes the bounding box. Any thread.
 [[nodiscard]] ShapeBounds bounds_of(const ShapeNumbers &shape);
 
-// What to cook: the shape after `scale` (device metres for a unit of the shape, by axis; x below zero: mirrored). Any thread.
+// Returns the shape scaled (device m per shape unit and axis; negative x: mirrored). Any thread.
 [[nodiscard]] ShapeDescription describe(const ShapeNumbers &shape, const Vec3 &scale);
 
-// Cooks it; a hull whose points lie in one plane becomes a mesh of two sides. Any thread.
+// Cooks the shape; a hull whose points lie in one plane becomes a two-sided mesh. Any thread.
 [[nodiscard]] CookResult cook_shape(const ShapeNumbers &shape, const Vec3 &scale);
 
-// More than is cooked between two frames without being noticed.
+// Returns whether cooking the shape between two frames would be noticeable.
 [[nodiscard]] bool is_large(const ShapeNumbers &shape) noexcept;
 
 } // namespace spidar

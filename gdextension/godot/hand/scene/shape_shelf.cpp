@@ -14,15 +14,16 @@ namespace {
 
 using godot::PhysicsServer3D;
 
-// Two scales that differ by less give one cooked shape: bodies that turn have scales that tremble by rounding.
+// Largest difference of scales that share a cooked shape: the scale of a rotating body changes by
+// rounding.
 constexpr double kSameScale = 1e-4;
 constexpr double kAboutSameScale = 0.05;
 constexpr std::int64_t kKeptTicks = 600;
 constexpr std::int64_t kKeptPieceTicks = 120;
 constexpr std::int64_t kSweepTicks = 64;
-// A shape whose scale moves would otherwise have one cooked in each tick.
+// Largest number of jobs per source: a changing scale would otherwise start one in each tick.
 constexpr int kMostJobsOfOne = 2;
-// Of elements that the engine copies for a look at them: so many wait for one tick more.
+// A shape waits one more tick between reads for each of these many elements that a read copies.
 constexpr std::int64_t kElementsPerTick = 500;
 constexpr std::int64_t kLongestWait = 600;
 
@@ -35,7 +36,7 @@ bool same_scale(const Vec3 &a, const Vec3 &b) noexcept {
     return true;
 }
 
-// Empty: can be cooked.
+// Returns an empty string when the shape can be cooked, else the reason.
 std::string refusal(const ShapeData &data) {
     switch (data.numbers.type) {
     case PhysicsServer3D::SHAPE_SEPARATION_RAY:
@@ -120,7 +121,7 @@ Piece &ShapeShelf::cooked(Source &source, const Vec3 &scale) {
     return *source.pieces.back();
 }
 
-// A large shape whose scale moves is felt at a scale that was ready, while that is about the same.
+// A large shape whose scale changes uses a finished shape of about the same scale.
 void ShapeShelf::stand_in(const Source &source, Piece &piece) {
     double least = kAboutSameScale;
     for (const auto &other : source.pieces) {

@@ -1,6 +1,6 @@
-// The cooked shapes of a scene, by the shape of the physics server and its scale. A shape is cooked once, kept while it is
-// used, and cooked anew when its data change. Small shapes are cooked at once; large ones by the engine's threads, and until
-// one is ready there is no cooked shape of it. Main thread only.
+// Cooked shapes of a scene by server shape and scale. Each is cooked once, kept while used, and
+// cooked again when its data change. Small shapes are cooked at once, large ones in the engine's
+// threads; until then they have no cooked shape. Main thread only.
 #pragma once
 
 #include <atomic>
@@ -18,21 +18,22 @@
 namespace spidar {
 
 enum class PieceState : std::uint8_t {
-    cooking, // not felt yet
+    cooking, // not rendered yet
     ready,
-    refused, // never felt: why_not tells
+    // Never rendered; why_not holds the reason.
+    refused,
 };
 
 // One shape at one scale.
 struct Piece {
-    Vec3 scale{1.0}; // device metres for a unit of the shape; x below zero: mirrored
+    Vec3 scale{1.0}; // device meters per shape unit; negative x: mirrored
     PieceState state = PieceState::cooking;
-    std::shared_ptr<const CookedShape>
-        shape; // while it is cooked anew: as it was; or of about this scale
+    // While cooking: the previous shape, or one of about this scale.
+    std::shared_ptr<const CookedShape> shape;
     std::string why_not;
-    bool told = false;         // for who tells it: once is enough
-    std::uint64_t version = 0; // of the data that it was cooked from
-    std::uint64_t asked = 0;   // newest version that was given to be cooked
+    bool told = false;         // the reason was reported
+    std::uint64_t version = 0; // version of the data that it was cooked from
+    std::uint64_t asked = 0;   // newest version that was sent to cooking
     std::int64_t used_tick = 0;
 };
 
@@ -60,14 +61,15 @@ public:
     ShapeShelf(const ShapeShelf &) = delete;
     ShapeShelf &operator=(const ShapeShelf &) = delete;
 
-    // Once a tick, first: takes what the threads have cooked, and lets go of what nobody uses.
+    // Called first in each tick: takes the results of the threads and drops unused shapes.
     void begin_tick();
-    // Of a shape that the server has. Stays on the shelf while the caller keeps it.
+    // Returns the source of a server shape. It stays on the shelf while the caller keeps it.
     [[nodiscard]] std::shared_ptr<Source> find(const godot::RID &shape);
-    // Once a tick for each shape that is near: sees whether its data changed. Where the engine copies its data for each look
-    // (concave shapes of GodotPhysics), large shapes are looked at less often.
+    // Checks whether the data changed. Called once per tick for each near shape. Where the engine
+    // copies its data for each read (concave shapes of GodotPhysics), large shapes are checked less
+    // often.
     void look_again(Source &source);
-    // Valid until the next tick.
+    // Returns the piece for a scale; valid until the next tick.
     [[nodiscard]] Piece &cooked(Source &source, const Vec3 &scale);
     [[nodiscard]] std::int64_t tick() const noexcept { return tick_; }
     [[nodiscard]] const Counts &counts() const noexcept { return counts_; }

@@ -20,13 +20,14 @@ using godot::Object;
 using godot::ObjectDB;
 using godot::PhysicsServer3D;
 
-// A body that was met and has no shape near any more is found by queries again after so many ticks.
+// Ticks after which a body without near shapes must be found by a query again.
 constexpr std::int64_t kGraceTicks = 30;
 constexpr std::int64_t kFactsTicks = 8;
 constexpr std::size_t kMostExamined = 3 * kMostNearShapes;
 constexpr double kNever_m = 1e9;
 
-// Of a shape at that scale and place and what the volume is round; m. 0 while the shape's bounds are not known.
+// Returns the clearance (unit: m) between a shape at that scale and pose and the volume's object. 0
+// while the shape's bounds are unknown.
 double clearance_of(const ShapeData &data, const Vec3 &scale, const Placement &at,
                     const SearchVolume &volume) {
     const TurnedBox mine{volume.at, volume.half_extents_m};
@@ -125,7 +126,7 @@ void Surroundings::drop_gone(const SearchSpace &space) {
     soft_.erase(std::remove_if(soft_.begin(), soft_.end(), freed), soft_.end());
 }
 
-// The server does not tell the exceptions of a body without a node.
+// The server does not report the collision exceptions of a body without a node.
 void Surroundings::read_exceptions(std::uint64_t held_object) {
     spared_by_held_.clear();
     auto *held = Object::cast_to<godot::PhysicsBody3D>(ObjectDB::get_instance(held_object));
@@ -168,7 +169,7 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
         for (const std::string &message : facts_.take_messages()) {
             tell(message);
         }
-        // Not all bodies in the same tick.
+        // Spreads the reading over several ticks.
         body.facts_tick = tick_ + kFactsTicks / 2 + body.rid().get_id() % kFactsTicks;
         body.spares_held = body.spares(held_object_);
     }
@@ -187,7 +188,7 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
         }
         const double bound_m =
             least_clearance(origin_m + axes * shape.middle, stretch * shape.radius, seen);
-        if (!(bound_m <= 0.0)) { // also where it is no number
+        if (!(bound_m <= 0.0)) { // true for NaN
             ++counts_.far;
         } else {
             possible_.push_back({&body, i, bound_m, seen});
@@ -195,7 +196,8 @@ void Surroundings::gather(NearBody &body, std::uint8_t seen) {
     }
 }
 
-// Quick: of a ball and the volumes that see it, beyond their margins; m.
+// Returns a quick lower bound (unit: m) of a ball's distance from the volumes that see it, beyond
+// their margins.
 double Surroundings::least_clearance(const Vec3 &middle_m, double radius_m,
                                      std::uint8_t seen) const {
     double least = kNever_m;
@@ -213,7 +215,7 @@ double Surroundings::least_clearance(const Vec3 &middle_m, double radius_m,
     return least;
 }
 
-// Where hundreds are possible, those that are nearest by their balls are looked at.
+// Keeps the nearest by their balls when hundreds are possible.
 void Surroundings::keep_most_possible() {
     if (possible_.size() > kMostExamined) {
         const auto end = possible_.begin() + static_cast<std::ptrdiff_t>(kMostExamined);
@@ -268,7 +270,7 @@ void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t
     candidates_.push_back(candidate);
 }
 
-// The body's traits as a shape at `at` has them.
+// Returns the body's traits in the frame of a shape at `at`.
 SurfaceTraits Surroundings::in_shape(const NearBody &body, const Placement &at) {
     SurfaceTraits traits = body.facts().traits;
     const WorldFrame &frame = body.frame();

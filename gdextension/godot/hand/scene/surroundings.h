@@ -1,5 +1,5 @@
-// Which shapes of the scene stand near the hand: read from the physics server once a physics tick, cooked, and placed in the
-// device frame. Main thread only; call update() in a physics tick.
+// The shapes of the scene near the hand: read from the physics server once per physics tick,
+// cooked, and placed in the device frame. Main thread only; call update() in a physics tick.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,13 @@ namespace spidar {
 
 inline constexpr std::size_t kMostNearShapes = 32;
 
-// A box round something that touches the scene. Device frame, m.
+// A box around an object that touches the scene. Device frame (unit: m).
 struct SearchVolume {
     Placement at;
-    Vec3 half_extents_m{0.0}; // of the thing itself
-    double margin_m = 0.0;    // shapes within it are listed; at least what anything moves in a tick
-    std::uint32_t mask = 1;   // collision layers that it meets
+    Vec3 half_extents_m{0.0}; // of the object itself
+    // Shapes within this distance are listed. At least the largest motion in a tick.
+    double margin_m = 0.0;
+    std::uint32_t mask = 1; // collision layers that the object meets
     std::vector<godot::RID> excluded;
 };
 
@@ -39,14 +40,14 @@ struct SearchSpace {
     godot::PhysicsDirectSpaceState3D *state = nullptr;
     godot::RID space;
     WorldFrame now; // of the device's node
-    WorldFrame
-        stepped; // as it was at the last physics step, when the bodies that physics moves were put where they are
-    double tick_s =
-        1.0 / 60.0;          // device time from tick to tick: not the game's, which may run slower
+    // The device's node at the last physics step, at which the bodies of physics have their poses.
+    WorldFrame stepped;
+    // Device time between two ticks. The game's time may run slower.
+    double tick_s = 1.0 / 60.0;
     double time_scale = 1.0; // Engine.time_scale
 };
 
-// Physics engines cannot move a body much faster: a device that goes farther in a tick was put elsewhere.
+// Speed above which the device was teleported: physics engines cannot move a body much faster.
 inline constexpr double kFastestBody_m_s = 200.0;
 
 enum SeenBy : std::uint8_t { kSeenByPads = 1, kSeenByHeld = 2 };
@@ -55,19 +56,19 @@ struct NearShape {
     godot::RID body;
     std::uint64_t collider = 0; // instance id; 0: a body without an object
     int shape_index = 0;
-    // Of this shape of this body for as long as it stays near; another shape never has the same one.
+    // Belongs to this shape of this body while it stays near; ids are never reused.
     std::int32_t id = 0;
     std::shared_ptr<const CookedShape> shape;
     Placement at;            // device frame
-    Vec3 velocity_m_s{0.0};  // of at.origin_m, device frame, a second of device time
+    Vec3 velocity_m_s{0.0};  // of at.origin_m, per second of device time
     Vec3 angular_rad_s{0.0}; // device frame
-    // As ScenePart's: how its surface runs along itself.
+    // See ScenePart::belt_m_s.
     Vec3 belt_m_s{0.0};
     Vec3 belt_rad_s{0.0};
     double mass_kg = 0.0;     // 0 unless physics moves the body
     std::uint8_t seen_by = 0; // SeenBy
     BodyFacts facts;
-    SurfaceTraits traits; // device metres, the shape's own axes
+    SurfaceTraits traits; // device meters, axes of the shape
 };
 
 struct SurroundingsCounts {
@@ -77,11 +78,11 @@ struct SurroundingsCounts {
     int far = 0;         // shapes of those bodies that are not near
     int left_out = 0;    // near, beyond the nearest kMostNearShapes
     int cooking = 0;     // near, but not ready yet
-    int refused = 0;     // near, and never felt: take_messages() tells why
-    int soft_bodies = 0; // met so far; not felt
+    int refused = 0;     // near, never rendered: take_messages() returns why
+    int soft_bodies = 0; // found so far; not rendered
 };
 
-// Whether `rid` is in the list.
+// Returns whether `rid` is in the list.
 [[nodiscard]] inline bool holds_rid(const std::vector<godot::RID> &list, const godot::RID &rid) {
     return std::find(list.begin(), list.end(), rid) != list.end();
 }
@@ -93,22 +94,23 @@ public:
     Surroundings(const Surroundings &) = delete;
     Surroundings &operator=(const Surroundings &) = delete;
 
-    // Nearest first in shapes(). held: null while nothing is held; held_object: the instance id of the held body.
+    // Updates shapes(), nearest first. held: null while nothing is held. held_object: instance id
+    // of the held body.
     void update(const SearchSpace &space, const SearchVolume &pads,
                 const SearchVolume *held = nullptr, std::uint64_t held_object = 0);
-    // Reads what holds for the whole project: when the node enters its scene.
+    // Reads the project's defaults. Called when the node enters its scene.
     void open() { facts_.open(); }
-    // Forgets all bodies: when the node leaves its scene.
+    // Forgets all bodies. Called when the node leaves its scene.
     void clear();
 
     [[nodiscard]] const std::vector<NearShape> &shapes() const noexcept { return shapes_; }
     [[nodiscard]] const SurroundingsCounts &counts() const noexcept { return counts_; }
     [[nodiscard]] const ShapeShelf::Counts &shelf() const noexcept { return shelf_.counts(); }
-    // What cannot be felt and why, each thing once. Empties the list.
+    // Returns messages about things that cannot be rendered, each once, and empties the list.
     [[nodiscard]] std::vector<std::string> take_messages();
 
 private:
-    // One of the two volumes, as the queries know it.
+    // Query state of one of the two volumes.
     struct Searcher {
         godot::Ref<godot::PhysicsShapeQueryParameters3D> query;
         godot::RID box;

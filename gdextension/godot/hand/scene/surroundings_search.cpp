@@ -1,4 +1,4 @@
-// How Surroundings finds bodies.
+// Search for bodies by Surroundings.
 #include <algorithm>
 #include <utility>
 
@@ -64,8 +64,9 @@ void Surroundings::search(Searcher &searcher, const SearchVolume &volume,
     if (now.origin != moment_.in_space.origin || now.rotation != moment_.in_space.rotation) {
         look(now, Vec3(0.0), 1.0); // bodies that rest in the scene while the node moves on
     }
-    // Jolt does not see a triangle from behind, and looks from the middle of the query's shape: a mesh that closes round this
-    // middle is not met, as one between the jaws. So an eighth of the box is asked too, in each tick another one.
+    // Jolt ignores triangles seen from behind, and looks from the center of the query's shape: it
+    // misses a mesh that closes around this center, such as one between the jaws. An eighth of the
+    // box is therefore queried too, another one in each tick.
     const auto part = static_cast<unsigned>(tick_) % 8U;
     const Vec3 side((part & 1U) != 0 ? 0.5 : -0.5, (part & 2U) != 0 ? 0.5 : -0.5,
                     (part & 4U) != 0 ? 0.5 : -0.5);
@@ -84,8 +85,8 @@ void Surroundings::exclude(Searcher &searcher, const std::vector<godot::RID> &ex
     searcher.excluded = excluded;
 }
 
-// An engine gives a hit for each shape or triangle, so a list that is full hides bodies: they are met in the next query, which
-// leaves out those of the last.
+// An engine reports a hit per shape or triangle, so that a full list hides bodies. The next query
+// finds them, since it excludes those of the last.
 void Surroundings::ask(Searcher &searcher, const SearchSpace &space,
                        std::vector<godot::RID> &excluded) {
     for (int i = 0; i < kMostQueries; ++i) {
