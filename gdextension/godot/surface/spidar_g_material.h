@@ -1,5 +1,5 @@
 // SpidarGMaterial: how a surface feels. What it does not say, it leaves to the body's PhysicsMaterial, to the project's
-// default material and to the hand, in the order of docs/why/haptic_rendering.md. The class reference is
+// default material and to the hand, in the order of docs/reference/surfaces.md. The class reference is
 // gdextension/doc_classes/SpidarGMaterial.xml.
 #pragma once
 

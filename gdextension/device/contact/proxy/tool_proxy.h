@@ -1,5 +1,5 @@
 // The god-object of a tool of real shapes in a scene of real shapes, in seven degrees of freedom (contact-engine of
-// docs/why/haptic_rendering.md). The proxy follows the device as far as no surface is in its way: it never enters one, at any
+// docs/why/contact_engine.md). The proxy follows the device as far as no surface is in its way: it never enters one, at any
 // speed. The wrench is the pull of the stiffnesses from the device to the proxy, damped along the contacts, with Coulomb
 // friction at each point.
 //

@@ -1,5 +1,5 @@
 // The joints that tie a held body, as the servo loop takes them: its hinges, slides and sockets, their limits, springs,
-// dampers and motors. Which way the engine counts is told in docs/why/haptic_rendering.md, "Held things on joints". Main thread only.
+// dampers and motors. Which way the engine counts is told in docs/why/contact_engine.md, "Held things on joints". Main thread only.
 #pragma once
 
 #include <cstdint>

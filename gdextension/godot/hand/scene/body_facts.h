@@ -1,5 +1,5 @@
 // How a body feels: what its SpidarGSurface, its metadata, its PhysicsMaterial and the project's default material say of it.
-// The order among them is the table "Which material counts" of docs/why/haptic_rendering.md. Main thread only.
+// The order among them is the table "Which material counts" of docs/reference/surfaces.md. Main thread only.
 #pragma once
 
 #include <algorithm>
