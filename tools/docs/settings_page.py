@@ -53,7 +53,7 @@ This page is written by a script from the library and the class help: `python3 t
 CONFIG = """
 ## SpidarGConfig
 
-The resource in `SpidarG.config`. The range is the one that the inspector offers. `SpidarGConfig.get_problem()` returns one sentence with field, value, unit and remedy when a value makes no sense; a device does not open with such a config, and an open device keeps its last good settings.
+The resource in `SpidarG.config`. A script may set a larger range than the inspector offers. `SpidarGConfig.get_problem()` returns one sentence with field, value, unit and remedy when a value makes no sense; a device does not open with such a config, and an open device keeps its last good settings.
 
 "Live" means that an open device takes the change over at once. "Reopens" means that the device is closed and opened anew: a held body is dropped, and a real device must be armed again.
 """
@@ -97,6 +97,7 @@ def meanings(class_name):
     found = {}
     for member in members:
         first = re.split(r"(?<=[.])\s", " ".join((member.text or "").split()), maxsplit=1)[0]
+        first = re.sub(r":\s-\s.*", ".", first)  # a list follows
         found[member.get("name")] = as_markdown(first).replace("|", "\\|")
     return found
 
@@ -193,7 +194,7 @@ def config_tables(entries):
     for title, members in by_group(entries):
         rows = [(f"`{entry['name']}`", told[entry["name"]], shown_range(entry), shown_default(entry),
                  "live" if entry["name"] in live else "reopens") for entry in members]
-        yield f"\n### {title}\n" + table(("property", "meaning", "range and unit", "default", "change while open"), rows)
+        yield f"\n### {title}\n" + table(("property", "meaning", "range in the inspector, and unit", "default", "change while open"), rows)
 
 
 def hand_tables(entries):

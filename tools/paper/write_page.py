@@ -205,7 +205,7 @@ For researchers who know the paper of Kim, Koike and Sato on SPIDAR-G, and who a
 
 This page is written by `./dev paper`; do not edit it. The kinematics, wrench matrix and tension solver of `gdextension/core` compute all numbers.
 
-Symbols: A is the wrench matrix, τ the tensions (N), q the requested wrench, d half the length of a pole (4 cm), g the seventh component of q. M1 is a string length by the ideal radius of the drum, M2 by the paper's fitted equation.
+Symbols: DOF is a degree of freedom, A the wrench matrix, τ the tensions (N), q the requested wrench, d half the length of a pole (4 cm), g the seventh component of q. M1 is a string length by the ideal radius of the drum, M2 by the paper's fitted equation.
 
 What the paper leaves open:
 
