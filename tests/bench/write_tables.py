@@ -47,37 +47,42 @@ def error_and_failures(row):
 
 
 def tension(results):
+    """Three tables: our builds and DAQP's time, the other peers, the errors."""
     rows = results["tension"]
     builds = [(method, text) for method, text in (("ours, AVX2", "AVX2"), ("ours, 16-byte vectors", "SSE2"))
               if find(rows, method, "S1", "cold")]
     others = (("bounded least squares", "QR"), ("eiquadprog", "eiquadprog"), ("quadprog", "quadprog"),
               ("qpOASES", "qpOASES"))
-    lines = []
+    ratio = lambda row: number(row and row["ratio_to_daqp"], "{:.2f}")  # noqa: E731
+    times, peers, errors = [], [], []
     for of_set, mode, text in SETS:
+        name = f"{text}, {mode}"
         row_of = [find(rows, method, of_set, mode) for method, _ in builds]
         peer = find(rows, DAQP, of_set, mode)
         best = min(row_of, key=lambda row: row["median_ns"])
-        lines.append([f"{text}, {mode}",
-                      *(number(row["ratio_to_daqp"], "{:.2f}") for row in row_of),
-                      *(number(row and row["ratio_to_daqp"], "{:.2f}")
-                        for row in (find(rows, method, of_set, mode) for method, _ in others)),
-                      number(peer and peer["median_ns"], "{:.0f}"),
-                      error_and_failures(best), error_and_failures(peer)])
-    header = ["set", *(f"ours, {text}" for _, text in builds), *(text for _, text in others), "DAQP (ns)",
-              "worst error (N), ours", "DAQP"]
-    return table(header, lines)
+        times.append([name, *(ratio(row) for row in row_of), number(peer and peer["median_ns"], "{:.0f}")])
+        peers.append([name, *(ratio(find(rows, method, of_set, mode)) for method, _ in others)])
+        errors.append([name, error_and_failures(best), error_and_failures(peer)])
+    return (table(["set", *(f"ours, {text} (ratio)" for _, text in builds), "DAQP's median (ns)"], times) + "\n" +
+            table(["set", *(f"{text} (ratio)" for _, text in others)], peers) + "\n" +
+            table(["set", "worst error, ours (N)", "worst error, DAQP (N)"], errors))
 
 
 def fk(results):
+    """Two tables: lengths without and with noise."""
     rows = results["fk"]
-    lines = []
-    for method, mode in POSES:
-        cells = [f"{method}, {mode}"]
-        for of_set in ("T1 clean", "T1 counts", "T1 0.1 mm", "T1 1 mm", "T1 3 mm"):
-            row = next((one for one in rows if bench_rows.key(one) == (method, of_set, mode)), None)
-            cells.append("-" if row is None else f"{row['median_ns']:.0f}; {error_and_failures(row)}")
-        lines.append(cells)
-    return table(["method", "exact lengths", "counts", "0.1 mm noise", "1 mm", "3 mm"], lines)
+    parts = []
+    for sets in ((("T1 clean", "exact lengths"), ("T1 counts", "encoder counts")),
+                 (("T1 0.1 mm", "0.1 mm of noise"), ("T1 1 mm", "1 mm of noise"), ("T1 3 mm", "3 mm of noise"))):
+        lines = []
+        for method, mode in POSES:
+            cells = [f"{method}, {mode}"]
+            for of_set, _ in sets:
+                row = next((one for one in rows if bench_rows.key(one) == (method, of_set, mode)), None)
+                cells.append("-" if row is None else f"{row['median_ns']:.0f}; {error_and_failures(row)}")
+            lines.append(cells)
+        parts.append(table(["method", *(f"{text} (ns; m)" for _, text in sets)], lines))
+    return "\n".join(parts)
 
 
 def step(results):
@@ -87,7 +92,7 @@ def step(results):
             name = row["method"] + ("" if row["mode"] == "-" else ", " + row["mode"])
             lines.append([name, number(row["median_ns"] / 1e3, "{:.2f}"), number(row["p999_ns"] / 1e3, "{:.2f}"),
                           number(row["ratio_to_daqp"], "{:.2f}")])
-    return table(["", "median (us)", "p99.9 (us)", "median / DAQP's warm solve"], lines)
+    return table(["part", "median (µs)", "p99.9 (µs)", "median / DAQP's warm solve"], lines)
 
 
 def contacts(results):
@@ -106,7 +111,7 @@ def contacts(results):
                 wrong = f"; {gap['failures']} wrong" if gap["failures"] else ""
                 cells.append(f"{gap['median_ns']:.0f}; {gap['worst_error']:.0e} m, {normal['worst_error']:.0e} rad{wrong}")
         lines.append(cells)
-    return table(["pair", *methods], lines)
+    return table(["pair", *(f"{method} (ns; m, rad)" for method in methods)], lines)
 
 
 def fill(page, folder):

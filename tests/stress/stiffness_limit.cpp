@@ -3,7 +3,7 @@
 //   stiffness_limit [--part limits|parts|latency|width] [--csv FOLDER] [--quick]
 // All four parts without --part; --quick: only whether the promised walls are held still.
 // Still: below 0.2 mm and 0.01 rad peak to peak in the last second. These are results for three hands; no wall of a
-// frictionless device with encoders is passive for any hand (see docs/why/haptic_rendering.md).
+// frictionless device with encoders is passive for any hand (see docs/why/contact_engine.md).
 #include <cstdio>
 #include <cstring>
 #include <string>

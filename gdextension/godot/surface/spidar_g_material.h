@@ -1,6 +1,6 @@
 // SpidarGMaterial: properties of a surface. Values that are not set come from the body's
 // PhysicsMaterial, the project's default material or the hand, in the order of
-// docs/why/haptic_rendering.md. The class reference is gdextension/doc_classes/SpidarGMaterial.xml.
+// docs/reference/surfaces.md. The class reference is gdextension/doc_classes/SpidarGMaterial.xml.
 #pragma once
 
 #include <memory>

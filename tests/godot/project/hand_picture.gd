@@ -1,6 +1,6 @@
 ## Draws what SpidarGHand.debug_draw shows, and saves it: -s hand_picture.gd -- SCENE FILE [WORKSPACE_SCALE]. SCENE: a pad
 ## on a box ("pad"), a held bar on an edge ("bar"), the pads on a wavy mesh ("wave"). Needs a display; with --fixed-fps 60
-## it is ready sooner. The picture of docs/why/haptic_rendering.md is made so.
+## it is ready sooner. The picture of docs/why/contact_engine.md is made so.
 extends SceneTree
 
 const Solids := preload("res://solids.gd")

@@ -1,5 +1,5 @@
 // The god-object of a tool in a scene of shapes, in seven degrees of freedom
-// (docs/why/haptic_rendering.md). The proxy follows the device as far as no surface is in its way,
+// (docs/why/contact_engine.md). The proxy follows the device as far as no surface is in its way,
 // and never enters a surface at any speed. The wrench is the pull of the springs from the device to
 // the proxy, damped along the contacts, with Coulomb friction at each point.
 //

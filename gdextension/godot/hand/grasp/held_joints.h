@@ -1,5 +1,5 @@
 // The joints of a held body for the servo loop: hinges, slides and sockets with their limits,
-// springs, dampers and motors. docs/why/haptic_rendering.md, "Held things on joints", gives the
+// springs, dampers and motors. docs/why/contact_engine.md, "Held things on joints", gives the
 // engine's sign conventions. Main thread only.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Properties of a body's surface from its SpidarGSurface, its metadata, its PhysicsMaterial and the
-// project's default material. The table "Which material counts" of docs/why/haptic_rendering.md
+// project's default material. The table "Which material counts" of docs/reference/surfaces.md
 // gives their order. Main thread only.
 #pragma once
 
