@@ -60,9 +60,9 @@ func open_page(page: String, heading: String) -> bool:
 		return false
 	scene = script.new()
 	for property: Dictionary in script.get_script_property_list():
-		var node: SpidarG = scene.get(property["name"]) as SpidarG
-		if node != null:
-			node.drive_mode = SpidarG.DRIVE_STEPPED
+		var value: Variant = scene.get(property["name"])
+		if value is SpidarG:
+			(value as SpidarG).drive_mode = SpidarG.DRIVE_STEPPED
 	add(scene)
 	for mouse: Node in scene.find_children("*", "SpidarGMouseHand", true, false):
 		mouse.free()

@@ -79,6 +79,39 @@ func test_record_and_replay() -> void:
 	await close_page()
 
 
+func test_calibrate() -> void:
+	var saved := SpidarGCalibration.new()
+	saved.string_scales = PackedFloat64Array([1, 1, 1, 1, 1, 1, 1, 1].map(func(_one: int) -> float: return 2.52e-5))
+	ResourceSaver.save(saved, "user://calibration.tres")
+	if await open_page("calibrate.md", "From a script"):
+		check(is_open(device), "the device opens with it")
+		check(device.calibration.string_scales == saved.string_scales, "the saved calibration is used")
+		await close_page()
+	DirAccess.remove_absolute("user://calibration.tres")
+
+
+func test_run_a_study() -> void:
+	if not await open_page("run_a_study.md", "A task of your own"):
+		return
+	await move_to(Vector3(0.0, -0.08, 0.0), 0.0, 60)
+	for _i: int in 1200:
+		if scene.get("finished"):
+			break
+		await physics_frames(1)
+	check(scene.get("finished"), "all trials are done")
+	var table: FileAccess = FileAccess.open("user://trials.csv", FileAccess.READ)
+	check_equal(Array(table.get_csv_line()), ["condition", "trial", "path_m", "peak_force_n", "recording"], "the columns")
+	for condition: String in ["forces_on", "forces_off"]:
+		for trial: int in 3:
+			var row: PackedStringArray = table.get_csv_line()
+			check(row[0] == condition and row[1].to_int() == trial + 1, "%s, trial %d: %s" % [condition, trial + 1, row])
+			var peak_n: float = row[3].to_float()
+			check(peak_n > 1.0 if condition == "forces_on" else peak_n == 0.0, "its peak force: %s" % row)
+			check(FileAccess.file_exists(row[4]), "and its recording")
+			DirAccess.remove_absolute(row[4])
+	await close_page()
+
+
 func test_export() -> void:
 	# It opens a scene of the reader's; tests/package/missing_library is a game that does so.
 	compiled("export.md", "Where there is no library")
