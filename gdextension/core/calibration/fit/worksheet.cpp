@@ -13,7 +13,7 @@ namespace {
 
 // Poses that a residual is averaged over: more change nothing in its second digit.
 constexpr std::size_t kResidualPoses = 300;
-// What scales by a ruler are worth (docs/why/calibration_mathematics.md), in place of a winding's 5 %.
+// What scales by a ruler are worth (docs/how_to/calibration.md), in place of a winding's 5 %.
 constexpr double kRulerGainPrior = 0.002;
 
 std::string percent(double ratio) {
