@@ -1,6 +1,6 @@
 """GDScript classes with the names of the library's, for games on a system that the add-on has no library for.
 
-Each has the properties, methods, signals and constants of the class reference, and does nothing. docs/how_to/use_in_your_game.md
+Each has the properties, methods, signals and constants of the class reference, and does nothing. docs/how_to/export.md
 says how a game gets them.
 """
 

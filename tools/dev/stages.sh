@@ -215,7 +215,7 @@ stage_package() {
 
 stage_stress() {
     stress build/bin 200000 2000
-    # A case is five seconds of a device here; the whole is docs/how_to/calibration.md.
+    # A case is five seconds of a device here; the whole is docs/why/calibration_mathematics.md.
     checked build/bin/string_faults --cases 60 --seed 5 --healthy_s 600
     checked build/bin/error_budget --cases 1 --seed 2
     # The long run is documented in docs/reference/safety.md: an hour with each hand, ten thousand unplugs, a million commands.

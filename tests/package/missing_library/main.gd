@@ -1,5 +1,5 @@
 ## A game that names the add-on's classes as types and as values, with the device in a scene of its own: as
-## docs/how_to/use_in_your_game.md says.
+## docs/how_to/export.md says.
 extends Node3D
 
 const DEVICE_SCENE: String = "res://device.tscn"
