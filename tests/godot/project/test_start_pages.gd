@@ -13,7 +13,7 @@ const MOTION: PackedVector3Array = [Vector3(0.05, 0.03, 0.0), Vector3(-0.05, 0.0
 var device: SpidarG
 
 
-func test_the_ten_lines_of_the_readme_are_felt() -> void:
+func test_the_script_of_the_readme_is_felt() -> void:
 	var script: GDScript = _compiled(README)
 	if script == null:
 		return
