@@ -15,7 +15,7 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
-## Those of the scene editor; null without the library.
+# Those of the scene editor; null without the library.
 var _tools: RefCounted = null
 var _export: ExportPlugin = null
 
@@ -43,7 +43,7 @@ func _exit_tree() -> void:
 	_export = null
 
 
-## Shows what would change; nothing is written before the answer.
+# Shows what would change; nothing is written before the answer.
 func _ask() -> void:
 	var changes: PackedStringArray = []
 	for path: String in SETTINGS:

@@ -20,24 +20,24 @@ var since_us: int = 0
 
 var _hand: SpidarGHand
 var _spidar: SpidarG
-## Of the held body: the links that the hand's spring holds.
+# Of the held body: the links that the hand's spring holds.
 var _seats: Array[SocketLink] = []
-## Those whose seats the body is on its way to, from where, and for how long.
+# Those whose seats the body is on its way to, from where, and for how long.
 var _sat_on: Array[SocketLink] = []
 var _caught: Transform3D = Transform3D.IDENTITY
 var _seated_s: float = 0.0
-## Sockets of the held body that have come off a mate and are still within its reach, by instance.
+# Sockets of the held body that have come off a mate and are still within its reach, by instance.
 var _parted: Dictionary[int, int] = {}
-## What linked and came off in this tick, told when all is done: a listener may free what it likes.
+# What linked and came off in this tick, told when all is done: a listener may free what it likes.
 var _news: Array[Callable] = []
-## Loads on the held body about the grip, N and N m, until it is next carried: also those of other hands' sockets.
+# Loads on the held body about the grip, N and N m, until it is next carried: also those of other hands' sockets.
 var _load_n: Vector3 = Vector3.ZERO
 var _load_nm: Vector3 = Vector3.ZERO
-## The devices that this body's spring acts on, by instance: its own, and those of the hands that carry its mates.
+# The devices that this body's spring acts on, by instance: its own, and those of the hands that carry its mates.
 var _sprung: Array[int] = []
 var _scale: float = 1.0
 var _grip: Vector3 = Vector3.ZERO
-## What the device renders at most.
+# What the device renders at most.
 var _stiffest_n_m: float = 0.0
 
 
@@ -99,7 +99,7 @@ func _on_released(_body: RigidBody3D) -> void:
 		_let_go()
 
 
-## Joints take over from the spring.
+# Joints take over from the spring.
 func _let_go() -> void:
 	if held == null:
 		return
@@ -153,7 +153,7 @@ func _look() -> void:
 	_stiffest_n_m = _spidar.get_stiffness_limits().x
 
 
-## What sits on something that is carried can be pulled off: the spring holds it. Everything else hangs rigidly.
+# What sits on something that is carried can be pulled off: the spring holds it. Everything else hangs rigidly.
 func _sort_links() -> void:
 	for socket: SpidarGSocket in SocketGraph.sockets_of(held):
 		for link: SocketLink in socket._links:
@@ -183,7 +183,7 @@ func _seat_of(socket: SpidarGSocket) -> SocketLink:
 	return null
 
 
-## The mate of a link of the held body.
+# The mate of a link of the held body.
 func _mate(link: SocketLink) -> SpidarGSocket:
 	return link.other if link.one.get_body() == held else link.one
 
@@ -192,7 +192,7 @@ func _mine(link: SocketLink) -> SpidarGSocket:
 	return link.one if link.one.get_body() == held else link.other
 
 
-## Tears off a socket in its seat, which the grip would have at `at`, if the pull is strong enough.
+# Tears off a socket in its seat, which the grip would have at `at`, if the pull is strong enough.
 func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 	var mate: SpidarGSocket = link.mate_of(socket)
 	var way: Vector3 = (mate.global_position - at.origin) / _scale
@@ -204,7 +204,7 @@ func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 		_news.append(_tell_unlinked.bind(socket.get_instance_id(), mate.get_instance_id(), pull_n))
 
 
-## Finds a mate for a free socket, which the grip would have at `at`, and links it or lets it be drawn.
+# Finds a mate for a free socket, which the grip would have at `at`, and links it or lets it be drawn.
 func _approach(socket: SpidarGSocket, at: Transform3D, pulls: Array[SocketPull]) -> void:
 	var mate: SpidarGSocket = _nearest(socket, at)
 	if mate == null:
@@ -233,7 +233,7 @@ func _latch(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_news.append(_tell_linked.bind(socket.get_instance_id(), mate.get_instance_id()))
 
 
-## The nearest free socket within reach that fits, or null.
+# The nearest free socket within reach that fits, or null.
 func _nearest(socket: SpidarGSocket, at: Transform3D) -> SpidarGSocket:
 	var best: SpidarGSocket = null
 	var best_m: float = socket.capture_distance * _scale
@@ -264,7 +264,7 @@ func _may_draw(socket: SpidarGSocket, mate: SpidarGSocket) -> bool:
 	return holder == null or holder.since_us < since_us  # Else it is the other hand that draws.
 
 
-## Several sockets of one body share: together they pull no harder and no steeper than one.
+# Several sockets of one body share: together they pull no harder and no steeper than one.
 func _share(pulls: Array[SocketPull]) -> void:
 	var shares: float = 0.0
 	for pull: SocketPull in pulls:
@@ -285,7 +285,7 @@ func _add_seats(pulls: Array[SocketPull], wanted: Transform3D) -> void:
 		pulls.append(pull)
 
 
-## What the pulls do to this hand, and to what feels the same on the mates: other hands, and loose bodies.
+# What the pulls do to this hand, and to what feels the same on the mates: other hands, and loose bodies.
 func _render(pulls: Array[SocketPull]) -> void:
 	var devices: Array[int] = []
 	if not pulls.is_empty():
@@ -306,7 +306,7 @@ func _render(pulls: Array[SocketPull]) -> void:
 	_end_springs(devices)
 
 
-## The weight of what hangs on the held body.
+# The weight of what hangs on the held body.
 func _add_weights() -> void:
 	if not _hand.render_weight:
 		return
@@ -320,7 +320,7 @@ func _add_weights() -> void:
 		_load_nm += (middle - _grip).cross(weight_n) / _scale
 
 
-## The held body stays in its seat, and the grip moves on alone.
+# The held body stays in its seat, and the grip moves on alone.
 func _sit(wanted: Transform3D, delta: float) -> void:
 	if _seats != _sat_on:
 		_sat_on = _seats.duplicate()
@@ -332,7 +332,7 @@ func _sit(wanted: Transform3D, delta: float) -> void:
 	_hand.detain(_caught.interpolate_with(_seat(wanted), smoothstep(0.0, SEATING_S, _seated_s)))
 
 
-## Ends this body's spring on all devices but these.
+# Ends this body's spring on all devices but these.
 func _end_springs(but: Array[int]) -> void:
 	for id: int in _sprung:
 		var spidar: SpidarG = instance_from_id(id) as SpidarG
@@ -341,12 +341,12 @@ func _end_springs(but: Array[int]) -> void:
 	_sprung = but
 
 
-## No game's id is likely to be negative, and no other hand's is the same.
+# No game's id is likely to be negative, and no other hand's is the same.
 func _spring_id() -> int:
 	return -1 - (get_instance_id() & 0xFFFFFF)
 
 
-## Where the held body sits: exactly on its mate; a ball turns with the hand, two balls make a line.
+# Where the held body sits: exactly on its mate; a ball turns with the hand, two balls make a line.
 func _seat(wanted: Transform3D) -> Transform3D:
 	for link: SocketLink in _seats:
 		if not _mine(link).turns_freely:

@@ -39,7 +39,7 @@ enum Smoothing {
 	NEWEST,
 }
 
-const Finder := preload("follow/spidar_finder.gd")
+const _Finder := preload("follow/spidar_finder.gd")
 ## Frames count as faster than ticks until none was drawn between two ticks for so many ticks.
 const TICKS_TO_FORGET: int = 30
 
@@ -71,7 +71,7 @@ const TICKS_TO_FORGET: int = 30
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null
-## The poses of the last tick and of the one before, and where the device stood then.
+# The poses of the last tick and of the one before, and where the device stood then.
 var _pose := Transform3D.IDENTITY
 var _frame := Transform3D.IDENTITY
 var _pose_before := Transform3D.IDENTITY
@@ -96,7 +96,7 @@ func _enter_tree() -> void:
 func _ready() -> void:
 	_choose()
 	if spidar == null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG"):
-		push_warning(Finder.problem(self, spidar_path, "SpidarGGrip"))
+		push_warning(_Finder.problem(self, spidar_path, "SpidarGGrip"))
 
 
 func _exit_tree() -> void:
@@ -106,10 +106,10 @@ func _exit_tree() -> void:
 
 func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
-	var problem: String = Finder.problem(self, spidar_path, "SpidarGGrip")
+	var problem: String = _Finder.problem(self, spidar_path, "SpidarGGrip")
 	if not problem.is_empty():
 		warnings.append(problem)
-	elif follow == Follow.PROXY and Finder.find_hand(Finder.find(self, spidar_path)) == null:
+	elif follow == Follow.PROXY and _Finder.find_hand(_Finder.find(self, spidar_path)) == null:
 		warnings.append("SpidarGGrip follows the grip: its SpidarG has no SpidarGHand, which makes the proxy. "
 			+ "Add a SpidarGHand as a child of the SpidarG, or set follow to Grip.")
 	return warnings
@@ -148,7 +148,7 @@ func _process(_delta: float) -> void:
 	_place(now)
 
 
-## Finds device and hand, and runs after both. The engine turns processing on just before _ready().
+# Finds device and hand, and runs after both. The engine turns processing on just before _ready().
 func _choose() -> void:
 	if not is_inside_tree():
 		return
@@ -157,15 +157,15 @@ func _choose() -> void:
 		set_process(false)
 		set_physics_process(false)
 		return
-	spidar = Finder.find(self, spidar_path)
-	_hand = Finder.find_hand(spidar) if follow == Follow.PROXY else null
+	spidar = _Finder.find(self, spidar_path)
+	_hand = _Finder.find_hand(spidar) if follow == Follow.PROXY else null
 	_is_placed = false
 	set_process(spidar != null)
 	set_physics_process(spidar != null)
 	if spidar == null:
 		return
-	Finder.run_after(self, spidar)
-	Finder.run_after(self, _hand)
+	_Finder.run_after(self, spidar)
+	_Finder.run_after(self, _hand)
 	# A child of the device comes along at once when the device is moved; elsewhere a parent must not move it.
 	top_level = get_parent() != spidar
 
@@ -185,14 +185,14 @@ func _read_again() -> void:
 func _read_pose() -> Transform3D:
 	if follow == Follow.PROXY:
 		if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
-			_hand = Finder.find_hand(spidar)
-			Finder.run_after(self, _hand)
+			_hand = _Finder.find_hand(spidar)
+			_Finder.run_after(self, _hand)
 		if _hand != null:
 			return _hand.get_proxy_transform()
 	return spidar.get_grip_transform()
 
 
-## Where the device stands, without scale. A flat device stays where it was, as the SpidarG itself does.
+# Where the device stands, without scale. A flat device stays where it was, as the SpidarG itself does.
 func _device_frame() -> Transform3D:
 	var place: Transform3D = spidar.global_transform
 	if not place.is_finite() or is_zero_approx(place.basis.determinant()):
@@ -200,7 +200,7 @@ func _device_frame() -> Transform3D:
 	return place.orthonormalized()
 
 
-## A pose that was read while the device stood at `frame`, where the device has taken it since.
+# A pose that was read while the device stood at `frame`, where the device has taken it since.
 func _carried(pose: Transform3D, frame: Transform3D) -> Transform3D:
 	var now: Transform3D = _device_frame()
 	return pose if now == frame else now * frame.inverse() * pose

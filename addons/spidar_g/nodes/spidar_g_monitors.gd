@@ -79,7 +79,7 @@ func _statistic(key: String) -> float:
 	return _device.get_statistics()[key]
 
 
-## Of the cycles since this was asked for last.
+# Of the cycles since this was asked for last.
 func _saturated_percent() -> float:
 	var numbers: Dictionary = _device.get_statistics()
 	var ticks: int = numbers["ticks"] - _ticks_before

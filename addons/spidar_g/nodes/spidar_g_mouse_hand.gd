@@ -30,10 +30,10 @@ extends Node
 ## [br]Mouse events are taken in [method Node._unhandled_input], after the user interface. While a text field has the focus,
 ## keys move nothing.
 
-const Bindings := preload("mouse_hand/bindings.gd")
-const DepthCue := preload("mouse_hand/depth_cue.gd")
-const Pointer := preload("mouse_hand/pointer.gd")
-const Values := preload("mouse_hand/values.gd")
+const _Bindings := preload("mouse_hand/bindings.gd")
+const _DepthCue := preload("mouse_hand/depth_cue.gd")
+const _Pointer := preload("mouse_hand/pointer.gd")
+const _Values := preload("mouse_hand/values.gd")
 
 ## How far the open fingers are closed, rad.
 const OPEN_ANGLE_RAD: float = deg_to_rad(4.0)
@@ -66,43 +66,43 @@ const WITHOUT_DEVICE: String = (
 ## A value that is not finite is refused with an error.
 @export_custom(PROPERTY_HINT_NONE, "suffix:m") var start_m: Vector3 = Vector3.ZERO:
 	set(value):
-		start_m = Values.finite(&"start_m", value, start_m, "m")
+		start_m = _Values.finite(&"start_m", value, start_m, "m")
 
 @export_group("Limits")
 ## How far the grip is moved from the center of the frame along each axis, in device metres. From 0.01 to 0.5 m.
 @export_range(0.01, 0.5, 0.005, "suffix:m") var reach_m: float = 0.16:
 	set(value):
-		reach_m = Values.in_range(&"reach_m", value, reach_m, Vector2(0.01, 0.5), "m")
+		reach_m = _Values.in_range(&"reach_m", value, reach_m, Vector2(0.01, 0.5), "m")
 ## How far the grip is turned about each axis, in rad. From 0 to pi/2; the inspector shows degrees.
 @export_range(0.0, 90.0, 1.0, "radians_as_degrees") var turn_limit_rad: float = deg_to_rad(40.0):
 	set(value):
-		turn_limit_rad = Values.in_range(&"turn_limit_rad", value, turn_limit_rad, Vector2(0.0, 0.5 * PI), "rad")
+		turn_limit_rad = _Values.in_range(&"turn_limit_rad", value, turn_limit_rad, Vector2(0.0, 0.5 * PI), "rad")
 ## The fingers stop closing where the strings push them back by this grasp torque, in N m. From 0.001 to 1 N m.
 @export_range(0.001, 1.0, 0.001, "suffix:N m") var squeeze_nm: float = 0.10:
 	set(value):
-		squeeze_nm = Values.in_range(&"squeeze_nm", value, squeeze_nm, Vector2(0.001, 1.0), "N m")
+		squeeze_nm = _Values.in_range(&"squeeze_nm", value, squeeze_nm, Vector2(0.001, 1.0), "N m")
 
 @export_group("Speeds")
 ## How fast a key moves the grip, in device metres a second. From 0 to 1 m/s.
 @export_range(0.0, 1.0, 0.01, "suffix:m/s") var key_speed_m_s: float = 0.12:
 	set(value):
-		key_speed_m_s = Values.in_range(&"key_speed_m_s", value, key_speed_m_s, Vector2(0.0, 1.0), "m/s")
+		key_speed_m_s = _Values.in_range(&"key_speed_m_s", value, key_speed_m_s, Vector2(0.0, 1.0), "m/s")
 ## How fast a key turns the grip, in rad/s. From 0 to 2 pi; the inspector shows degrees.
 @export_range(0.0, 360.0, 1.0, "radians_as_degrees") var key_turn_rad_s: float = 0.9:
 	set(value):
-		key_turn_rad_s = Values.in_range(&"key_turn_rad_s", value, key_turn_rad_s, Vector2(0.0, TAU), "rad/s")
+		key_turn_rad_s = _Values.in_range(&"key_turn_rad_s", value, key_turn_rad_s, Vector2(0.0, TAU), "rad/s")
 ## How far one notch of the wheel moves the grip, in device metres. From 0 to 0.1 m.
 @export_range(0.0, 0.1, 0.001, "suffix:m") var wheel_step_m: float = 0.006:
 	set(value):
-		wheel_step_m = Values.in_range(&"wheel_step_m", value, wheel_step_m, Vector2(0.0, 0.1), "m")
+		wheel_step_m = _Values.in_range(&"wheel_step_m", value, wheel_step_m, Vector2(0.0, 0.1), "m")
 ## How far dragging by one pixel turns the grip, in rad. From 0 to 0.1.
 @export_range(0.0, 0.1, 0.001, "suffix:rad/px") var drag_turn_rad: float = 0.005:
 	set(value):
-		drag_turn_rad = Values.in_range(&"drag_turn_rad", value, drag_turn_rad, Vector2(0.0, 0.1), "rad")
+		drag_turn_rad = _Values.in_range(&"drag_turn_rad", value, drag_turn_rad, Vector2(0.0, 0.1), "rad")
 ## How fast the fingers close and open, in rad of grasp angle a second. From 0.01 to 10 rad/s.
 @export_range(0.01, 10.0, 0.01, "suffix:rad/s") var close_speed_rad_s: float = 1.2:
 	set(value):
-		close_speed_rad_s = Values.in_range(&"close_speed_rad_s", value, close_speed_rad_s, Vector2(0.01, 10.0), "rad/s")
+		close_speed_rad_s = _Values.in_range(&"close_speed_rad_s", value, close_speed_rad_s, Vector2(0.01, 10.0), "rad/s")
 
 @export_group("Depth Cue")
 ## Whether a line from the grip to the first surface below it, and a ring on that surface, show where the hand is.
@@ -158,24 +158,24 @@ const WITHOUT_DEVICE: String = (
 ## that is not finite is refused with an error.
 var position_m: Vector3 = Vector3.ZERO:
 	set(value):
-		position_m = Values.finite(&"position_m", value, position_m, "m").clampf(-reach_m, reach_m)
+		position_m = _Values.finite(&"position_m", value, position_m, "m").clampf(-reach_m, reach_m)
 ## How the hand wants the grip to be turned: pitch, yaw and roll in rad, as in [method Basis.from_euler]; kept within
 ## [member turn_limit_rad]. A value that is not finite is refused with an error.
 var turn_rad: Vector3 = Vector3.ZERO:
 	set(value):
-		turn_rad = Values.finite(&"turn_rad", value, turn_rad, "rad").clampf(-turn_limit_rad, turn_limit_rad)
+		turn_rad = _Values.finite(&"turn_rad", value, turn_rad, "rad").clampf(-turn_limit_rad, turn_limit_rad)
 ## How far the hand wants the fingers to be closed, rad of grasp angle; kept from -pi to pi. A value that is not finite is
 ## refused with an error. The next physics tick moves it on, unless it is where the grasp action wants it.
 var grasp_angle_rad: float = OPEN_ANGLE_RAD:
 	set(value):
-		grasp_angle_rad = Values.in_range(&"grasp_angle_rad", value, grasp_angle_rad, Vector2(-PI, PI), "rad")
+		grasp_angle_rad = _Values.in_range(&"grasp_angle_rad", value, grasp_angle_rad, Vector2(-PI, PI), "rad")
 ## A clutch for scripts: while it is [code]true[/code], the grip stays as with [member clutch_action].
 var clutched: bool = false
 
 var _device: SpidarG = null
-var _cue: DepthCue = null
+var _cue: _DepthCue = null
 var _closing: bool = false
-var _pointer: Pointer = Pointer.new()
+var _pointer: _Pointer = _Pointer.new()
 
 
 ## Sends the hand to [param position] in device metres, upright and open, under the cursor again. Without an argument to
@@ -213,7 +213,7 @@ func is_acting() -> bool:
 
 ## Returns whether the grip stays while the cursor moves: by [member clutched], or by the clutch action.
 func is_clutched() -> bool:
-	return clutched or Bindings.strength(clutch_action) > 0.0
+	return clutched or _Bindings.strength(clutch_action) > 0.0
 
 
 ## Where the hand wants the grip to be, in the world.
@@ -222,12 +222,12 @@ func get_target() -> Transform3D:
 	return _frame() * Transform3D(Basis.from_euler(turn_rad), position_m * scale)
 
 
-## Whether there is a hand to move. A script that extends this node and moves another hand overrides it with [method _aim].
+# Whether there is a hand to move. A script that extends this node and moves another hand overrides it with [method _aim].
 func _has_hand() -> bool:
 	return _device.is_simulated()
 
 
-## Gives the hand its target once a physics tick: a pose in the world and a grasp angle in rad.
+# Gives the hand its target once a physics tick: a pose in the world and a grasp angle in rad.
 func _aim(target: Transform3D, grasp_angle: float) -> void:
 	_device.set_simulated_hand_target(target, grasp_angle)
 
@@ -293,13 +293,13 @@ func _has_device() -> bool:
 	return is_instance_valid(_device)
 
 
-## Switches everything on or off. The engine turns processing on just before _ready().
+# Switches everything on or off. The engine turns processing on just before _ready().
 func _update_acting() -> void:
 	var acts: bool = (
 		enabled and _has_device() and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG") and _has_hand()
 	)
 	if acts:
-		Bindings.add_missing(self)
+		_Bindings.add_missing(self)
 	else:
 		_pointer.end_turn()
 	set_physics_process(acts)
@@ -318,20 +318,20 @@ func _physics_process(delta: float) -> void:
 		_cue.show_below(_device, depth_cue_mask, get_viewport().get_camera_3d())
 
 
-## Keys move and turn the grip along and about the device's axes.
+# Keys move and turn the grip along and about the device's axes.
 func _move_by_keys(delta: float) -> void:
 	var focus: Control = get_viewport().gui_get_focus_owner()
 	if focus is LineEdit or focus is TextEdit:
 		return
 	position_m += delta * key_speed_m_s * Vector3(
-		Bindings.axis(move_left_action, move_right_action),
-		Bindings.axis(move_down_action, move_up_action),
-		Bindings.axis(move_away_action, move_near_action)
+		_Bindings.axis(move_left_action, move_right_action),
+		_Bindings.axis(move_down_action, move_up_action),
+		_Bindings.axis(move_away_action, move_near_action)
 	)
 	turn_rad += delta * key_turn_rad_s * Vector3(
-		Bindings.axis(tilt_back_action, tilt_forward_action),
-		Bindings.axis(turn_right_action, turn_left_action),
-		Bindings.axis(roll_right_action, roll_left_action)
+		_Bindings.axis(tilt_back_action, tilt_forward_action),
+		_Bindings.axis(turn_right_action, turn_left_action),
+		_Bindings.axis(roll_right_action, roll_left_action)
 	)
 
 
@@ -348,19 +348,19 @@ func _move_fingers(delta: float) -> void:
 func _unhandled_input(event: InputEvent) -> void:
 	if event is InputEventMouseMotion:
 		_on_motion(event as InputEventMouseMotion)
-	elif Bindings.is_pressed(event, grasp_action):
+	elif _Bindings.is_pressed(event, grasp_action):
 		_closing = true
-	elif Bindings.is_released(event, grasp_action):
+	elif _Bindings.is_released(event, grasp_action):
 		_closing = false
-	elif Bindings.is_released(event, turn_action):
+	elif _Bindings.is_released(event, turn_action):
 		_pointer.end_turn()
 	elif is_clutched():
 		return
-	elif Bindings.is_pressed(event, turn_action):
+	elif _Bindings.is_pressed(event, turn_action):
 		_pointer.begin_turn()
-	elif Bindings.is_pressed(event, wheel_away_action):
+	elif _Bindings.is_pressed(event, wheel_away_action):
 		_move_in_depth(wheel_step_m)
-	elif Bindings.is_pressed(event, wheel_near_action):
+	elif _Bindings.is_pressed(event, wheel_near_action):
 		_move_in_depth(-wheel_step_m)
 
 
@@ -376,7 +376,7 @@ func _on_motion(motion: InputEventMouseMotion) -> void:
 func _move_in_depth(distance_m: float) -> void:
 	var camera: Camera3D = get_viewport().get_camera_3d()
 	if camera != null:
-		position_m += _frame().basis.inverse() * Pointer.way_in_depth(camera) * distance_m
+		position_m += _frame().basis.inverse() * _Pointer.way_in_depth(camera) * distance_m
 
 
 func _update_cue() -> void:
@@ -385,14 +385,14 @@ func _update_cue() -> void:
 		_cue.queue_free()
 		_cue = null
 	elif wanted and _cue == null:
-		_cue = DepthCue.new()
+		_cue = _DepthCue.new()
 		# Internal: a copy of this node makes a cue of its own.
 		add_child(_cue, false, Node.INTERNAL_MODE_FRONT)
 	if _cue != null:
 		_cue.set_color(depth_cue_color)
 
 
-## The device's frame in the world, without a scale.
+# The device's frame in the world, without a scale.
 func _frame() -> Transform3D:
 	return _device.global_transform.orthonormalized() if _has_device() else Transform3D.IDENTITY
 

@@ -7,8 +7,8 @@ extends PanelContainer
 ## Add [code]spidar_g_panel.tscn[/code] to a scene, under a CanvasLayer or as a child of the device, and set [member
 ## device]. It only reads. While it is hidden it computes nothing.
 
-const PlotStrip := preload("plot_strip.gd")
-const JitterPlot := preload("jitter_plot.gd")
+const _PlotStrip := preload("plot_strip.gd")
+const _JitterPlot := preload("jitter_plot.gd")
 
 ## Where recordings go.
 const RECORDING_FOLDER: String = "user://spidar_g_recordings"
@@ -39,20 +39,20 @@ const GIVEN_ALPHA: float = 0.45
 ## The file of the recording that runs, or of the last one.
 var recording_path: String = ""
 
-## The recording that runs is this panel's own; another's goes on when the panel leaves.
+# The recording that runs is this panel's own; another's goes on when the panel leaves.
 var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []
-## Whose contacts are shown: the first hand among the device's children.
+# Whose contacts are shown: the first hand among the device's children.
 var _hand: SpidarGHand = null
 
 @onready var _state: Label = get_node_or_null(^"%State")
-@onready var _tensions: PlotStrip = get_node_or_null(^"%Tensions")
-@onready var _force: PlotStrip = get_node_or_null(^"%Force")
-@onready var _moment: PlotStrip = get_node_or_null(^"%Moment")
-@onready var _points: PlotStrip = get_node_or_null(^"%Points")
-@onready var _push: PlotStrip = get_node_or_null(^"%Push")
-@onready var _jitter: JitterPlot = get_node_or_null(^"%Jitter")
+@onready var _tensions: _PlotStrip = get_node_or_null(^"%Tensions")
+@onready var _force: _PlotStrip = get_node_or_null(^"%Force")
+@onready var _moment: _PlotStrip = get_node_or_null(^"%Moment")
+@onready var _points: _PlotStrip = get_node_or_null(^"%Points")
+@onready var _push: _PlotStrip = get_node_or_null(^"%Push")
+@onready var _jitter: _JitterPlot = get_node_or_null(^"%Jitter")
 @onready var _numbers: Label = get_node_or_null(^"%Numbers")
 @onready var _log: RichTextLabel = get_node_or_null(^"%Events")
 @onready var _record: Button = get_node_or_null(^"%Record")
@@ -178,7 +178,7 @@ func _add_contacts(felt_n: float) -> void:
 	_push.add_sample([most_n, felt_n])
 
 
-## A device without a hand has no contacts to show.
+# A device without a hand has no contacts to show.
 func _find_hand() -> void:
 	var found: SpidarGHand = null
 	for child: Node in device.get_children():
@@ -192,7 +192,7 @@ func _find_hand() -> void:
 	_push.visible = _hand != null
 
 
-## State, numbers and histogram.
+# State, numbers and histogram.
 func _report() -> void:
 	if not is_instance_valid(device) or not is_visible_in_tree() or _state == null:
 		return
@@ -223,7 +223,7 @@ func _visibility_changed() -> void:
 	_report()
 
 
-## Colours of values asked for, then the same, paler, of those given.
+# Colours of values asked for, then the same, paler, of those given.
 func _pairs(colours: PackedColorArray) -> PackedColorArray:
 	var both: PackedColorArray = colours.duplicate()
 	for colour: Color in colours:
@@ -239,7 +239,7 @@ func _tell(text: String) -> void:
 		_log.text = "\n".join(_events)
 
 
-## Signals of the device and what the log says of them.
+# Signals of the device and what the log says of them.
 func _listeners() -> Dictionary[StringName, Callable]:
 	return {
 		&"device_connected": _connected,
@@ -290,7 +290,7 @@ func _rejected(message: String) -> void:
 	_tell(message)
 
 
-## Warnings. Faults and refusals have signals of their own.
+# Warnings. Faults and refusals have signals of their own.
 func _event(event: Dictionary) -> void:
 	if event["level"] == WARNING and event["name"] != "request_refused":
 		var where: String = " (string %d of 1-8)" % (event["string"] + 1) if event["string"] >= 0 else ""

@@ -42,11 +42,11 @@ signal linked(mate: SpidarGSocket)
 ## off. It is 0 after [method unlink], and when one of the sockets was disabled or has left the scene tree.
 signal unlinked(mate: SpidarGSocket, pull_n: float)
 
-const InRange := preload("values/in_range.gd")
-const SocketHand := preload("socket_hand.gd")
-const SocketHands := preload("socket_hands.gd")
-const SocketLink := preload("socket_link.gd")
-const SocketPull := preload("socket_pull.gd")
+const _InRange := preload("values/in_range.gd")
+const _SocketHand := preload("socket_hand.gd")
+const _SocketHands := preload("socket_hands.gd")
+const _SocketLink := preload("socket_link.gd")
+const _SocketPull := preload("socket_pull.gd")
 
 ## Length of the arms of the cross that marks a socket in the editor, in scene meters.
 const MARK_M: float = 0.01
@@ -113,7 +113,7 @@ const MARK_M: float = 0.01
 		release_force = _checked(&"release_force", value, release_force, 0.1, 50.0, "N")
 
 # For the other scripts of sockets.
-var _links: Array[SocketLink] = []
+var _links: Array[_SocketLink] = []
 
 
 func _init() -> void:
@@ -133,7 +133,7 @@ func get_mate() -> SpidarGSocket:
 ## Returns all sockets that this one is linked to, the oldest first.
 func get_mates() -> Array[SpidarGSocket]:
 	var mates: Array[SpidarGSocket] = []
-	for link: SocketLink in _links:
+	for link: _SocketLink in _links:
 		mates.append(link.mate_of(self))
 	return mates
 
@@ -158,10 +158,10 @@ func link_to(mate: SpidarGSocket) -> bool:
 	if problem != "":
 		push_warning("SpidarGSocket \"%s\": link_to does nothing: %s" % [name, problem])
 		return false
-	var link: SocketLink = SocketLink.make(self, mate)
-	var holder: SocketHand = SocketHands.holder_of(get_body())
+	var link: _SocketLink = _SocketLink.make(self, mate)
+	var holder: _SocketHand = _SocketHands.holder_of(get_body())
 	if holder == null:
-		holder = SocketHands.holder_of(mate.get_body())
+		holder = _SocketHands.holder_of(mate.get_body())
 	if holder == null or not holder.take(link):
 		link.lock()
 	_tell_linked(mate)
@@ -170,7 +170,7 @@ func link_to(mate: SpidarGSocket) -> bool:
 
 ## Ends all links of this socket. A body that hung on it falls. Does nothing if there is none.
 func unlink() -> void:
-	for link: SocketLink in _links.duplicate():
+	for link: _SocketLink in _links.duplicate():
 		_end_link(link, 0.0)
 
 
@@ -179,7 +179,7 @@ func _enter_tree() -> void:
 	if Engine.is_editor_hint():
 		return
 	_join_groups()
-	SocketHands.watch(get_tree())
+	_SocketHands.watch(get_tree())
 	if get_body() == null:
 		push_warning("SpidarGSocket \"%s\": %s" % [name, _get_configuration_warnings()[0]])
 
@@ -189,7 +189,7 @@ func _exit_tree() -> void:
 		return
 	unlink()
 	_leave_groups()
-	SocketHands.unwatch(get_tree())
+	_SocketHands.unwatch(get_tree())
 
 
 func _get_configuration_warnings() -> PackedStringArray:
@@ -203,7 +203,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 			"latch_distance = %s m is larger than capture_distance = %s m, from where it acts: make it smaller."
 			% [latch_distance, capture_distance]
 		)
-	var reached_n: float = SocketPull.FULL_FROM * capture_distance * SocketPull.LOAD_STIFFNESS_N_M
+	var reached_n: float = _SocketPull.FULL_FROM * capture_distance * _SocketPull.LOAD_STIFFNESS_N_M
 	if attraction_force > reached_n + 1e-6:
 		warnings.append(
 			"attraction_force = %s N is not reached: within capture_distance = %s m it grows to %.2f N. "
@@ -236,9 +236,9 @@ func _why_not(mate: SpidarGSocket) -> String:
 
 
 # Both sockets are told when the link is gone.
-func _end_link(link: SocketLink, pull_n: float) -> void:
+func _end_link(link: _SocketLink, pull_n: float) -> void:
 	var mate: SpidarGSocket = link.mate_of(self)
-	SocketHands.note_parted(self, mate)
+	_SocketHands.note_parted(self, mate)
 	link.cut()
 	_tell_unlinked(mate, pull_n)
 
@@ -257,16 +257,16 @@ func _tell_unlinked(mate: SpidarGSocket, pull_n: float) -> void:
 
 func _join_groups() -> void:
 	if is_inside_tree() and not Engine.is_editor_hint():
-		add_to_group(SocketHands.SOCKETS)
-		add_to_group(SocketHands.group_of(key))
+		add_to_group(_SocketHands.SOCKETS)
+		add_to_group(_SocketHands.group_of(key))
 
 
 func _leave_groups() -> void:
-	for group: StringName in [SocketHands.SOCKETS, SocketHands.group_of(key)]:
+	for group: StringName in [_SocketHands.SOCKETS, _SocketHands.group_of(key)]:
 		if is_in_group(group):
 			remove_from_group(group)
 
 
 # A number that makes no sense is refused; NAN compares false.
 func _checked(field: StringName, value: float, old: float, least: float, most: float, unit: String) -> float:
-	return InRange.checked("SpidarGSocket \"%s\"" % name, field, value, old, unit, least, most)
+	return _InRange.checked("SpidarGSocket \"%s\"" % name, field, value, old, unit, least, most)

@@ -53,10 +53,10 @@ enum TriggerSource {
 	GRASP,
 }
 
-const Finder := preload("follow/spidar_finder.gd")
-const FrameMotion := preload("follow/frame_motion.gd")
-const PlaySpace := preload("follow/play_space.gd")
-const Inputs := preload("follow/tracker_inputs.gd")
+const _Finder := preload("follow/spidar_finder.gd")
+const _FrameMotion := preload("follow/frame_motion.gd")
+const _PlaySpace := preload("follow/play_space.gd")
+const _Inputs := preload("follow/tracker_inputs.gd")
 ## All trackers in the tree are in this group.
 const GROUP: StringName = &"spidar_g_trackers"
 ## The interaction profile that a tracker has unless [member profile] is set.
@@ -135,8 +135,8 @@ var spidar: SpidarG = null
 var _hand: SpidarGHand = null
 var _tracker: XRControllerTracker = null
 var _claim: StringName = &""
-## Of the XR origin, or of the device where that is placed by device_transform.
-var _base := FrameMotion.new()
+# Of the XR origin, or of the device where that is placed by device_transform.
+var _base := _FrameMotion.new()
 var _base_is_origin: bool = true
 
 
@@ -164,10 +164,10 @@ func calibrate_place(tracker_pose: Transform3D, keep_upright: bool = true) -> bo
 	if spidar == null or spidar.get_state() == SpidarG.STATE_CLOSED:
 		push_warning("SpidarGTracker.calibrate_place: no device is open. Open one, hold its grip at the controller, and call this again.")
 		return false
-	if not PlaySpace.is_rigid(tracker_pose):
+	if not _PlaySpace.is_rigid(tracker_pose):
 		push_warning("SpidarGTracker.calibrate_place: tracker_pose = %s: give a finite transform (m) without scale." % tracker_pose)
 		return false
-	device_transform = PlaySpace.place_of_device(tracker_pose, PlaySpace.grip_in_device(spidar), keep_upright)
+	device_transform = _PlaySpace.place_of_device(tracker_pose, _PlaySpace.grip_in_device(spidar), keep_upright)
 	place_from_scene = false
 	return true
 
@@ -176,7 +176,7 @@ func calibrate_place(tracker_pose: Transform3D, keep_upright: bool = true) -> bo
 ## [member place_from_scene] is off. Its [member SpidarG.workspace_scale] may then be any: the controller follows.
 func get_scene_place() -> Transform3D:
 	var place := Transform3D(device_transform.basis, device_transform.origin * XRServer.world_scale)
-	return PlaySpace.origin_in_world() * place
+	return _PlaySpace.origin_in_world() * place
 
 
 func _enter_tree() -> void:
@@ -188,7 +188,7 @@ func _enter_tree() -> void:
 func _ready() -> void:
 	_restart()
 	if spidar == null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG"):
-		push_warning(Finder.problem(self, spidar_path, "SpidarGTracker"))
+		push_warning(_Finder.problem(self, spidar_path, "SpidarGTracker"))
 
 
 func _exit_tree() -> void:
@@ -203,7 +203,7 @@ func _validate_property(property: Dictionary) -> void:
 
 func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
-	var problem: String = Finder.problem(self, spidar_path, "SpidarGTracker")
+	var problem: String = _Finder.problem(self, spidar_path, "SpidarGTracker")
 	if not problem.is_empty():
 		warnings.append(problem)
 	if get_tracker_name().is_empty():
@@ -234,7 +234,7 @@ func _process(_delta: float) -> void:
 		_set_poses()
 
 
-## Finds the device, and claims the name. The engine turns processing on just before _ready().
+# Finds the device, and claims the name. The engine turns processing on just before _ready().
 func _restart() -> void:
 	if not is_inside_tree():
 		return
@@ -244,7 +244,7 @@ func _restart() -> void:
 	_stop()
 	if Engine.is_editor_hint():
 		return
-	spidar = Finder.find(self, spidar_path)
+	spidar = _Finder.find(self, spidar_path)
 	if spidar == null or get_tracker_name().is_empty():
 		return
 	var rival: SpidarGTracker = _rival()
@@ -253,9 +253,9 @@ func _restart() -> void:
 		return
 	_claim = get_tracker_name()
 	spidar.button_changed.connect(_on_button_changed)
-	_hand = Finder.find_hand(spidar)
-	Finder.run_after(self, spidar)
-	Finder.run_after(self, _hand)
+	_hand = _Finder.find_hand(spidar)
+	_Finder.run_after(self, spidar)
+	_Finder.run_after(self, _hand)
 	_base.forget()
 	set_process(true)
 	set_physics_process(true)
@@ -272,7 +272,7 @@ func _stop() -> void:
 	set_physics_process(false)
 
 
-## Another node of the same name in the tree.
+# Another node of the same name in the tree.
 func _rival() -> SpidarGTracker:
 	if not is_inside_tree():
 		return null
@@ -288,7 +288,7 @@ func _is_there() -> bool:
 	return state != SpidarG.STATE_CLOSED and state != SpidarG.STATE_FAULT
 
 
-## False while an XR interface has a tracker of that name, such as a real controller; told once.
+# False while an XR interface has a tracker of that name, such as a real controller; told once.
 func _publish() -> bool:
 	if XRServer.get_tracker(_claim) != null:
 		push_error("SpidarGTracker \"%s\" does nothing: XRServer has a tracker \"%s\" already, perhaps a real controller. Choose the other hand or a custom_name." % [name, _claim])
@@ -328,7 +328,7 @@ func _withdraw() -> void:
 
 
 static func _checked_place(field: String, value: Transform3D, old: Transform3D) -> Transform3D:
-	if PlaySpace.is_rigid(value):
+	if _PlaySpace.is_rigid(value):
 		return value
 	push_error("SpidarGTracker.%s = %s: give a finite transform (m) without scale; the old one stays." % [field, value])
 	return old
@@ -343,10 +343,10 @@ static func _checked_part(field: String, value: float, old: float) -> float:
 
 func _set_inputs() -> void:
 	if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
-		_hand = Finder.find_hand(spidar)
-	Inputs.set_with_click(_tracker, "grip", Inputs.closed_part(spidar), click_at, release_below)
-	var trigger: float = Inputs.trigger(trigger_source, spidar, _hand, full_squeeze_nm)
-	Inputs.set_with_click(_tracker, "trigger", trigger, click_at, release_below)
+		_hand = _Finder.find_hand(spidar)
+	_Inputs.set_with_click(_tracker, "grip", _Inputs.closed_part(spidar), click_at, release_below)
+	var trigger: float = _Inputs.trigger(trigger_source, spidar, _hand, full_squeeze_nm)
+	_Inputs.set_with_click(_tracker, "trigger", trigger, click_at, release_below)
 
 
 func _on_button_changed(button: int, pressed: bool) -> void:
@@ -358,20 +358,20 @@ func _note_base(delta: float) -> void:
 	if _base_is_origin != place_from_scene:
 		_base_is_origin = place_from_scene
 		_base.forget()
-	_base.note(PlaySpace.origin_in_world() if place_from_scene else spidar.global_transform.orthonormalized(), delta)
+	_base.note(_PlaySpace.origin_in_world() if place_from_scene else spidar.global_transform.orthonormalized(), delta)
 
 
-## Sets all poses relative to the XR origin: XRNode3D multiplies their place by XRServer.world_scale.
+# Sets all poses relative to the XR origin: XRNode3D multiplies their place by XRServer.world_scale.
 func _set_poses() -> void:
 	var world_to_space: Basis
 	var grip: Transform3D
 	if place_from_scene:
-		var origin: Transform3D = PlaySpace.origin_in_world()
+		var origin: Transform3D = _PlaySpace.origin_in_world()
 		grip = origin.inverse() * spidar.get_grip_transform()
 		grip.origin /= XRServer.world_scale
 		world_to_space = origin.basis.inverse()
 	else:
-		grip = device_transform * PlaySpace.grip_in_device(spidar)
+		grip = device_transform * _PlaySpace.grip_in_device(spidar)
 		world_to_space = device_transform.basis * spidar.global_basis.orthonormalized().inverse()
 	var at: Vector3 = spidar.get_grip_transform().origin
 	var velocity: Vector3 = world_to_space * (spidar.get_linear_velocity() - _base.velocity_at(at)) / XRServer.world_scale
@@ -384,7 +384,7 @@ func _set_poses() -> void:
 	_tracker.set_pose(&"aim", aim, aim_velocity, turning, confidence)
 
 
-## Only a device whose forces are off can lack its zero: the statistics are not asked for in the others' ticks.
+# Only a device whose forces are off can lack its zero: the statistics are not asked for in the others' ticks.
 func _confidence() -> XRPose.TrackingConfidence:
 	var may_lack_zero: bool = spidar.get_state() in [SpidarG.STATE_CONNECTED, SpidarG.STATE_TAUT]
 	if may_lack_zero and not spidar.is_simulated() and not spidar.get_statistics()["zero_known"]:

@@ -7,7 +7,7 @@ extends Node3D
 ##
 ## Add it as a child of a [SpidarG]. It only reads; it redraws what changed since the last frame, and nothing while hidden.
 
-const ViewParts := preload("view_parts.gd")
+const _ViewParts := preload("view_parts.gd")
 
 ## Below this a string is slack, N.
 const SLACK_N: float = 0.05
@@ -45,7 +45,7 @@ const LEAST_FORCE_N: float = 0.02
 ## The parent, or null: then nothing is drawn and a configuration warning says why.
 var spidar: SpidarG = null
 
-var _parts: ViewParts = null
+var _parts: _ViewParts = null
 var _hand: SpidarGHand = null
 var _is_rigid: bool = false
 var _stale: bool = true
@@ -88,7 +88,7 @@ func _enter_tree() -> void:
 	if spidar == null:
 		push_warning("SpidarGView draws nothing: make it a child of a SpidarG node.")
 	elif _parts == null:
-		_parts = ViewParts.new()
+		_parts = _ViewParts.new()
 		# Internal: a copy of the view makes parts of its own.
 		add_child(_parts, false, Node.INTERNAL_MODE_FRONT)
 	if is_node_ready():
@@ -110,7 +110,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	return ["SpidarGView draws nothing here: make it a child of a SpidarG node."]
 
 
-## The engine turns processing on just before _ready().
+# The engine turns processing on just before _ready().
 func _follow() -> void:
 	# Without the add-on's library a SpidarG is a stand-in, of which there is nothing to draw.
 	var draws: bool = spidar != null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG")
@@ -155,7 +155,7 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 	_parts.strings.visible = show_strings
 	if show_grip and _is_rigid:
 		var ends: PackedVector3Array = []
-		for string: int in ViewParts.STRINGS:
+		for string: int in _ViewParts.STRINGS:
 			ends.append(spidar.get_string_end(string))
 		_parts.place_rigid_grip(grip, ends)
 	elif show_grip:
@@ -166,7 +166,7 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 			var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
 			_parts.place_knot(end, spidar.get_pole_end(target))
 	if show_strings:
-		for string: int in ViewParts.STRINGS:
+		for string: int in _ViewParts.STRINGS:
 			_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
 
 
@@ -177,7 +177,7 @@ func _draw_tensions(forced: bool) -> void:
 	if not forced and tensions == _drawn_tensions:
 		return
 	_drawn_tensions = tensions
-	for string: int in mini(tensions.size(), ViewParts.STRINGS):
+	for string: int in mini(tensions.size(), _ViewParts.STRINGS):
 		_parts.colour_string(string, tension_colour(tensions[string], _max_tension()))
 
 

@@ -49,9 +49,9 @@ enum Kind {
 	DETENTS,
 }
 
-const Depth := preload("zone/zone_depth.gd")
-const Devices := preload("zone/devices_in_tree.gd")
-const Touch := preload("zone_touch.gd")
+const _Depth := preload("zone/zone_depth.gd")
+const _Devices := preload("zone/devices_in_tree.gd")
+const _Touch := preload("zone_touch.gd")
 ## Zones number their effects from here on; the game's own effects should have smaller ids.
 const FIRST_ID: int = 1000000
 ## A hand that is inside is outside from this far out on (device m), so that a trembling one does not enter again and again.
@@ -159,9 +159,9 @@ static var _next_id: int = FIRST_ID
 		update_configuration_warnings()
 
 var _id: int = 0
-var _depth := Depth.new()
-var _devices: Devices = null
-var _touches: Dictionary[SpidarG, Touch] = {}
+var _depth := _Depth.new()
+var _devices: _Devices = null
+var _touches: Dictionary[SpidarG, _Touch] = {}
 
 
 ## Returns the id of the zone's effects, for [method SpidarG.clear_effect]; 0 before the zone was in a running tree.
@@ -194,13 +194,13 @@ func _enter_tree() -> void:
 	if _id == 0:
 		_id = _next_id
 		_next_id += 1
-	_devices = Devices.of(get_tree())
+	_devices = _Devices.of(get_tree())
 	_devices.changed.connect(_choose)
 	if is_node_ready():
 		_choose()
 
 
-## The engine turns processing on just before.
+# The engine turns processing on just before.
 func _ready() -> void:
 	_choose()
 
@@ -229,7 +229,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
 	for owner: int in get_shape_owners():
 		for index: int in shape_owner_get_shape_count(owner):
-			var problem: String = Depth.problem(shape_owner_get_shape(owner, index))
+			var problem: String = _Depth.problem(shape_owner_get_shape(owner, index))
 			if not problem.is_empty():
 				warnings.append("A shape of the SpidarGZone is left out, because %s. Use boxes, spheres, capsules, cylinders or small convex polygons." % problem)
 	var steepness: float = minf(wind_force.length(), max_force) / maxf(edge_width, 1e-6)
@@ -251,7 +251,7 @@ func _physics_process(_delta: float) -> void:
 			_drop(spidar)
 
 
-## Runs only where somebody can feel the zone.
+# Runs only where somebody can feel the zone.
 func _choose() -> void:
 	if not is_inside_tree():
 		return
@@ -273,11 +273,11 @@ func _may_feel(spidar: SpidarG) -> bool:
 
 func _follow(spidar: SpidarG, tick_s: float) -> void:
 	var depth: float = _depth.of(self, spidar.get_grip_transform().origin)
-	var touch: Touch = _touches.get(spidar)
+	var touch: _Touch = _touches.get(spidar)
 	if touch == null:
 		if not depth > 0.0:
 			return
-		touch = Touch.new(spidar, _id)
+		touch = _Touch.new(spidar, _id)
 		_touches[spidar] = touch
 	var was_inside: bool = touch.is_inside
 	touch.is_inside = depth > (-EXIT_M * spidar.workspace_scale if was_inside else 0.0)
@@ -293,7 +293,7 @@ func _follow(spidar: SpidarG, tick_s: float) -> void:
 		(hand_entered if touch.is_inside else hand_exited).emit(spidar)
 
 
-## The part of the force that belongs to a depth.
+# The part of the force that belongs to a depth.
 func _share(depth: float) -> float:
 	if depth <= 0.0:
 		return 0.0
@@ -306,7 +306,7 @@ func _let_go() -> void:
 
 
 func _drop(spidar: SpidarG) -> void:
-	var touch: Touch = _touches[spidar]
+	var touch: _Touch = _touches[spidar]
 	var was_inside: bool = touch.is_inside
 	touch.stop()
 	_touches.erase(spidar)

@@ -244,7 +244,7 @@ func _start_queue(task: SpidarGCalibrator.Task, strings: Array, weight_n: float)
 	_say("")
 
 
-## One string after the other; a simulated hand is waited for.
+# One string after the other; a simulated hand is waited for.
 func _run_queue() -> void:
 	if _task_runs:
 		var told: Dictionary = calibrator.get_task()

@@ -24,7 +24,7 @@ var source: Source = null
 
 var _event := Event.NONE
 var _approach := Approach.new()
-## What is connected, and to what of this object.
+# What is connected, and to what of this object.
 var _signals: Array[Signal] = []
 var _answers: Array[Callable] = []
 

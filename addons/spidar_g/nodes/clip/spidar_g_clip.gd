@@ -30,8 +30,8 @@ extends Resource
 ## 120 Hz 2 to 3.6 times as strong, and 250 Hz is a tenth. With stiff strings ([member SpidarGConfig.simulated_elastic] off) up to
 ## 120 Hz is felt within 10 %, 150 Hz is 13 % and 250 Hz 27 % weaker. It was not measured on a real device: begin with weak clips.
 
-const InRange := preload("../values/in_range.gd")
-const WavFeel := preload("wav_feel.gd")
+const _InRange := preload("../values/in_range.gd")
+const _WavFeel := preload("wav_feel.gd")
 
 ## Largest amplitude that the servo loop gives to a vibration, in newtons. [member strength] times [member gain] is limited to it.
 const MOST_N: float = 2.0
@@ -45,8 +45,8 @@ const MOST_N: float = 2.0
 	set(value):
 		stream = value
 		_sound = null
-		if stream != null and not WavFeel.problem(stream).is_empty():
-			push_error("%s is not played: %s" % [_label(), WavFeel.problem(stream)])
+		if stream != null and not _WavFeel.problem(stream).is_empty():
+			push_error("%s is not played: %s" % [_label(), _WavFeel.problem(stream)])
 		notify_property_list_changed()
 		emit_changed()
 ## Amplitude of the force that is asked for where the clip is strongest, in newtons, from 0 to 2. Any other value is refused with an error, and
@@ -66,7 +66,7 @@ const MOST_N: float = 2.0
 ## one stays.
 @export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 50.0:
 	set(value):
-		frequency = _checked("frequency", value, frequency, "Hz", WavFeel.LEAST_HZ, WavFeel.MOST_HZ)
+		frequency = _checked("frequency", value, frequency, "Hz", _WavFeel.LEAST_HZ, _WavFeel.MOST_HZ)
 		_sound = null
 		emit_changed()
 @export_group("Envelope")
@@ -74,19 +74,19 @@ const MOST_N: float = 2.0
 ## other value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var attack: float = 0.0:
 	set(value):
-		attack = _checked("attack", value, attack, "s", 0.0, WavFeel.LONGEST_S)
+		attack = _checked("attack", value, attack, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
 ## Time for which the amplitude stays at [member strength], in seconds, from 0 to 5. Ignored if there is a [member stream]. Any
 ## other value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var hold: float = 0.05:
 	set(value):
-		hold = _checked("hold", value, hold, "s", 0.0, WavFeel.LONGEST_S)
+		hold = _checked("hold", value, hold, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
 ## Time in which the amplitude falls to 0, in seconds, from 0 to 5. Ignored if there is a [member stream]. Any other value is
 ## refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var release: float = 0.05:
 	set(value):
-		release = _checked("release", value, release, "s", 0.0, WavFeel.LONGEST_S)
+		release = _checked("release", value, release, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
 @export_group("Direction")
 ## Whether the hand is shaken along the normal of the surface that it touches. A hand that grasps or lets go is shaken along the
@@ -105,7 +105,7 @@ const MOST_N: float = 2.0
 		direction = value
 		emit_changed()
 
-var _sound: WavFeel = null
+var _sound: _WavFeel = null
 
 
 ## Returns how long the clip is, in seconds. Returns 0 if it has a [method get_problem].
@@ -120,7 +120,7 @@ func get_problem() -> String:
 	if stream == null:
 		return "" if attack + hold + release > 0.0 else "attack, hold and release are 0 s: make one of them longer."
 	# Asked in each tick: a stream that was converted is not looked at again.
-	var problem: String = WavFeel.problem(stream) if _sound == null else ""
+	var problem: String = _WavFeel.problem(stream) if _sound == null else ""
 	if problem.is_empty() and _hear().loudness.is_empty():
 		problem = "its stream is silent: give a louder sound."
 	return problem
@@ -164,7 +164,7 @@ func _full_n() -> float:
 	return minf(strength * gain, MOST_N)
 
 
-## Of the envelope by numbers, 0 to 1.
+# Of the envelope by numbers, 0 to 1.
 func _level(time_s: float) -> float:
 	if time_s < attack:
 		return time_s / attack
@@ -172,12 +172,12 @@ func _level(time_s: float) -> float:
 	return clampf(1.0 - fallen / release, 0.0, 1.0) if fallen > 0.0 and release > 0.0 else 1.0
 
 
-## The stream's, converted when first asked for; the stream must be one that can be felt.
-func _hear() -> WavFeel:
+# The stream's, converted when first asked for; the stream must be one that can be felt.
+func _hear() -> _WavFeel:
 	if _sound == null:
-		_sound = WavFeel.make(stream, frequency)
+		_sound = _WavFeel.make(stream, frequency)
 		if _sound.was_cut:
-			push_warning("%s is cut after %s s: its stream is longer. Give a shorter sound." % [_label(), WavFeel.LONGEST_S])
+			push_warning("%s is cut after %s s: its stream is longer. Give a shorter sound." % [_label(), _WavFeel.LONGEST_S])
 	return _sound
 
 
@@ -187,4 +187,4 @@ func _label() -> String:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	return InRange.checked(_label(), field, value, old, unit, least, most)
+	return _InRange.checked(_label(), field, value, old, unit, least, most)

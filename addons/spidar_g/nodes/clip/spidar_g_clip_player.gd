@@ -52,11 +52,11 @@ enum Event {
 	IMPACT,
 }
 
-const Devices := preload("../zone/devices_in_tree.gd")
-const InRange := preload("../values/in_range.gd")
-const Events := preload("clip_events.gd")
-const Run := preload("clip_run.gd")
-const Source := preload("clip_source.gd")
+const _Devices := preload("../zone/devices_in_tree.gd")
+const _InRange := preload("../values/in_range.gd")
+const _Events := preload("clip_events.gd")
+const _Run := preload("clip_run.gd")
+const _Source := preload("clip_source.gd")
 ## Effect ids of players begin here. Zones have those from 1000000 on, sockets negative ones; a game's own should be smaller.
 const FIRST_ID: int = 500000
 ## How many effect ids players have; after the last one they begin again.
@@ -117,14 +117,14 @@ static var _made: int = 0
 		least_impact_speed = _checked("least_impact_speed", value, least_impact_speed, "m/s", 0.001, 5.0)
 
 var _id: int = FIRST_ID
-var _devices: Devices = null
-var _events := Events.new()
-## By the instance of the device, as below: when the last clip ended there, and when the hand last did anything that an event
-## may come from, s of the device.
-var _runs: Dictionary[int, Run] = {}
+var _devices: _Devices = null
+var _events := _Events.new()
+# By the instance of the device, as below: when the last clip ended there, and when the hand last did anything that an event
+# may come from, s of the device.
+var _runs: Dictionary[int, _Run] = {}
 var _ended_s: Dictionary[int, float] = {}
 var _heard_s: Dictionary[int, float] = {}
-## Whether it was said that no effect is free, since a clip was last played.
+# Whether it was said that no effect is free, since a clip was last played.
 var _is_told: bool = false
 
 
@@ -146,7 +146,7 @@ func play(spidar: SpidarG = null) -> bool:
 			push_warning("SpidarGClipPlayer \"%s\" plays nothing: it is outside of the scene tree. Add it first." % name)
 		return false
 	var chosen: Array[SpidarG] = _devices.devices.duplicate()
-	var only: SpidarG = spidar if spidar != null else Source.find(self, source_path).spidar
+	var only: SpidarG = spidar if spidar != null else _Source.find(self, source_path).spidar
 	if only != null:
 		chosen = [only]
 	var plays: bool = false
@@ -179,11 +179,11 @@ func _enter_tree() -> void:
 		return
 	if not ClassDB.class_exists(&"SpidarG"):
 		return
-	_devices = Devices.of(get_tree())
+	_devices = _Devices.of(get_tree())
 	_devices.changed.connect(_look)
 
 
-## Each time that the player has entered the tree, and its neighbors too. The engine turns processing on just before.
+# Each time that the player has entered the tree, and its neighbors too. The engine turns processing on just before.
 func _ready() -> void:
 	_look_and_warn()
 
@@ -220,7 +220,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	elif not clip.get_problem().is_empty():
 		warnings.append("The clip of the SpidarGClipPlayer is not played: " + clip.get_problem())
 	if is_inside_tree():
-		var problem: String = Source.find(self, source_path).problem(event, source_path)
+		var problem: String = _Source.find(self, source_path).problem(event, source_path)
 		if not problem.is_empty():
 			warnings.append(problem)
 	return warnings
@@ -239,15 +239,15 @@ func _physics_process(_delta: float) -> void:
 			_drop(id)
 
 
-## Connects the events anew, and runs only where something is to be done.
+# Connects the events anew, and runs only where something is to be done.
 func _look() -> void:
 	update_configuration_warnings()
 	if _devices == null:
 		set_physics_process(false)
 		return
 	var old: Node = _events.source.surface if _events.has_surface() else null
-	_events.connect_to(event, Source.find(self, source_path), _devices.hands)
-	for run: Run in _runs.values():
+	_events.connect_to(event, _Source.find(self, source_path), _devices.hands)
+	for run: _Run in _runs.values():
 		if run.loops and (event != Event.SLIP or _events.source.surface != old):
 			run.end()
 	_choose()
@@ -283,7 +283,7 @@ func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 	_start(spidar, along, minf(1.0, speed / full_impact_speed) if is_scaled else 1.0, false)
 
 
-## Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
+# Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
 func _is_new(spidar: SpidarG) -> bool:
 	var id: int = spidar.get_instance_id()
 	var now_s: float = spidar.get_device_time()
@@ -298,7 +298,7 @@ func _on_left(hand: SpidarGHand) -> void:
 
 
 func _on_slip_ended(hand: SpidarGHand) -> void:
-	var run: Run = _runs.get(hand.spidar.get_instance_id()) if is_instance_valid(hand) and hand.spidar != null else null
+	var run: _Run = _runs.get(hand.spidar.get_instance_id()) if is_instance_valid(hand) and hand.spidar != null else null
 	if run != null and run.loops:
 		run.end()
 
@@ -306,18 +306,18 @@ func _on_slip_ended(hand: SpidarGHand) -> void:
 func _touched_direction(spidar: SpidarG) -> Vector3:
 	for hand: SpidarGHand in _devices.hands:
 		if hand.spidar == spidar:
-			return Events.normal_at(hand, null)
+			return _Events.normal_at(hand, null)
 	return Vector3.ZERO
 
 
-## along: the normal, or zero where nothing is touched. share: of the clip's strength, more than 0.
+# along: the normal, or zero where nothing is touched. share: of the clip's strength, more than 0.
 func _start(spidar: SpidarG, along: Vector3, share: float, loops: bool) -> bool:
 	if not _get_problem().is_empty():
 		push_warning("SpidarGClipPlayer \"%s\" plays nothing: %s" % [name, _get_problem()])
 		return false
 	var id: int = spidar.get_instance_id()
 	var direction: Vector3 = along if clip.along_normal and not along.is_zero_approx() else clip.direction
-	var run := Run.new(spidar, clip, _id, direction, share, loops)
+	var run := _Run.new(spidar, clip, _id, direction, share, loops)
 	if _runs.has(id):
 		_runs.erase(id)
 		finished.emit(spidar)
@@ -341,7 +341,7 @@ func _get_problem() -> String:
 
 
 func _drop(id: int) -> void:
-	var run: Run = _runs[id]
+	var run: _Run = _runs[id]
 	_runs.erase(id)
 	run.stop()
 	_choose()
@@ -352,4 +352,4 @@ func _drop(id: int) -> void:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	return InRange.checked("SpidarGClipPlayer \"%s\"" % name, field, value, old, unit, least, most)
+	return _InRange.checked("SpidarGClipPlayer \"%s\"" % name, field, value, old, unit, least, most)

@@ -51,7 +51,7 @@ func show_below(device: SpidarG, mask: int, camera: Camera3D) -> void:
 		_place(from, hit["position"], hit["normal"], workspace_scale, right)
 
 
-## What a SpidarGHand of the device holds moves with the grip: it counts as air.
+# What a SpidarGHand of the device holds moves with the grip: it counts as air.
 func _held_by(device: SpidarG) -> Array[RID]:
 	if not is_instance_valid(_hand) or _hand.get_parent() != device:
 		_hand = null
