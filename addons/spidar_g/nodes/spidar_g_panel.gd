@@ -1,33 +1,45 @@
 @tool
 class_name SpidarGPanel
 extends PanelContainer
-## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, what a [SpidarGHand] below it touches, how
-## punctual its servo thread is, and what happened; starts and stops recordings.
+## Shows what a [SpidarG] does, and starts and stops recordings.
 ##
-## Add [code]spidar_g_panel.tscn[/code] to a scene, under a CanvasLayer or as a child of the device, and set [member
-## device]. It only reads. While it is hidden it computes nothing.
+## Add the scene [code]spidar_g_panel.tscn[/code] under a [CanvasLayer] or as a child of the device, and set [member device].
+## The panel shows the state of the device, its tensions, the requested and the achieved wrench, the contacts of its
+## [SpidarGHand], the punctuality of the servo thread, and the last events. It changes nothing of the device except its
+## recording. While it is hidden it computes nothing.
+## [codeblock]
+## var panel: SpidarGPanel = preload("res://addons/spidar_g/nodes/spidar_g_panel.tscn").instantiate()
+## panel.device = $SpidarG
+## add_child(panel)
+## [/codeblock]
 
 const _PlotStrip := preload("plot_strip.gd")
 const _JitterPlot := preload("jitter_plot.gd")
 
-## Where recordings go.
+## The folder in which [method toggle_recording] creates its files.
 const RECORDING_FOLDER: String = "user://spidar_g_recordings"
+## The largest number of lines that the log keeps; the oldest ones are removed.
 const MOST_EVENTS: int = 100
-## Numbers and the histogram are renewed after this many frames.
+## The numbers and the histogram are refreshed each time this many frames have been drawn.
 const FRAMES_PER_REPORT: int = 10
+## The curves of x, y and z are drawn in these colors.
 const FORCE_COLOURS: PackedColorArray = [
 	Color(0.95, 0.35, 0.30), Color(0.40, 0.80, 0.35), Color(0.35, 0.60, 1.0)
 ]
+## The curve of the grasp torque is drawn in this color.
 const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
+## The curve of contact points is drawn in this color.
 const POINTS_COLOUR: Color = Color(0.80, 0.60, 1.0)
+## The curve of the largest push of a contact is drawn in this color.
 const PUSH_COLOUR: Color = Color(0.95, 0.35, 0.65)
+## The curve of the achieved force is drawn in this color.
 const FELT_COLOUR: Color = Color(0.85, 0.87, 0.90)
-## The level of events that the log shows: something that should be looked at, but stopped nothing.
+## The level of the events that the log shows: [constant SpidarG.EVENT_WARNING].
 const WARNING: int = 1
-## Given values are drawn paler than asked ones.
+## Achieved values are drawn with this alpha, paler than requested ones.
 const GIVEN_ALPHA: float = 0.45
 
-## The device to show. Empty: the parent, when that is a [SpidarG].
+## Sets the device that the panel shows. If it is [code]null[/code], the parent is used if it is a [SpidarG].
 @export var device: SpidarG:
 	set(value):
 		if device != value:
@@ -36,7 +48,7 @@ const GIVEN_ALPHA: float = 0.45
 			_connect()
 			update_configuration_warnings()
 
-## The file of the recording that runs, or of the last one.
+## The path of the current recording of this panel, or of the last one. It is empty before the first recording.
 var recording_path: String = ""
 
 # The recording that runs is this panel's own; another's goes on when the panel leaves.
@@ -132,16 +144,17 @@ func _process(_delta: float) -> void:
 	_frames += 1
 
 
-## What is in the log, newest last.
+## Returns the lines of the log, the newest one last.
 func get_events() -> PackedStringArray:
 	return _events
 
 
+## Returns [code]true[/code] while the device records, no matter who started the recording.
 func is_recording() -> bool:
 	return is_instance_valid(device) and device.is_recording()
 
 
-## Starts a recording into a new file under [constant RECORDING_FOLDER], or ends the one that runs.
+## Starts a recording into a new file in [constant RECORDING_FOLDER], or stops the recording of the device if one runs.
 func toggle_recording() -> void:
 	if not is_instance_valid(device):
 		return
