@@ -1,10 +1,10 @@
 @tool
 extends EditorExportPlugin
-## Puts the stand-ins of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so that
-## scripts that name SpidarG load there. Beside a library they would be in the way of its classes.
+## Puts the stand-in classes of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so
+## that scripts that name SpidarG load there. Where there is a library, they would hide its classes.
 ##
-## Godot finds a script's class by a list in the project's cache, which it copies when an export ends. For the time of the
-## export the list holds the stand-ins too.
+## Godot finds the class of a script in a list in the project's cache, which it copies at the end of an export. During the
+## export, the list contains the stand-in classes too.
 
 const STAND_INS: String = "res://addons/spidar_g/stand_in"
 const MANIFEST: String = "res://addons/spidar_g/spidar_g.gdextension"

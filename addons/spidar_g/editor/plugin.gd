@@ -1,14 +1,15 @@
 @tool
 extends EditorPlugin
-## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
-## small held things need; and exports for systems without a library hold stand-ins. The nodes work without this plugin.
+## Adds the calibration panel of the inspector, the 3D view of SpidarG nodes, and a menu item for the physics settings that
+## small held things need. Exports for systems without a library get stand-in classes. The nodes work without this plugin.
 ##
-## Scripts that name the library's classes do not load without it, so they are loaded only where it is.
+## Scripts that name the classes of the library do not load without it, so the plugin loads them only if the library exists.
 
 const ExportPlugin := preload("export_plugin.gd")
 
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
-## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
+## The project settings that the menu item proposes. With them, Jolt lets a squeezed stick of 3 mm rest on a floor; the
+## defaults of 20 mm for two of them are larger than the stick.
 const SETTINGS: Dictionary[String, Variant] = {
 	"physics/3d/physics_engine": "Jolt Physics",
 	"physics/jolt_physics_3d/simulation/penetration_slop": 0.0005,

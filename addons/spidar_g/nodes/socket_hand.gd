@@ -1,7 +1,8 @@
 @tool
 extends Node
-## What the sockets of the body in one hand do: they are drawn to the ones they fit, click into their seat, hold there by a
-## spring, and come off. An internal child of a SpidarGHand; it works while that hand holds a body with sockets.
+## Moves the sockets of the body in one hand: they are drawn to the ones that they fit, click into their seat, are held there
+## by a spring, and come off. This is an internal child of a [SpidarGHand], and it works while that hand holds a body with
+## sockets.
 
 const SocketGraph := preload("socket_graph.gd")
 const SocketHand := preload("socket_hand.gd")
@@ -10,12 +11,12 @@ const SocketLink := preload("socket_link.gd")
 const SocketPull := preload("socket_pull.gd")
 const SocketSpring := preload("socket_spring.gd")
 
-## From where it was caught into the seat.
+## The time in which the body moves into its seat, in seconds.
 const SEATING_S: float = 0.08
 
-## The body in the hand, if it has sockets; else null.
+## The body in the hand if it has sockets, or [code]null[/code].
 var held: RigidBody3D
-## When it was grasped: of two hands the one that came first carries.
+## The time at which the body was grasped, in microseconds. If two hands hold linked bodies, the one that came first carries.
 var since_us: int = 0
 
 var _hand: SpidarGHand
@@ -55,7 +56,8 @@ func _exit_tree() -> void:
 	_let_go()
 
 
-## A link of the held body that came by link_to. Returns false when a joint has to hold it.
+## Takes over a link of the held body that [method SpidarGSocket.link_to] made. Returns [code]false[/code] if a joint must
+## hold it.
 func take(link: SocketLink) -> bool:
 	var mate: SpidarGSocket = link.other if link.one.get_body() == held else link.one
 	if SocketGraph.carrier_of(mate.get_body(), held, since_us) == null:
@@ -64,11 +66,14 @@ func take(link: SocketLink) -> bool:
 	return true
 
 
+## Records that a socket of the held body has come off `mate`, so that the two are not drawn together before they were out of
+## reach.
 func note_parted(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_parted[socket.get_instance_id()] = mate.get_instance_id()
 
 
-## What these sockets do to this hand; `on_mates`: they are another hand's, and their mates are on this one's body.
+## Renders what `pulls` do to this hand. With `on_mates` they belong to another hand, and their mates are on the body of this
+## one.
 func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
 	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, on_mates)
 	_load_n += spring.load_n
@@ -77,6 +82,7 @@ func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
 		_load_nm += spring.late_moment_nm()
 
 
+## Returns the device of the hand, or [code]null[/code] before the first grasp.
 func device() -> SpidarG:
 	return _spidar
 

@@ -1,18 +1,20 @@
 extends RefCounted
-## What one [SpidarG] feels of one [SpidarGZone]: how strongly, and the effects that the servo loop renders.
+## What one [SpidarG] feels of one [SpidarGZone]: the strength of the zone and the effects that the servo loop renders.
 
 const RENEWED_FOR_S: float = 0.1
-## A device whose effects are all taken is asked again after so many ticks.
+## After this many physics ticks a device without a free effect is tried again.
 const TICKS_TO_RETRY: int = 15
-## A gain holds until the device has moved to that of the next tick: what the motion makes of the force until then counts.
+## A gain holds until the device has moved to that of the next tick. The force is therefore computed for the motion of this
+## many ticks.
 const TICKS_AHEAD: float = 2.0
-## Nearer than this (m/m) to an axis of the device, an axis counts as parallel to it.
+## An axis counts as parallel to an axis of the device if the sine of the angle between them is below this value.
 const PARALLEL: float = 1e-3
-## Stiffness of a magnet whose axis is oblique: the game renews half of it in each tick, which is stable up to 150 N/m.
+## The largest stiffness of a magnet with an oblique axis, in N/m. The game refreshes half of it, which is stable up to 150
+## N/m.
 const MOST_OBLIQUE_N_M: float = 300.0
 
 var is_inside: bool = false
-## Part of the zone's force that is given, 0 to 1.
+## The share of the zone's force that acts, from 0 to 1.
 var strength: float = 0.0
 
 var _spidar: SpidarG
@@ -28,7 +30,7 @@ func _init(spidar: SpidarG, id: int) -> void:
 	_id = id
 
 
-## Ends the effects, within one game frame.
+## Ends the effects of the zone on this device within 16 ms.
 func stop() -> void:
 	strength = 0.0
 	is_inside = false
@@ -36,7 +38,7 @@ func stop() -> void:
 		_spidar.clear_effect(_id)
 
 
-## Renews the zone's effect. False, once for each time, when the device takes no more effects.
+## Refreshes the effect of the zone. Returns [code]false[/code] once each time the device begins to have no free effect.
 func renew(zone: SpidarGZone, tick_s: float) -> bool:
 	if _wait > 0:
 		_wait -= 1

@@ -1,7 +1,7 @@
 @tool
 extends VBoxContainer
-## What serial motor boards keep in their flash: shown, and written only when the user confirms what would be written and to
-## which board. Shown for a config with transport = Serial.
+## Shows the flash memory of serial motor boards. It writes only after the user has confirmed what is written to which board.
+## It is visible for a config with the transport Serial.
 
 const CalibrationSession := preload("calibration_session.gd")
 
@@ -23,7 +23,7 @@ var _waits: bool = false
 var _writes: bool = false
 
 
-## get_config: returns the SpidarGConfig to work with, or null.
+## Creates the controls. `get_config` returns the SpidarGConfig to work with, or [code]null[/code].
 func set_up(session: CalibrationSession, get_config: Callable) -> void:
 	_session = session
 	_get_config = get_config

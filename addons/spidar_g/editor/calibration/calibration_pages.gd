@@ -1,8 +1,10 @@
 @tool
 extends VBoxContainer
-## The six steps of the calibration panel, one shown at a time.
+## Shows the six steps of the calibration panel, one at a time.
 
+## Emitted when the user accepts the result of the calibration.
 signal accepted
+## Emitted when the user wants to save the calibration in use.
 signal saved
 
 const CalibrationSession := preload("calibration_session.gd")
@@ -46,7 +48,7 @@ func set_up(session: CalibrationSession) -> void:
 	_build_result()
 
 
-## has_calibration: there is one to save.
+## Shows the current step. `has_calibration` states whether there is a calibration to save.
 func refresh(has_calibration: bool) -> void:
 	var is_open: bool = _session.is_open()
 	for page: int in _pages.size():

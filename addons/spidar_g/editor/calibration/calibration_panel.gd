@@ -1,16 +1,17 @@
 @tool
 extends VBoxContainer
-## The calibration panel of the inspector: the device, its live readings, and one step at a time. Holds no state of its
-## own beside its controls: the inspector may throw it away and make it anew at any time.
+## Shows the calibration panel of the inspector: the device, its live readings and one step at a time. The state is in the
+## session, so the inspector may remove and recreate the panel at any time.
 
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 const CalibrationPages := preload("calibration_pages.gd")
 const BoardParameters := preload("board_parameters.gd")
 
-## Seconds between two refreshings of the numbers.
+## The numbers are refreshed after this time, in seconds.
 const REFRESH_S: float = 0.1
-## Longer than the inspector needs to make a panel anew.
+## A session without a panel closes its device after this time, in seconds. It is longer than the inspector needs to recreate
+## a panel.
 const GRACE_S: float = 0.6
 const PRESETS: PackedStringArray = ["Custom", "Paper", "SpidarG6X3R", "SpidarG6X3L", "SpidarG6X5R", "SpidarG6X5L", "SpidarG6X4"]
 const SMALL_FONT: int = 12

@@ -1,6 +1,6 @@
 @tool
 extends MenuButton
-## In the 3-D view's toolbar while a SpidarG is selected: what its gizmo shows.
+## The menu in the toolbar of the 3D view that selects what the gizmo shows. It is visible while a SpidarG is selected.
 
 const ViewOptions := preload("view_options.gd")
 
@@ -45,6 +45,7 @@ func _ready() -> void:
 	_follow_selection()
 
 
+## Applies a menu item to the options, and saves them.
 func choose(item: Item) -> void:
 	match item:
 		Item.CAPACITY:

@@ -1,15 +1,15 @@
 extends RefCounted
-## One clip as one device plays it: the vibration that the servo loop renders, renewed in each physics tick.
+## Plays one clip on one device: the servo loop renders the vibration, and each physics tick refreshes it.
 
-## A game that hangs lets go: the effect acts in full for this long, then fades in 50 ms.
+## The duration of each refresh, in seconds. If the game hangs, the effect ends after this time and a fade of 50 ms.
 const RENEWED_FOR_S: float = 0.05
-## A device whose game has long ticks is renewed for this many of them.
+## The duration of each refresh in physics ticks, if the ticks of the game are long.
 const RENEWED_FOR_TICKS: float = 2.5
-## In which the servo loop moves to a new amplitude; it is asked for what is due then.
+## The time in which the servo loop moves to a new amplitude, in seconds. The amplitude that is due at its end is requested.
 const CROSS_FADE_S: float = 0.016
 
 var spidar: SpidarG
-## Begins anew at its end, until end().
+## If [code]true[/code], the clip starts again at its end, until [method end] is called.
 var loops: bool = false
 
 var _clip: SpidarGClip
@@ -38,7 +38,7 @@ func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: f
 	_began_s = of.get_device_time()
 
 
-## Renews the vibration. Returns false when the clip is over, and when the device does not take the effect.
+## Refreshes the vibration. Returns [code]false[/code] when the clip is over, and if the device does not accept the effect.
 func step(tick_s: float) -> bool:
 	if not is_instance_valid(spidar) or spidar.get_state() == SpidarG.STATE_CLOSED:
 		return false
@@ -61,12 +61,12 @@ func step(tick_s: float) -> bool:
 	)
 
 
-## Lets the vibration end, over the next ticks.
+## Lets the vibration end within the next ticks.
 func end() -> void:
 	_ends = true
 
 
-## Ends the vibration now.
+## Ends the vibration now, within the fade of the device.
 func stop() -> void:
 	if is_instance_valid(spidar):
 		spidar.clear_effect(_id)
