@@ -27,9 +27,9 @@ func _enter_tree() -> void:
 	add_tool_menu_item(MENU_ITEM, _ask)
 	if not ClassDB.class_exists(&"SpidarG"):
 		push_warning(
-			"The SPIDAR-G add-on has no library for this system (%s on %s): its nodes are not there. "
+			"The SPIDAR-G add-on has no library for this system (%s on %s): its nodes do not exist. "
 			% [OS.get_name(), Engine.get_architecture_name()]
-			+ "Scripts that name them load if you delete addons/spidar_g/stand_in/.gdignore."
+			+ "Delete addons/spidar_g/stand_in/.gdignore to load scripts that name them."
 		)
 		return
 	_tools = (load("res://addons/spidar_g/editor/scene_tools.gd") as Script).call(&"new", self)
@@ -50,10 +50,10 @@ func _ask() -> void:
 	for path: String in SETTINGS:
 		var now: Variant = ProjectSettings.get_setting(path, "unset")
 		if now != SETTINGS[path]:
-			changes.append("%s: %s -> %s" % [path, now, SETTINGS[path]])
+			changes.append("%s: %s -> %s" % [path, _shown(now), _shown(SETTINGS[path])])
 	var dialog: ConfirmationDialog = ConfirmationDialog.new()
 	dialog.title = MENU_ITEM
-	dialog.dialog_text = "\n".join(changes) if changes.size() > 0 else "All settings are in place already."
+	dialog.dialog_text = "\n".join(changes) if changes.size() > 0 else "All settings already have the proposed values."
 	dialog.confirmed.connect(_apply)
 	dialog.visibility_changed.connect(
 		func() -> void:
@@ -61,6 +61,11 @@ func _ask() -> void:
 				dialog.queue_free()
 	)
 	EditorInterface.popup_dialog_centered(dialog)
+
+
+# A float of the project settings has single precision: 0.02 would be shown as 0.01999999955297.
+func _shown(value: Variant) -> String:
+	return String.num(value, 6) if value is float else str(value)
 
 
 func _apply() -> void:

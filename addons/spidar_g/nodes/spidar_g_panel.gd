@@ -88,17 +88,17 @@ func _ready() -> void:
 	for string: int in 8:
 		tints.append(Color.from_hsv(string / 8.0, 0.55, 0.95))
 	_tensions.colours = tints
-	_force.title = "Force x y z, N: asked, given pale"
+	_force.title = "Force x y z, N: requested, achieved pale"
 	_force.least_low = -1.0
 	_force.colours = _pairs(FORCE_COLOURS)
 	_moment.title = "Moment x y z, grasp, N m"
 	_moment.least_low = -0.02
 	_moment.least_high = 0.02
 	_moment.colours = _pairs(FORCE_COLOURS + PackedColorArray([GRASP_COLOUR]))
-	_points.title = "Contact points: that push, near pale"
+	_points.title = "Contact points: pushing, near ones pale"
 	_points.least_high = 4.0
 	_points.colours = _pairs([POINTS_COLOUR])
-	_push.title = "Largest push of a contact (pink), force felt (white), N"
+	_push.title = "Largest push of a contact (pink), achieved force (white), N"
 	_push.colours = [PUSH_COLOUR, FELT_COLOUR]
 	_record.pressed.connect(toggle_recording)
 	visibility_changed.connect(_visibility_changed)
@@ -130,7 +130,7 @@ func _enter_tree() -> void:
 
 func _process(_delta: float) -> void:
 	if not is_instance_valid(device):
-		_state.text = "No device: set the panel's device to a SpidarG."
+		_state.text = "No device is shown: set the panel's device to a SpidarG."
 		return
 	_tensions.add_sample(device.get_string_tensions())
 	var asked: PackedFloat64Array = device.get_requested_wrench()
@@ -213,7 +213,7 @@ func _report() -> void:
 	_state.text = "%s   %s" % [device.get_state_text(), device.get_fault_text()]
 	var numbers: Dictionary = device.get_statistics()
 	_numbers.text = (
-		"servo %.0f Hz    late p50 %.0f, p99 %.0f, most %.0f us    step p99 %.1f us    missed %d    saturated %d"
+		"servo %.0f Hz    late p50 %.0f, p99 %.0f, max %.0f us    step p99 %.1f us    missed %d    saturated %d"
 		% [
 			numbers["servo_rate_hz"], numbers["lateness_p50_us"], numbers["lateness_p99_us"],
 			numbers["lateness_max_us"], numbers["step_p99_us"], numbers["missed_deadlines"],
@@ -236,7 +236,7 @@ func _visibility_changed() -> void:
 	_report()
 
 
-# Colours of values asked for, then the same, paler, of those given.
+# Returns the colors of the requested values, followed by the same colors, paler, for the achieved ones.
 func _pairs(colours: PackedColorArray) -> PackedColorArray:
 	var both: PackedColorArray = colours.duplicate()
 	for colour: Color in colours:

@@ -205,17 +205,17 @@ func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
 	if get_body() == null:
 		warnings.append(
-			"It links nothing here: make it a direct child of a RigidBody3D, or of a StaticBody3D or another physics body."
+			"The socket links nothing here: make it a direct child of a RigidBody3D, or of a StaticBody3D or another physics body."
 		)
 	if latch_distance > capture_distance:
 		warnings.append(
-			"latch_distance = %s m is larger than capture_distance = %s m, from where it acts: make it smaller."
+			"latch_distance = %s m is larger than capture_distance = %s m, within which it acts: make latch_distance smaller."
 			% [latch_distance, capture_distance]
 		)
 	var reached_n: float = _SocketPull.FULL_FROM * capture_distance * _SocketPull.LOAD_STIFFNESS_N_M
 	if attraction_force > reached_n + 1e-6:
 		warnings.append(
-			"attraction_force = %s N is not reached: within capture_distance = %s m it grows to %.2f N. "
+			"attraction_force = %s N is not reached: within capture_distance = %s m the force grows to %.2f N. "
 			% [attraction_force, capture_distance, reached_n]
 			+ "Enlarge capture_distance or lower attraction_force."
 		)

@@ -213,7 +213,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 		warnings.append("SpidarGTracker publishes nothing: custom_name is empty. Give a name, or choose the right or left hand.")
 	var rival: SpidarGTracker = _rival()
 	if rival != null:
-		warnings.append("Only one SpidarGTracker can be \"%s\", and \"%s\" is it as well. Give one of them another hand or custom_name."
+		warnings.append("Only one SpidarGTracker can be \"%s\", and \"%s\" already is. Give one of them another hand or custom_name."
 			% [get_tracker_name(), rival.name])
 	return warnings
 

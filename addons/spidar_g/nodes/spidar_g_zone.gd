@@ -247,7 +247,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 		for index: int in shape_owner_get_shape_count(owner):
 			var problem: String = _Depth.problem(shape_owner_get_shape(owner, index))
 			if not problem.is_empty():
-				warnings.append("A shape of the SpidarGZone is left out, because %s. Use boxes, spheres, capsules, cylinders or small convex polygons." % problem)
+				warnings.append("A shape of the SpidarGZone is ignored, because %s. Use boxes, spheres, capsules, cylinders or small convex polygons." % problem)
 	var steepness: float = minf(wind_force.length(), max_force) / maxf(edge_width, 1e-6)
 	if kind == Kind.WIND and steepness > STEEP_N_M:
 		warnings.append("The wind of the SpidarGZone rises by %.0f N/m along its edge: a loosely held grip may swing there. Make edge_width %.3f m or more, or the wind weaker."

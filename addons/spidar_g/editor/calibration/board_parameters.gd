@@ -29,7 +29,7 @@ func set_up(session: CalibrationSession, get_config: Callable) -> void:
 	_get_config = get_config
 	_read.text = "Read boards"
 	_read.name = "ReadBoards"
-	_read.tooltip_text = "What the motor boards keep in their flash. Writes nothing; the device has to be closed."
+	_read.tooltip_text = "Reads the flash memory of the motor boards and writes nothing. The device must be closed."
 	_read.pressed.connect(_read_boards)
 	add_child(_read)
 	_boards.name = "Boards"
@@ -50,7 +50,7 @@ func set_up(session: CalibrationSession, get_config: Callable) -> void:
 	add_child(_row)
 	_write.text = "Write to flash ..."
 	_write.name = "WriteBoard"
-	_write.tooltip_text = "Says what would be written to which board, and asks."
+	_write.tooltip_text = "Shows what would be written to which board, and asks for confirmation."
 	_write.pressed.connect(_propose)
 	add_child(_write)
 
@@ -108,7 +108,7 @@ func _propose() -> void:
 		return
 	var dialog: ConfirmationDialog = ConfirmationDialog.new()
 	dialog.title = "Write to flash"
-	dialog.dialog_text = "%s\nThe board keeps it when it is switched off." % told["text"]
+	dialog.dialog_text = "%s\nThe board keeps the value when it is switched off." % told["text"]
 	dialog.ok_button_text = "Write"
 	dialog.confirmed.connect(_confirm.bind(told["board"]))
 	dialog.visibility_changed.connect(

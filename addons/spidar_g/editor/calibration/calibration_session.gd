@@ -120,7 +120,7 @@ func set_taut(taut: bool) -> void:
 
 
 func read_zero() -> void:
-	_report(calibrator.take_zero(), "Home read. Take the grip out, put it back and read again: the spread shows.")
+	_report(calibrator.take_zero(), "The home pose was read. Take the grip out, put it back and read again to see the spread.")
 
 
 func clear_zero() -> void:
@@ -151,7 +151,7 @@ func read_ruler(string: int) -> float:
 
 func start_motion() -> void:
 	if calibrator.get_zero()["repeats"] == 0:
-		_say("Read the zero first: the fit begins there.", true)
+		_say("Read the zero first: the fit starts from it.", true)
 		return
 	calibrator.clear_poses()
 	_estimated_at = 0
@@ -298,7 +298,7 @@ func _watch_computation() -> void:
 		if _final:
 			var result: Dictionary = calibrator.get_result()
 			var usable: bool = result["usable"]
-			_say("Calibrated. Look at the result, then accept it." if usable else result["refusal"], not usable)
+			_say("The calibration is complete. Look at the result, then accept it." if usable else result["refusal"], not usable)
 		changed.emit()
 	_was_computing = computing
 

@@ -30,8 +30,8 @@ static func problem(node: Node, path: NodePath, name: String) -> String:
 	if find(node, path) != null or not ClassDB.class_exists(&"SpidarG"):
 		return ""
 	if not path.is_empty():
-		return "%s rests: spidar_path \"%s\" leads to no SpidarG. Choose a SpidarG node, or clear the path to use an ancestor." % [name, path]
-	return "%s rests: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
+		return "%s does nothing: spidar_path \"%s\" leads to no SpidarG. Choose a SpidarG node, or clear the path to use an ancestor." % [name, path]
+	return "%s does nothing: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
 
 
 ## Raises the process priorities of `node` by the smallest amount that makes it run after `leader` in each frame and tick.
