@@ -3,9 +3,7 @@ extends StaticBody3D
 ## Makes a sheet of hills. The shape takes the triangles of the mesh as they are; create_trimesh_shape() would round them to
 ## 0.1 mm.
 
-## The distance between two points of the mesh, in meters. There are 50 steps along each side.
-const STEP_M: float = 0.0018 # 50 steps a side
-## The distance from one crest of the hills to the next, in meters.
+const STEP_M: float = 0.0018 # between two points of the mesh: 50 steps a side
 const HILL_M: float = 0.03 # from crest to crest
 
 ## Sets the material with which the sheet is drawn.
