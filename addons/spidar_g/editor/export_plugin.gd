@@ -50,7 +50,7 @@ func _export_end() -> void:
 		file.store_buffer(_list_before)
 
 
-# Whether the manifest names a library for a system of these features, as "linux.debug.x86_64" does.
+# Returns whether the manifest names a library for a system with these features, as "linux.debug.x86_64" does.
 func _has_library(features: PackedStringArray) -> bool:
 	var manifest: ConfigFile = ConfigFile.new()
 	if manifest.load(MANIFEST) != OK:
@@ -61,7 +61,7 @@ func _has_library(features: PackedStringArray) -> bool:
 	return false
 
 
-# What Godot's list says of a script.
+# Returns the entry for a script in Godot's list of classes.
 func _entry(path: String) -> Dictionary:
 	var text: String = FileAccess.get_file_as_string(path)
 	return {

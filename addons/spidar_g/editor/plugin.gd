@@ -16,7 +16,7 @@ const SETTINGS: Dictionary[String, Variant] = {
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
-# Those of the scene editor; null without the library.
+# The tools of the scene editor, or null without the library.
 var _tools: RefCounted = null
 var _export: ExportPlugin = null
 
@@ -44,7 +44,7 @@ func _exit_tree() -> void:
 	_export = null
 
 
-# Shows what would change; nothing is written before the answer.
+# Shows what would change. Nothing is written before the user confirms.
 func _ask() -> void:
 	var changes: PackedStringArray = []
 	for path: String in SETTINGS:

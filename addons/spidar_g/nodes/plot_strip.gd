@@ -59,12 +59,12 @@ func get_curve(curve: int) -> PackedFloat32Array:
 	return values
 
 
-# Three digits, as a range of some newtons or hundredths of a newton metre needs them.
+# Formats a number with three digits, for ranges of some newtons or hundredths of a newton meter.
 func _short(value: float) -> String:
 	return "%.1f" % value if absf(value) >= 1.0 or is_zero_approx(value) else "%.3f" % value
 
 
-# The place in the ring of the sample that is `i` after the oldest.
+# Returns the index in the ring of the sample that is `i` after the oldest one.
 func _place(i: int) -> int:
 	return (_next - _count + i + SAMPLES) % SAMPLES
 

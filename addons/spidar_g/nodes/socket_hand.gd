@@ -21,24 +21,25 @@ var since_us: int = 0
 
 var _hand: SpidarGHand
 var _spidar: SpidarG
-# Of the held body: the links that the hand's spring holds.
+# The links of the held body that the spring of the hand holds.
 var _seats: Array[SocketLink] = []
-# Those whose seats the body is on its way to, from where, and for how long.
+# The links into whose seats the body moves. The two below: the pose at which it began, and the time since then.
 var _sat_on: Array[SocketLink] = []
 var _caught: Transform3D = Transform3D.IDENTITY
 var _seated_s: float = 0.0
-# Sockets of the held body that have come off a mate and are still within its reach, by instance.
+# Sockets of the held body that have come off a mate and are still within its reach: instance id of the socket to that of
+# the mate.
 var _parted: Dictionary[int, int] = {}
-# What linked and came off in this tick, told when all is done: a listener may free what it likes.
+# Signals of this tick. They are emitted at its end, because a listener may free any node.
 var _news: Array[Callable] = []
-# Loads on the held body about the grip, N and N m, until it is next carried: also those of other hands' sockets.
+# Force (N) and moment (N m) on the held body about the grip, until it is next carried. Sockets of other hands add to them.
 var _load_n: Vector3 = Vector3.ZERO
 var _load_nm: Vector3 = Vector3.ZERO
-# The devices that this body's spring acts on, by instance: its own, and those of the hands that carry its mates.
+# The devices on which the spring of this body acts, by instance id: its own, and those of the hands that carry its mates.
 var _sprung: Array[int] = []
 var _scale: float = 1.0
 var _grip: Vector3 = Vector3.ZERO
-# What the device renders at most.
+# The largest stiffness that the device renders, in N/m.
 var _stiffest_n_m: float = 0.0
 
 
@@ -105,7 +106,7 @@ func _on_released(_body: RigidBody3D) -> void:
 		_let_go()
 
 
-# Joints take over from the spring.
+# Ends the springs; joints take over.
 func _let_go() -> void:
 	if held == null:
 		return
@@ -159,7 +160,7 @@ func _look() -> void:
 	_stiffest_n_m = _spidar.get_stiffness_limits().x
 
 
-# What sits on something that is carried can be pulled off: the spring holds it. Everything else hangs rigidly.
+# A link to something that is carried can be pulled off, so the spring holds it. Every other link is rigid.
 func _sort_links() -> void:
 	for socket: SpidarGSocket in SocketGraph.sockets_of(held):
 		for link: SocketLink in socket._links:
@@ -189,7 +190,7 @@ func _seat_of(socket: SpidarGSocket) -> SocketLink:
 	return null
 
 
-# The mate of a link of the held body.
+# Returns the socket of a link that is not on the held body.
 func _mate(link: SocketLink) -> SpidarGSocket:
 	return link.other if link.one.get_body() == held else link.one
 
@@ -198,7 +199,7 @@ func _mine(link: SocketLink) -> SpidarGSocket:
 	return link.one if link.one.get_body() == held else link.other
 
 
-# Tears off a socket in its seat, which the grip would have at `at`, if the pull is strong enough.
+# Tears a socket off its seat if the pull is strong enough. `at` is the pose of the socket if the body followed the grip.
 func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 	var mate: SpidarGSocket = link.mate_of(socket)
 	var way: Vector3 = (mate.global_position - at.origin) / _scale
@@ -210,7 +211,8 @@ func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 		_news.append(_tell_unlinked.bind(socket.get_instance_id(), mate.get_instance_id(), pull_n))
 
 
-# Finds a mate for a free socket, which the grip would have at `at`, and links it or lets it be drawn.
+# Finds a mate for a free socket, and links the two or attracts them. `at` is the pose of the socket if the body followed
+# the grip.
 func _approach(socket: SpidarGSocket, at: Transform3D, pulls: Array[SocketPull]) -> void:
 	var mate: SpidarGSocket = _nearest(socket, at)
 	if mate == null:
@@ -239,7 +241,7 @@ func _latch(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_news.append(_tell_linked.bind(socket.get_instance_id(), mate.get_instance_id()))
 
 
-# The nearest free socket within reach that fits, or null.
+# Returns the nearest free socket within reach that fits, or null.
 func _nearest(socket: SpidarGSocket, at: Transform3D) -> SpidarGSocket:
 	var best: SpidarGSocket = null
 	var best_m: float = socket.capture_distance * _scale
@@ -270,7 +272,7 @@ func _may_draw(socket: SpidarGSocket, mate: SpidarGSocket) -> bool:
 	return holder == null or holder.since_us < since_us  # Else it is the other hand that draws.
 
 
-# Several sockets of one body share: together they pull no harder and no steeper than one.
+# Divides the pulls of several sockets of one body, so that together they are no larger and no stiffer than one.
 func _share(pulls: Array[SocketPull]) -> void:
 	var shares: float = 0.0
 	for pull: SocketPull in pulls:
@@ -291,7 +293,7 @@ func _add_seats(pulls: Array[SocketPull], wanted: Transform3D) -> void:
 		pulls.append(pull)
 
 
-# What the pulls do to this hand, and to what feels the same on the mates: other hands, and loose bodies.
+# Applies the pulls to this hand, and the opposite ones to the mates: to other hands and to loose bodies.
 func _render(pulls: Array[SocketPull]) -> void:
 	var devices: Array[int] = []
 	if not pulls.is_empty():
@@ -312,7 +314,7 @@ func _render(pulls: Array[SocketPull]) -> void:
 	_end_springs(devices)
 
 
-# The weight of what hangs on the held body.
+# Adds the weight of the bodies that hang on the held body.
 func _add_weights() -> void:
 	if not _hand.render_weight:
 		return
@@ -326,7 +328,7 @@ func _add_weights() -> void:
 		_load_nm += (middle - _grip).cross(weight_n) / _scale
 
 
-# The held body stays in its seat, and the grip moves on alone.
+# Keeps the held body in its seat, while the grip moves on alone.
 func _sit(wanted: Transform3D, delta: float) -> void:
 	if _seats != _sat_on:
 		_sat_on = _seats.duplicate()
@@ -338,7 +340,7 @@ func _sit(wanted: Transform3D, delta: float) -> void:
 	_hand.detain(_caught.interpolate_with(_seat(wanted), smoothstep(0.0, SEATING_S, _seated_s)))
 
 
-# Ends this body's spring on all devices but these.
+# Ends the spring of this body on all devices but these.
 func _end_springs(but: Array[int]) -> void:
 	for id: int in _sprung:
 		var spidar: SpidarG = instance_from_id(id) as SpidarG
@@ -347,12 +349,13 @@ func _end_springs(but: Array[int]) -> void:
 	_sprung = but
 
 
-# No game's id is likely to be negative, and no other hand's is the same.
+# Returns the effect id of the spring. It is negative, so that it is unlike the ids of a game, and differs for each hand.
 func _spring_id() -> int:
 	return -1 - (get_instance_id() & 0xFFFFFF)
 
 
-# Where the held body sits: exactly on its mate; a ball turns with the hand, two balls make a line.
+# Returns the pose of the held body in its seat: exactly on its mate. A ball joint turns with the hand, and two ball joints
+# define a line.
 func _seat(wanted: Transform3D) -> Transform3D:
 	for link: SocketLink in _seats:
 		if not _mine(link).turns_freely:

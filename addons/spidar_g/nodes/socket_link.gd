@@ -13,7 +13,7 @@ var other: SpidarGSocket
 var holder: SocketHand
 
 var _joint: Generic6DOFJoint3D
-# Whether the exception between the two bodies is this link's own, and not the game's.
+# Whether this link, and not the game, made the collision exception between the two bodies.
 var _keeps_apart: bool = false
 
 
@@ -79,7 +79,7 @@ func _has_exception() -> bool:
 	return one.get_body().get_collision_exceptions().has(other.get_body())
 
 
-# The linked bodies do not push each other. Again after a joint: with it goes the engine's own exception.
+# Makes the linked bodies not collide. It is needed again after a joint, which takes the engine's own exception with it.
 func _except() -> void:
 	if not _has_exception():
 		one.get_body().add_collision_exception_with(other.get_body())
@@ -98,7 +98,7 @@ func _end_exception() -> void:
 	body.remove_collision_exception_with(mate)
 
 
-# Another link of the same two bodies, or null.
+# Returns another link of the same two bodies, or null.
 static func _link_between(body: PhysicsBody3D, mate: PhysicsBody3D) -> SocketLink:
 	for child: Node in body.get_children():
 		if child is SpidarGSocket:

@@ -75,7 +75,7 @@ const TICKS_TO_FORGET: int = 30
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null
-# The poses of the last tick and of the one before, and where the device stood then.
+# The poses of the last tick and of the one before, and the pose of the device at these ticks.
 var _pose := Transform3D.IDENTITY
 var _frame := Transform3D.IDENTITY
 var _pose_before := Transform3D.IDENTITY
@@ -196,7 +196,7 @@ func _read_pose() -> Transform3D:
 	return spidar.get_grip_transform()
 
 
-# Where the device stands, without scale. A flat device stays where it was, as the SpidarG itself does.
+# Returns the pose of the device without scale. A flat transform is ignored, as in SpidarG.
 func _device_frame() -> Transform3D:
 	var place: Transform3D = spidar.global_transform
 	if not place.is_finite() or is_zero_approx(place.basis.determinant()):
@@ -204,7 +204,7 @@ func _device_frame() -> Transform3D:
 	return place.orthonormalized()
 
 
-# A pose that was read while the device stood at `frame`, where the device has taken it since.
+# Returns a pose that was read while the device was at `frame`, moved along with the device since then.
 func _carried(pose: Transform3D, frame: Transform3D) -> Transform3D:
 	var now: Transform3D = _device_frame()
 	return pose if now == frame else now * frame.inverse() * pose

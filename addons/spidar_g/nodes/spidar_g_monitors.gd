@@ -86,7 +86,7 @@ func _statistic(key: String) -> float:
 	return _device.get_statistics()[key]
 
 
-# Of the cycles since this was asked for last.
+# Returns the percentage of saturated cycles since the last call.
 func _saturated_percent() -> float:
 	var numbers: Dictionary = _device.get_statistics()
 	var ticks: int = numbers["ticks"] - _ticks_before

@@ -51,11 +51,11 @@ const GIVEN_ALPHA: float = 0.45
 ## The path of the current recording of this panel, or of the last one. It is empty before the first recording.
 var recording_path: String = ""
 
-# The recording that runs is this panel's own; another's goes on when the panel leaves.
+# Whether this panel started the current recording. Another one goes on when the panel leaves.
 var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []
-# Whose contacts are shown: the first hand among the device's children.
+# The hand whose contacts are shown: the first one among the device's children.
 var _hand: SpidarGHand = null
 
 @onready var _state: Label = get_node_or_null(^"%State")
@@ -191,7 +191,7 @@ func _add_contacts(felt_n: float) -> void:
 	_push.add_sample([most_n, felt_n])
 
 
-# A device without a hand has no contacts to show.
+# Finds the hand. A device without a hand has no contacts to show.
 func _find_hand() -> void:
 	var found: SpidarGHand = null
 	for child: Node in device.get_children():
@@ -205,7 +205,7 @@ func _find_hand() -> void:
 	_push.visible = _hand != null
 
 
-# State, numbers and histogram.
+# Shows the state, the numbers and the histogram.
 func _report() -> void:
 	if not is_instance_valid(device) or not is_visible_in_tree() or _state == null:
 		return
@@ -252,7 +252,7 @@ func _tell(text: String) -> void:
 		_log.text = "\n".join(_events)
 
 
-# Signals of the device and what the log says of them.
+# Returns the signals of the device and their handlers.
 func _listeners() -> Dictionary[StringName, Callable]:
 	return {
 		&"device_connected": _connected,
@@ -303,7 +303,7 @@ func _rejected(message: String) -> void:
 	_tell(message)
 
 
-# Warnings. Faults and refusals have signals of their own.
+# Logs warnings. Faults and refusals have signals of their own.
 func _event(event: Dictionary) -> void:
 	if event["level"] == WARNING and event["name"] != "request_refused":
 		var where: String = " (string %d of 1-8)" % (event["string"] + 1) if event["string"] >= 0 else ""

@@ -120,7 +120,7 @@ const MARK_M: float = 0.01
 	set(value):
 		release_force = _checked(&"release_force", value, release_force, 0.1, 50.0, "N")
 
-# For the other scripts of sockets.
+# Used by the other scripts of sockets.
 var _links: Array[_SocketLink] = []
 
 
@@ -222,12 +222,12 @@ func _get_configuration_warnings() -> PackedStringArray:
 	return warnings
 
 
-# Whether it could take one more mate.
+# Returns whether the socket can take one more mate.
 func _is_free() -> bool:
 	return enabled and (meets_many or _links.is_empty())
 
 
-# Empty, or why these two are not linked, with the remedy.
+# Returns why the two sockets cannot be linked, with the remedy, or an empty string.
 func _why_not(mate: SpidarGSocket) -> String:
 	if mate == null or mate == self:
 		return "give another socket."
@@ -244,7 +244,7 @@ func _why_not(mate: SpidarGSocket) -> String:
 	return ""
 
 
-# Both sockets are told when the link is gone.
+# Ends the link first, and emits the signals of both sockets then.
 func _end_link(link: _SocketLink, pull_n: float) -> void:
 	var mate: SpidarGSocket = link.mate_of(self)
 	_SocketHands.note_parted(self, mate)
@@ -276,6 +276,6 @@ func _leave_groups() -> void:
 			remove_from_group(group)
 
 
-# A number that makes no sense is refused; NAN compares false.
+# Returns `value`, or `old` with an error if it is out of range. NAN compares false.
 func _checked(field: StringName, value: float, old: float, least: float, most: float, unit: String) -> float:
 	return _InRange.checked("SpidarGSocket \"%s\"" % name, field, value, old, unit, least, most)

@@ -138,7 +138,7 @@ var spidar: SpidarG = null
 var _hand: SpidarGHand = null
 var _tracker: XRControllerTracker = null
 var _claim: StringName = &""
-# Of the XR origin, or of the device where that is placed by device_transform.
+# The motion of the XR origin, or of the device if place_from_scene is off.
 var _base := _FrameMotion.new()
 var _base_is_origin: bool = true
 
@@ -275,7 +275,7 @@ func _stop() -> void:
 	set_physics_process(false)
 
 
-# Another node of the same name in the tree.
+# Returns another node with the same tracker name in the tree, or null.
 func _rival() -> SpidarGTracker:
 	if not is_inside_tree():
 		return null
@@ -291,7 +291,7 @@ func _is_there() -> bool:
 	return state != SpidarG.STATE_CLOSED and state != SpidarG.STATE_FAULT
 
 
-# False while an XR interface has a tracker of that name, such as a real controller; told once.
+# Returns false, with one error, if an XR interface has a tracker of this name, such as a real controller.
 func _publish() -> bool:
 	if XRServer.get_tracker(_claim) != null:
 		push_error("SpidarGTracker \"%s\" does nothing: XRServer has a tracker \"%s\" already, perhaps a real controller. Choose the other hand or a custom_name." % [name, _claim])
@@ -387,7 +387,7 @@ func _set_poses() -> void:
 	_tracker.set_pose(&"aim", aim, aim_velocity, turning, confidence)
 
 
-# Only a device whose forces are off can lack its zero: the statistics are not asked for in the others' ticks.
+# Only a device without forces can lack its zero, so the statistics are read in these states only.
 func _confidence() -> XRPose.TrackingConfidence:
 	var may_lack_zero: bool = spidar.get_state() in [SpidarG.STATE_CONNECTED, SpidarG.STATE_TAUT]
 	if may_lack_zero and not spidar.is_simulated() and not spidar.get_statistics()["zero_known"]:

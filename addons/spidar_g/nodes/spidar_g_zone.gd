@@ -267,7 +267,7 @@ func _physics_process(_delta: float) -> void:
 			_drop(spidar)
 
 
-# Runs only where somebody can feel the zone.
+# Turns processing on only if a device can feel the zone.
 func _choose() -> void:
 	if not is_inside_tree():
 		return
@@ -309,7 +309,7 @@ func _follow(spidar: SpidarG, tick_s: float) -> void:
 		(hand_entered if touch.is_inside else hand_exited).emit(spidar)
 
 
-# The part of the force that belongs to a depth.
+# Returns the share of the force at this depth, from 0 to 1.
 func _share(depth: float) -> float:
 	if depth <= 0.0:
 		return 0.0

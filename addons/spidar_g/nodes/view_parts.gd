@@ -34,7 +34,7 @@ var arrow: Node3D
 var _scale: float = 1.0
 var _rods: Array[MeshInstance3D] = []
 var _knots: MultiMeshInstance3D
-# Of a rigid grip: a ball, and a spoke to each string's end.
+# The parts of a rigid grip: a ball, and a spoke to the end of each string.
 var _ball: MeshInstance3D
 var _spokes: MultiMeshInstance3D
 var _poles: Array[Node3D] = []
@@ -210,7 +210,7 @@ func _make_arrow() -> void:
 		arrow.add_child(part)
 
 
-# A unit cylinder along Y, from `from` to `to`.
+# Returns the transform of a unit cylinder along Y that makes it a rod from `from` to `to`.
 static func _between(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	var along: Vector3 = to - from
 	var length: float = along.length()

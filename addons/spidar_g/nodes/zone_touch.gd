@@ -91,13 +91,13 @@ func _thicken(zone: SpidarGZone) -> bool:
 	)
 
 
-# From the zone's origin to the grip, in the axes of the device (device m).
+# Returns the vector from the zone's origin to the grip, in the axes of the device (m of device motion).
 func _from(zone: SpidarGZone) -> Vector3:
 	var to_device: Basis = _device_axes().inverse()
 	return to_device * (_spidar.get_grip_transform().origin - zone.global_position) / _spidar.workspace_scale
 
 
-# Of the grip, in the axes of the device (device m/s).
+# Returns the velocity of the grip in the axes of the device (m/s of device motion).
 func _velocity() -> Vector3:
 	return _device_axes().inverse() * _spidar.get_linear_velocity() / _spidar.workspace_scale
 
@@ -106,7 +106,7 @@ func _device_axes() -> Basis:
 	return _spidar.global_basis.orthonormalized()
 
 
-# Stiffness at which a magnet `away_m` from its middle pulls with no more than the zone's largest force.
+# Returns the stiffness with which a magnet at the distance `away_m` pulls with at most the zone's largest force.
 static func _magnet_gain(zone: SpidarGZone, away_m: float) -> float:
 	return zone.max_force / away_m if zone.stiffness * away_m > zone.max_force else zone.stiffness
 
@@ -116,8 +116,8 @@ func _pull(zone: SpidarGZone, gain: float, dof_mask: int) -> bool:
 	return _spidar.set_spring_effect(_id, centre, 0.0, strength * gain, 0.0, 0.0, dof_mask, RENEWED_FOR_S)
 
 
-# A spring of the servo loop pulls along axes of the device alone. For an oblique axis half of the stiffness is such a spring
-# in all directions, and a force that is renewed in each tick takes it away along the axis and doubles it across.
+# A spring of the servo loop pulls along the axes of the device alone. For an oblique axis, half of the stiffness is such a
+# spring in all directions. A force that is refreshed in each tick cancels it along the axis and doubles it across.
 func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	var axis: Vector3 = (_device_axes().inverse() * zone.global_basis.y).normalized()
 	var from: Vector3 = _from(zone)
@@ -140,6 +140,6 @@ func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	)
 
 
-# Number of the device's axis that is nearest to a direction of the world.
+# Returns the number of the device's axis that is nearest to a direction of the world.
 func _nearest_axis(direction: Vector3) -> int:
 	return (_device_axes().inverse() * direction).abs().max_axis_index()

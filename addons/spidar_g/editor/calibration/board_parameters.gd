@@ -91,7 +91,7 @@ func _take() -> void:
 	_show_value()
 
 
-# What the board should hold as a rule: all motors by their encoders; its id as it is.
+# Proposes the usual value: all motors are read by their encoders, and the id stays as it is.
 func _show_value() -> void:
 	for board: Dictionary in _session.calibrator.get_boards():
 		if board["id"] == _board.get_selected_id():

@@ -46,7 +46,7 @@ func _session_of(object: Object) -> CalibrationSession:
 	return _sessions[key]
 
 
-# The node of the edited scene that uses this calibration, for its config; null: none.
+# Returns the node of the edited scene that uses this calibration, or null.
 func _user_of(calibration: SpidarGCalibration, from: Node) -> SpidarG:
 	if from == null:
 		return null

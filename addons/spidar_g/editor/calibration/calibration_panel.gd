@@ -59,7 +59,7 @@ func _exit_tree() -> void:
 	get_tree().create_timer(GRACE_S).timeout.connect(_close_unheld.bind(_session))
 
 
-# The device is open only while a panel asks for it.
+# Closes the device if no panel shows its session any more.
 static func _close_unheld(session: CalibrationSession) -> void:
 	if session.get_meta("holders", 0) == 0:
 		session.close_device()

@@ -247,7 +247,7 @@ func _start_queue(task: SpidarGCalibrator.Task, strings: Array, weight_n: float)
 	_say("")
 
 
-# One string after the other; a simulated hand is waited for.
+# Runs the task on one string after the other. A simulated hand must have arrived first.
 func _run_queue() -> void:
 	if _task_runs:
 		var told: Dictionary = calibrator.get_task()

@@ -11,7 +11,7 @@ const PRACTICE_COMMON_GAIN: float = 0.03
 const PRACTICE_GAIN: float = 0.005
 const PRACTICE_TENSION: float = 0.12
 
-# Configs of practice by their nodes: of their own, so that nothing of practice is left in the scene.
+# The config of each node in practice, by instance id. It is kept here so that the scene does not contain it.
 static var _practice: Dictionary[int, SpidarGConfig] = {}
 
 var node: SpidarG

@@ -219,7 +219,7 @@ func _draw_map(box: PackedVector3Array, scale: float) -> void:
 	_glass(Shapes.map_mesh(points, margins, cells), Vector3.ZERO, scale)
 
 
-# The report stands at `above`.
+# Draws the force capacity at the probe, and the report at `above`.
 func _draw_capacity(above: Vector3, scale: float) -> void:
 	var pose := Transform3D(Basis.IDENTITY, probe_m)
 	var directions: PackedVector3Array = shapes.directions
@@ -284,7 +284,7 @@ static func _scaled_transform(at: Transform3D, scale: float) -> Transform3D:
 	return Transform3D(Basis.from_scale(Vector3.ONE * scale) * at.basis, scale * at.origin)
 
 
-# Over the middle of the frame's top.
+# Returns a point above the middle of the frame's top.
 static func _above(motors: PackedVector3Array) -> Vector3:
 	var middle: Vector3 = 0.5 * (_low(motors) + _high(motors))
 	return Vector3(middle.x, _high(motors).y + REPORT_HEIGHT_M, middle.z)

@@ -151,7 +151,7 @@ func _edges(a: int, b: int, c: int, edge: float) -> bool:
 	return true
 
 
-# Each triangle into four, the new corners out on the sphere.
+# Splits each triangle into four and moves the new corners to the sphere.
 func _split() -> void:
 	var halves: Dictionary[Vector2i, int] = {}
 	var finer: PackedInt32Array = []

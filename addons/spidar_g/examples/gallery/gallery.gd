@@ -64,7 +64,7 @@ func close() -> void:
 	(_buttons.get_node(name) as Button).grab_focus()
 
 
-# The pictures keep their shape in every window.
+# Sizes the buttons so that the pictures keep their shape in every window.
 func _size_buttons() -> void:
 	var width: float = _buttons.size.x / _buttons.columns
 	for button: Button in _buttons.get_children():

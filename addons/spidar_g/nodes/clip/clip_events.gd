@@ -24,7 +24,7 @@ var source: Source = null
 
 var _event := Event.NONE
 var _approach := Approach.new()
-# What is connected, and to what of this object.
+# The connected signals. The callable of each one has the same place in _answers.
 var _signals: Array[Signal] = []
 var _answers: Array[Callable] = []
 

@@ -14,20 +14,20 @@ var loops: bool = false
 
 var _clip: SpidarGClip
 var _id: int
-# Unit length, world.
+# Unit vector in world coordinates.
 var _direction: Vector3
 var _share: float
 var _began_s: float = 0.0
 var _ends: bool = false
-# Asked for in the last step, N.
+# The amplitude requested in the last step, in newtons.
 var _given_n: float = 0.0
-# When that was, s from the beginning.
+# The time of the last step, in seconds from the beginning of the clip.
 var _stepped_s: float = -1.0
-# Nothing more is asked for; what was given fades.
+# Nothing more is requested; the vibration fades.
 var _fades: bool = false
 
 
-# share: of the clip's strength, 0 to 1. direction: world, not zero.
+# share: of the clip's strength, from 0 to 1. direction: in world coordinates, not zero.
 func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: float, is_loop: bool) -> void:
 	spidar = of
 	loops = is_loop
@@ -72,7 +72,7 @@ func stop() -> void:
 		spidar.clear_effect(_id)
 
 
-# The amplitude at the end of the tick from `at_s` on; a peak that lies within the tick is given instead.
+# Returns the amplitude at the end of the tick from `at_s` on. If the clip has a peak within the tick, returns the peak.
 func _due(at_s: float, lasts_s: float, tick_s: float) -> float:
 	var later_s: float = at_s + tick_s
 	var most_n: float = _clip.get_peak_strength(at_s, later_s)

@@ -165,7 +165,7 @@ func _full_n() -> float:
 	return minf(strength * gain, MOST_N)
 
 
-# Of the envelope by numbers, 0 to 1.
+# Returns the level of the envelope by numbers, from 0 to 1.
 func _level(time_s: float) -> float:
 	if time_s < attack:
 		return time_s / attack
@@ -173,7 +173,7 @@ func _level(time_s: float) -> float:
 	return clampf(1.0 - fallen / release, 0.0, 1.0) if fallen > 0.0 and release > 0.0 else 1.0
 
 
-# The stream's, converted when first asked for; the stream must be one that can be felt.
+# Returns what can be felt of the stream, converted at the first call. The stream must have no problem.
 func _hear() -> _WavFeel:
 	if _sound == null:
 		_sound = _WavFeel.make(stream, frequency)

@@ -122,12 +122,12 @@ static var _made: int = 0
 var _id: int = FIRST_ID
 var _devices: _Devices = null
 var _events := _Events.new()
-# By the instance of the device, as below: when the last clip ended there, and when the hand last did anything that an event
-# may come from, s of the device.
+# The run of each device, by the instance id of the device. The two below are by the same key: the time of the device at
+# which its last clip ended, and at which the hand last did anything that an event may come from, in seconds.
 var _runs: Dictionary[int, _Run] = {}
 var _ended_s: Dictionary[int, float] = {}
 var _heard_s: Dictionary[int, float] = {}
-# Whether it was said that no effect is free, since a clip was last played.
+# Whether the warning that no effect is free was given since the last clip was played.
 var _is_told: bool = false
 
 
@@ -186,7 +186,7 @@ func _enter_tree() -> void:
 	_devices.changed.connect(_look)
 
 
-# Each time that the player has entered the tree, and its neighbors too. The engine turns processing on just before.
+# Called each time the player and its neighbors have entered the tree. The engine turns processing on just before.
 func _ready() -> void:
 	_look_and_warn()
 
@@ -242,7 +242,7 @@ func _physics_process(_delta: float) -> void:
 			_drop(id)
 
 
-# Connects the events anew, and runs only where something is to be done.
+# Connects the events again, and turns processing on only if it is needed.
 func _look() -> void:
 	update_configuration_warnings()
 	if _devices == null:
@@ -286,7 +286,7 @@ func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 	_start(spidar, along, minf(1.0, speed / full_impact_speed) if is_scaled else 1.0, false)
 
 
-# Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
+# Returns whether an event is more than a bounce of the hand or an effect of the clip itself.
 func _is_new(spidar: SpidarG) -> bool:
 	var id: int = spidar.get_instance_id()
 	var now_s: float = spidar.get_device_time()
@@ -313,7 +313,7 @@ func _touched_direction(spidar: SpidarG) -> Vector3:
 	return Vector3.ZERO
 
 
-# along: the normal, or zero where nothing is touched. share: of the clip's strength, more than 0.
+# along: the normal, or zero if nothing is touched. share: of the clip's strength, above 0.
 func _start(spidar: SpidarG, along: Vector3, share: float, loops: bool) -> bool:
 	if not _get_problem().is_empty():
 		push_warning("SpidarGClipPlayer \"%s\" plays nothing: %s" % [name, _get_problem()])

@@ -33,7 +33,7 @@ var frequencies: PackedFloat32Array = []
 var was_cut: bool = false
 
 var _energies: PackedFloat64Array = []
-# Times of the upward crossings of zero, s.
+# The times of the upward zero crossings, in seconds.
 var _crossings: PackedFloat64Array = []
 
 
@@ -106,7 +106,7 @@ func _take(stream: AudioStreamWAV, otherwise_hz: float) -> void:
 	_crossings.clear()
 
 
-# Both channels as one.
+# Returns the samples as floats, with both channels mixed.
 static func _samples(data: PackedByteArray, count: int, has_16_bits: bool, stereo: bool) -> PackedFloat32Array:
 	var samples: PackedFloat32Array = []
 	samples.resize(count)
@@ -125,7 +125,7 @@ static func _samples(data: PackedByteArray, count: int, has_16_bits: bool, stere
 	return samples
 
 
-# Mean square of each frame, and where the wave crosses zero upward.
+# Computes the mean square of each frame, and the upward zero crossings.
 func _listen(samples: PackedFloat32Array, rate: float) -> void:
 	var keeps: float = 1.0 - TAU * OFFSET_HZ / rate
 	var peak_keeps: float = exp(-1.0 / (PEAK_FORGOTTEN_S * rate))
@@ -156,7 +156,7 @@ func _listen(samples: PackedFloat32Array, rate: float) -> void:
 			_energies.append(energy / (end - first))
 
 
-# From the energies of the frames to their loudness.
+# Computes the loudness of the frames from their energies.
 func _weigh() -> void:
 	var most: float = 0.0
 	loudness.resize(_energies.size())
@@ -176,7 +176,8 @@ func _weigh() -> void:
 		loudness[frame] /= most
 
 
-# The frequency of each frame. All are moved by the same number of octaves, so that what rises still rises.
+# Computes the frequency of each frame. All frames are moved by the same number of octaves, so that a rising tone still
+# rises.
 func _tune(otherwise_hz: float) -> void:
 	var found: PackedFloat64Array = _heard()
 	var pitch: float = 0.0
@@ -199,7 +200,7 @@ func _tune(otherwise_hz: float) -> void:
 		frequencies[frame] = clampf(hz * factor, LEAST_HZ, MOST_HZ)
 
 
-# The frequency around the middle of each frame, before it is moved; 0 where none is heard.
+# Returns the frequency around the middle of each frame before it is moved by octaves, or 0 if none is found.
 func _heard() -> PackedFloat64Array:
 	var found: PackedFloat64Array = []
 	found.resize(loudness.size())

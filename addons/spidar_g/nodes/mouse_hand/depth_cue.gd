@@ -53,7 +53,7 @@ func show_below(device: SpidarG, mask: int, camera: Camera3D) -> void:
 		_place(from, hit["position"], hit["normal"], workspace_scale, right)
 
 
-# What a SpidarGHand of the device holds moves with the grip: it counts as air.
+# Returns the body that a SpidarGHand of the device holds. It moves with the grip, so the ray must ignore it.
 func _held_by(device: SpidarG) -> Array[RID]:
 	if not is_instance_valid(_hand) or _hand.get_parent() != device:
 		_hand = null

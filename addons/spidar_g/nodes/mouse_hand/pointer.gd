@@ -10,7 +10,7 @@ const LEVEL_VIEW: float = 0.2
 var turning: bool = false
 
 var _mode_before: Input.MouseMode = Input.MOUSE_MODE_VISIBLE
-# Where the cursor was last, and how far the clutch left the grip from it, px.
+# The last position of the cursor, and the distance that the clutch left between it and the grip, in pixels.
 var _cursor_px: Vector2 = Vector2.ZERO
 var _offset_px: Vector2 = Vector2.ZERO
 var _was_clutched: bool = false

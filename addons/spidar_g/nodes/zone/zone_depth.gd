@@ -5,7 +5,7 @@ extends RefCounted
 ## A convex polygon with more points than this is ignored, because its faces would take too long to compute.
 const MOST_HULL_POINTS: int = 128
 
-# Of each convex shape seen so far, its points and its faces.
+# The points and the faces of each convex polygon that was seen.
 var _points: Dictionary[Shape3D, PackedVector3Array] = {}
 var _planes: Dictionary[Shape3D, Array] = {}
 
@@ -59,7 +59,7 @@ func _depth(shape: Shape3D, point: Vector3) -> float:
 	return -INF
 
 
-# beyond: how far the point is beyond the faces along each axis.
+# beyond: the distance of the point beyond the faces along each axis; negative inside.
 static func _in_box(beyond: Vector3) -> float:
 	var most: float = maxf(beyond.x, maxf(beyond.y, beyond.z))
 	return -most if most <= 0.0 else -beyond.max(Vector3.ZERO).length()
@@ -76,7 +76,8 @@ func _in_hull(shape: ConvexPolygonShape3D, point: Vector3) -> float:
 	return -most if most > -INF else -INF
 
 
-# The faces of the hull of `points`: each corner of the dual body, whose faces the points are, is a face of the hull.
+# Returns the faces of the hull of `points`. Each corner of the dual body, whose faces the points are, is a face of the
+# hull.
 static func _faces(points: PackedVector3Array) -> Array[Plane]:
 	var faces: Array[Plane] = []
 	if points.size() < 4 or points.size() > MOST_HULL_POINTS:
