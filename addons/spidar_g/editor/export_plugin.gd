@@ -1,10 +1,10 @@
 @tool
 extends EditorExportPlugin
-## Puts the stand-ins of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so that
-## scripts that name SpidarG load there. Beside a library they would be in the way of its classes.
+## Puts the stand-in classes of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so
+## that scripts that name SpidarG load there. Where there is a library, they would hide its classes.
 ##
-## Godot finds a script's class by a list in the project's cache, which it copies when an export ends. For the time of the
-## export the list holds the stand-ins too.
+## Godot finds the class of a script in a list in the project's cache, which it copies at the end of an export. During the
+## export, the list contains the stand-in classes too.
 
 const STAND_INS: String = "res://addons/spidar_g/stand_in"
 const MANIFEST: String = "res://addons/spidar_g/spidar_g.gdextension"
@@ -50,7 +50,7 @@ func _export_end() -> void:
 		file.store_buffer(_list_before)
 
 
-## Whether the manifest names a library for a system of these features, as "linux.debug.x86_64" does.
+# Returns whether the manifest names a library for a system with these features, as "linux.debug.x86_64" does.
 func _has_library(features: PackedStringArray) -> bool:
 	var manifest: ConfigFile = ConfigFile.new()
 	if manifest.load(MANIFEST) != OK:
@@ -61,7 +61,7 @@ func _has_library(features: PackedStringArray) -> bool:
 	return false
 
 
-## What Godot's list says of a script.
+# Returns the entry for a script in Godot's list of classes.
 func _entry(path: String) -> Dictionary:
 	var text: String = FileAccess.get_file_as_string(path)
 	return {

@@ -1,21 +1,22 @@
 @tool
 extends EditorPlugin
-## Adds the calibration panel of the inspector, the 3-D view of SpidarG nodes, and a menu item: the physics settings that
-## small held things need; and exports for systems without a library hold stand-ins. The nodes work without this plugin.
+## Adds the calibration panel of the inspector, the 3D view of SpidarG nodes, and a menu item for the physics settings that
+## small held things need. Exports for systems without a library get stand-in classes. The nodes work without this plugin.
 ##
-## Scripts that name the library's classes do not load without it, so they are loaded only where it is.
+## Scripts that name the classes of the library do not load without it, so the plugin loads them only if the library exists.
 
 const ExportPlugin := preload("export_plugin.gd")
 
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
-## Jolt lets a squeezed 3 mm stick rest on a floor; its defaults of 20 mm for the other two are larger than the stick.
+## The project settings that the menu item proposes. With them, Jolt lets a squeezed stick of 3 mm rest on a floor; the
+## defaults of 20 mm for two of them are larger than the stick.
 const SETTINGS: Dictionary[String, Variant] = {
 	"physics/3d/physics_engine": "Jolt Physics",
 	"physics/jolt_physics_3d/simulation/penetration_slop": 0.0005,
 	"physics/jolt_physics_3d/simulation/speculative_contact_distance": 0.002,
 }
 
-## Those of the scene editor; null without the library.
+# The tools of the scene editor, or null without the library.
 var _tools: RefCounted = null
 var _export: ExportPlugin = null
 
@@ -26,9 +27,9 @@ func _enter_tree() -> void:
 	add_tool_menu_item(MENU_ITEM, _ask)
 	if not ClassDB.class_exists(&"SpidarG"):
 		push_warning(
-			"The SPIDAR-G add-on has no library for this system (%s on %s): its nodes are not there. "
+			"The SPIDAR-G add-on has no library for this system (%s on %s): its nodes do not exist. "
 			% [OS.get_name(), Engine.get_architecture_name()]
-			+ "Scripts that name them load if you delete addons/spidar_g/stand_in/.gdignore."
+			+ "Delete addons/spidar_g/stand_in/.gdignore to load scripts that name them."
 		)
 		return
 	_tools = (load("res://addons/spidar_g/editor/scene_tools.gd") as Script).call(&"new", self)
@@ -43,16 +44,16 @@ func _exit_tree() -> void:
 	_export = null
 
 
-## Shows what would change; nothing is written before the answer.
+# Shows what would change. Nothing is written before the user confirms.
 func _ask() -> void:
 	var changes: PackedStringArray = []
 	for path: String in SETTINGS:
 		var now: Variant = ProjectSettings.get_setting(path, "unset")
 		if now != SETTINGS[path]:
-			changes.append("%s: %s -> %s" % [path, now, SETTINGS[path]])
+			changes.append("%s: %s -> %s" % [path, _shown(now), _shown(SETTINGS[path])])
 	var dialog: ConfirmationDialog = ConfirmationDialog.new()
 	dialog.title = MENU_ITEM
-	dialog.dialog_text = "\n".join(changes) if changes.size() > 0 else "All settings are in place already."
+	dialog.dialog_text = "\n".join(changes) if changes.size() > 0 else "All settings already have the proposed values."
 	dialog.confirmed.connect(_apply)
 	dialog.visibility_changed.connect(
 		func() -> void:
@@ -60,6 +61,11 @@ func _ask() -> void:
 				dialog.queue_free()
 	)
 	EditorInterface.popup_dialog_centered(dialog)
+
+
+# A float of the project settings has single precision: 0.02 would be shown as 0.01999999955297.
+func _shown(value: Variant) -> String:
+	return String.num(value, 6) if value is float else str(value)
 
 
 func _apply() -> void:

@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## What the plugin adds to the scene editor: the calibration panel of the inspector and the 3-D view of SpidarG nodes.
+## Adds the calibration panel of the inspector and the 3D view of SpidarG nodes to the scene editor.
 
 const CalibrationInspector := preload("calibration/calibration_inspector.gd")
 const GizmoPlugin := preload("gizmo/gizmo_plugin.gd")
@@ -22,7 +22,7 @@ func _init(plugin: EditorPlugin) -> void:
 	plugin.add_control_to_container(EditorPlugin.CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
 
 
-## Takes all of it away again; nothing may be called after.
+## Removes everything that this object has added to the editor. Nothing may be called afterwards.
 func remove() -> void:
 	_calibration.close_all()
 	_plugin.remove_inspector_plugin(_calibration)

@@ -1,24 +1,27 @@
 @tool
-## Bars of how late the servo thread woke up, on logarithmic scales: two bars an octave.
+## Draws a histogram of how late the servo thread woke up. Both scales are logarithmic, with two bars for each octave.
 extends Control
 
 const PlotStrip := preload("plot_strip.gd")
 
 const BAR_COLOUR: Color = Color(0.30, 0.62, 0.95)
 const LATE_COLOUR: Color = Color(0.95, 0.55, 0.15)
-## From here on a bar is coloured as late, us.
+## Bars from this lateness on are drawn in the color of late wake-ups, in microseconds.
 const LATE_US: float = 500.0
-## What is shown: earlier wake-ups stand in the first bar, later ones in the last, us.
+## The lateness of the first bar, in microseconds. Earlier wake-ups are added to this bar.
 const FIRST_US: float = 1.0
+## The lateness of the last bar, in microseconds. Later wake-ups are added to this bar.
 const LAST_US: float = 20000.0
 
-## Half a bar, in decades: one label a decade.
+## Half the width of a bar, in decades. It selects the one bar that gets the label of a decade.
 const HALF_BAR_DECADES: float = 0.0753
 
-## Bucket i counts wake-ups from 2^(i/2) to 2^((i+1)/2) ns after the deadline.
+## The counts of [method SpidarG.get_lateness_histogram]: bucket i counts the wake-ups that were 2^(i/2) to 2^((i+1)/2) ns
+## late.
 var counts: PackedInt32Array = []
 
 
+## Shows other counts, in the form of [method SpidarG.get_lateness_histogram].
 func show_counts(new_counts: PackedInt32Array) -> void:
 	if counts == new_counts:
 		return
@@ -26,11 +29,12 @@ func show_counts(new_counts: PackedInt32Array) -> void:
 	queue_redraw()
 
 
+## Returns the smallest lateness of a bucket, in microseconds.
 static func bucket_begin_us(bucket: int) -> float:
 	return pow(2.0, 0.5 * bucket) * 1e-3
 
 
-## The counts of the bars shown: what lies outside is added to the first and the last.
+## Returns the counts of the bars that are shown. What lies outside is added to the first and the last bar.
 func bars() -> PackedInt32Array:
 	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
 	var last: int = int(ceil(2.0 * log(LAST_US * 1000.0) / log(2.0)))
@@ -73,7 +77,8 @@ func _draw() -> void:
 		draw_string(font, placed[text], text, HORIZONTAL_ALIGNMENT_LEFT, -1, PlotStrip.FONT_SIZE, PlotStrip.TEXT)
 
 
-## One label a decade, in us, and where it begins: under its bar, whole within the plot.
+## Returns the labels in microseconds, one for each decade, and the position at which each begins: below its bar and within
+## the plot.
 func labels(area: Rect2) -> Dictionary[String, Vector2]:
 	var font: Font = get_theme_default_font()
 	var placed: Dictionary[String, Vector2] = {}

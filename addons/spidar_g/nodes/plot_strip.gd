@@ -1,8 +1,8 @@
 @tool
-## A strip of curves that run from right to left: the newest value is at the right edge.
+## Draws curves that run from right to left, with the newest value at the right edge.
 extends Control
 
-## How many samples are kept, and drawn.
+## The number of samples that are kept and drawn.
 const SAMPLES: int = 240
 const HEAD_HEIGHT: float = 18.0
 const FONT_SIZE: int = 12
@@ -10,12 +10,13 @@ const BACKGROUND: Color = Color(0.10, 0.11, 0.13, 0.9)
 const GRID: Color = Color(1, 1, 1, 0.12)
 const TEXT: Color = Color(0.85, 0.87, 0.90)
 
-## Stands above the curves.
+## The title that is drawn above the curves.
 var title: String = ""
-## The smallest range shown, in the unit of the values; it grows with them.
+## The lower end of the smallest range that is shown, in the unit of the values. The range grows with the values.
 var least_low: float = 0.0
+## The upper end of the smallest range that is shown, in the unit of the values. The range grows with the values.
 var least_high: float = 1.0
-## One colour a curve; sets their number.
+## Sets one color for each curve. The size of the array is the number of curves.
 var colours: PackedColorArray = []:
 	set(value):
 		colours = value
@@ -26,7 +27,7 @@ var _count: int = 0
 var _next: int = 0
 
 
-## Forgets every sample.
+## Removes all samples and redraws the empty strip.
 func clear() -> void:
 	_values.resize(SAMPLES * colours.size())
 	_count = 0
@@ -34,7 +35,7 @@ func clear() -> void:
 	queue_redraw()
 
 
-## One value a curve. Others than that are left out.
+## Adds one value for each curve. Ignored if the number of values is not the number of curves.
 func add_sample(values: PackedFloat64Array) -> void:
 	if values.size() != colours.size() or colours.is_empty():
 		return
@@ -45,11 +46,12 @@ func add_sample(values: PackedFloat64Array) -> void:
 	queue_redraw()
 
 
+## Returns the number of samples that are drawn, at most [constant SAMPLES].
 func get_sample_count() -> int:
 	return _count
 
 
-## What a curve has held, oldest first.
+## Returns the samples of one curve, the oldest first.
 func get_curve(curve: int) -> PackedFloat32Array:
 	var values: PackedFloat32Array = []
 	for i: int in _count:
@@ -57,12 +59,12 @@ func get_curve(curve: int) -> PackedFloat32Array:
 	return values
 
 
-## Three digits, as a range of some newtons or hundredths of a newton metre needs them.
+# Formats a number with three digits, for ranges of some newtons or hundredths of a newton meter.
 func _short(value: float) -> String:
 	return "%.1f" % value if absf(value) >= 1.0 or is_zero_approx(value) else "%.3f" % value
 
 
-## The place in the ring of the sample that is `i` after the oldest.
+# Returns the index in the ring of the sample that is `i` after the oldest one.
 func _place(i: int) -> int:
 	return (_next - _count + i + SAMPLES) % SAMPLES
 

@@ -1,13 +1,13 @@
 @tool
 extends RefCounted
-## What hangs together by links, and what carries it.
+## Finds which bodies are connected by links, and what carries them.
 
 const SocketHand := preload("socket_hand.gd")
 const SocketHands := preload("socket_hands.gd")
 const SocketLink := preload("socket_link.gd")
 
 
-## The sockets of a body, in the order of the scene tree.
+## Returns the sockets of a body, in the order of the scene tree.
 static func sockets_of(body: Node) -> Array[SpidarGSocket]:
 	var sockets: Array[SpidarGSocket] = []
 	for child: Node in body.get_children():
@@ -16,7 +16,7 @@ static func sockets_of(body: Node) -> Array[SpidarGSocket]:
 	return sockets
 
 
-## All bodies that are reached from `body` by links, itself first; not by way of `without`.
+## Returns all bodies that links connect to `body`, itself first. Paths through `without` are ignored.
 static func joined_to(body: PhysicsBody3D, without: PhysicsBody3D) -> Array[PhysicsBody3D]:
 	var reached: Array[PhysicsBody3D] = [body]
 	var index: int = 0
@@ -30,8 +30,8 @@ static func joined_to(body: PhysicsBody3D, without: PhysicsBody3D) -> Array[Phys
 	return reached
 
 
-## What holds `body` up when `without` is taken away: a body that does not move by itself, or the SocketHand that has held one
-## of the joined bodies since before `since_us`. Null: nothing, it is loose.
+## Returns what carries `body` if `without` is taken away: a body that does not move by itself, or the SocketHand that has
+## held one of the connected bodies since before `since_us`. Returns [code]null[/code] if nothing does.
 static func carrier_of(body: PhysicsBody3D, without: PhysicsBody3D, since_us: int) -> Node:
 	var by_hand: SocketHand = null
 	for reached: PhysicsBody3D in joined_to(body, without):
@@ -43,7 +43,7 @@ static func carrier_of(body: PhysicsBody3D, without: PhysicsBody3D, since_us: in
 	return by_hand
 
 
-## The bodies that hang on what a hand holds, and on nothing else.
+## Returns the bodies that hang on the body of this hand and on nothing else.
 static func hanging_on(hand: SocketHand) -> Array[RigidBody3D]:
 	var hanging: Array[RigidBody3D] = []
 	for reached: PhysicsBody3D in joined_to(hand.held, null):
@@ -56,7 +56,7 @@ static func hanging_on(hand: SocketHand) -> Array[RigidBody3D]:
 	return hanging
 
 
-## The sockets that meet in one point with this one, by links from socket to socket; itself first.
+## Returns the sockets that links connect to this one in one point, itself first.
 static func meeting(socket: SpidarGSocket) -> Array[SpidarGSocket]:
 	var met: Array[SpidarGSocket] = [socket]
 	var index: int = 0

@@ -1,7 +1,8 @@
 @tool
 extends Node
-## What the sockets of the body in one hand do: they are drawn to the ones they fit, click into their seat, hold there by a
-## spring, and come off. An internal child of a SpidarGHand; it works while that hand holds a body with sockets.
+## Moves the sockets of the body in one hand: they are drawn to the ones that they fit, click into their seat, are held there
+## by a spring, and come off. This is an internal child of a [SpidarGHand], and it works while that hand holds a body with
+## sockets.
 
 const SocketGraph := preload("socket_graph.gd")
 const SocketHand := preload("socket_hand.gd")
@@ -10,34 +11,35 @@ const SocketLink := preload("socket_link.gd")
 const SocketPull := preload("socket_pull.gd")
 const SocketSpring := preload("socket_spring.gd")
 
-## From where it was caught into the seat.
+## The time in which the body moves into its seat, in seconds.
 const SEATING_S: float = 0.08
 
-## The body in the hand, if it has sockets; else null.
+## The body in the hand if it has sockets, or [code]null[/code].
 var held: RigidBody3D
-## When it was grasped: of two hands the one that came first carries.
+## The time at which the body was grasped, in microseconds. If two hands hold linked bodies, the one that came first carries.
 var since_us: int = 0
 
 var _hand: SpidarGHand
 var _spidar: SpidarG
-## Of the held body: the links that the hand's spring holds.
+# The links of the held body that the spring of the hand holds.
 var _seats: Array[SocketLink] = []
-## Those whose seats the body is on its way to, from where, and for how long.
+# The links into whose seats the body moves. The two below: the pose at which it began, and the time since then.
 var _sat_on: Array[SocketLink] = []
 var _caught: Transform3D = Transform3D.IDENTITY
 var _seated_s: float = 0.0
-## Sockets of the held body that have come off a mate and are still within its reach, by instance.
+# Sockets of the held body that have come off a mate and are still within its reach: instance id of the socket to that of
+# the mate.
 var _parted: Dictionary[int, int] = {}
-## What linked and came off in this tick, told when all is done: a listener may free what it likes.
+# Signals of this tick. They are emitted at its end, because a listener may free any node.
 var _news: Array[Callable] = []
-## Loads on the held body about the grip, N and N m, until it is next carried: also those of other hands' sockets.
+# Force (N) and moment (N m) on the held body about the grip, until it is next carried. Sockets of other hands add to them.
 var _load_n: Vector3 = Vector3.ZERO
 var _load_nm: Vector3 = Vector3.ZERO
-## The devices that this body's spring acts on, by instance: its own, and those of the hands that carry its mates.
+# The devices on which the spring of this body acts, by instance id: its own, and those of the hands that carry its mates.
 var _sprung: Array[int] = []
 var _scale: float = 1.0
 var _grip: Vector3 = Vector3.ZERO
-## What the device renders at most.
+# The largest stiffness that the device renders, in N/m.
 var _stiffest_n_m: float = 0.0
 
 
@@ -55,7 +57,8 @@ func _exit_tree() -> void:
 	_let_go()
 
 
-## A link of the held body that came by link_to. Returns false when a joint has to hold it.
+## Takes over a link of the held body that [method SpidarGSocket.link_to] made. Returns [code]false[/code] if a joint must
+## hold it.
 func take(link: SocketLink) -> bool:
 	var mate: SpidarGSocket = link.other if link.one.get_body() == held else link.one
 	if SocketGraph.carrier_of(mate.get_body(), held, since_us) == null:
@@ -64,11 +67,14 @@ func take(link: SocketLink) -> bool:
 	return true
 
 
+## Records that a socket of the held body has come off `mate`, so that the two are not drawn together before they were out of
+## reach.
 func note_parted(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_parted[socket.get_instance_id()] = mate.get_instance_id()
 
 
-## What these sockets do to this hand; `on_mates`: they are another hand's, and their mates are on this one's body.
+## Renders what `pulls` do to this hand. With `on_mates` they belong to another hand, and their mates are on the body of this
+## one.
 func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
 	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, on_mates)
 	_load_n += spring.load_n
@@ -77,6 +83,7 @@ func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
 		_load_nm += spring.late_moment_nm()
 
 
+## Returns the device of the hand, or [code]null[/code] before the first grasp.
 func device() -> SpidarG:
 	return _spidar
 
@@ -99,7 +106,7 @@ func _on_released(_body: RigidBody3D) -> void:
 		_let_go()
 
 
-## Joints take over from the spring.
+# Ends the springs; joints take over.
 func _let_go() -> void:
 	if held == null:
 		return
@@ -153,7 +160,7 @@ func _look() -> void:
 	_stiffest_n_m = _spidar.get_stiffness_limits().x
 
 
-## What sits on something that is carried can be pulled off: the spring holds it. Everything else hangs rigidly.
+# A link to something that is carried can be pulled off, so the spring holds it. Every other link is rigid.
 func _sort_links() -> void:
 	for socket: SpidarGSocket in SocketGraph.sockets_of(held):
 		for link: SocketLink in socket._links:
@@ -183,7 +190,7 @@ func _seat_of(socket: SpidarGSocket) -> SocketLink:
 	return null
 
 
-## The mate of a link of the held body.
+# Returns the socket of a link that is not on the held body.
 func _mate(link: SocketLink) -> SpidarGSocket:
 	return link.other if link.one.get_body() == held else link.one
 
@@ -192,7 +199,7 @@ func _mine(link: SocketLink) -> SpidarGSocket:
 	return link.one if link.one.get_body() == held else link.other
 
 
-## Tears off a socket in its seat, which the grip would have at `at`, if the pull is strong enough.
+# Tears a socket off its seat if the pull is strong enough. `at` is the pose of the socket if the body followed the grip.
 func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 	var mate: SpidarGSocket = link.mate_of(socket)
 	var way: Vector3 = (mate.global_position - at.origin) / _scale
@@ -204,7 +211,8 @@ func _strain(link: SocketLink, socket: SpidarGSocket, at: Transform3D) -> void:
 		_news.append(_tell_unlinked.bind(socket.get_instance_id(), mate.get_instance_id(), pull_n))
 
 
-## Finds a mate for a free socket, which the grip would have at `at`, and links it or lets it be drawn.
+# Finds a mate for a free socket, and links the two or attracts them. `at` is the pose of the socket if the body followed
+# the grip.
 func _approach(socket: SpidarGSocket, at: Transform3D, pulls: Array[SocketPull]) -> void:
 	var mate: SpidarGSocket = _nearest(socket, at)
 	if mate == null:
@@ -233,7 +241,7 @@ func _latch(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_news.append(_tell_linked.bind(socket.get_instance_id(), mate.get_instance_id()))
 
 
-## The nearest free socket within reach that fits, or null.
+# Returns the nearest free socket within reach that fits, or null.
 func _nearest(socket: SpidarGSocket, at: Transform3D) -> SpidarGSocket:
 	var best: SpidarGSocket = null
 	var best_m: float = socket.capture_distance * _scale
@@ -264,7 +272,7 @@ func _may_draw(socket: SpidarGSocket, mate: SpidarGSocket) -> bool:
 	return holder == null or holder.since_us < since_us  # Else it is the other hand that draws.
 
 
-## Several sockets of one body share: together they pull no harder and no steeper than one.
+# Divides the pulls of several sockets of one body, so that together they are no larger and no stiffer than one.
 func _share(pulls: Array[SocketPull]) -> void:
 	var shares: float = 0.0
 	for pull: SocketPull in pulls:
@@ -285,7 +293,7 @@ func _add_seats(pulls: Array[SocketPull], wanted: Transform3D) -> void:
 		pulls.append(pull)
 
 
-## What the pulls do to this hand, and to what feels the same on the mates: other hands, and loose bodies.
+# Applies the pulls to this hand, and the opposite ones to the mates: to other hands and to loose bodies.
 func _render(pulls: Array[SocketPull]) -> void:
 	var devices: Array[int] = []
 	if not pulls.is_empty():
@@ -306,7 +314,7 @@ func _render(pulls: Array[SocketPull]) -> void:
 	_end_springs(devices)
 
 
-## The weight of what hangs on the held body.
+# Adds the weight of the bodies that hang on the held body.
 func _add_weights() -> void:
 	if not _hand.render_weight:
 		return
@@ -320,7 +328,7 @@ func _add_weights() -> void:
 		_load_nm += (middle - _grip).cross(weight_n) / _scale
 
 
-## The held body stays in its seat, and the grip moves on alone.
+# Keeps the held body in its seat, while the grip moves on alone.
 func _sit(wanted: Transform3D, delta: float) -> void:
 	if _seats != _sat_on:
 		_sat_on = _seats.duplicate()
@@ -332,7 +340,7 @@ func _sit(wanted: Transform3D, delta: float) -> void:
 	_hand.detain(_caught.interpolate_with(_seat(wanted), smoothstep(0.0, SEATING_S, _seated_s)))
 
 
-## Ends this body's spring on all devices but these.
+# Ends the spring of this body on all devices but these.
 func _end_springs(but: Array[int]) -> void:
 	for id: int in _sprung:
 		var spidar: SpidarG = instance_from_id(id) as SpidarG
@@ -341,12 +349,13 @@ func _end_springs(but: Array[int]) -> void:
 	_sprung = but
 
 
-## No game's id is likely to be negative, and no other hand's is the same.
+# Returns the effect id of the spring. It is negative, so that it is unlike the ids of a game, and differs for each hand.
 func _spring_id() -> int:
 	return -1 - (get_instance_id() & 0xFFFFFF)
 
 
-## Where the held body sits: exactly on its mate; a ball turns with the hand, two balls make a line.
+# Returns the pose of the held body in its seat: exactly on its mate. A ball joint turns with the hand, and two ball joints
+# define a line.
 func _seat(wanted: Transform3D) -> Transform3D:
 	for link: SocketLink in _seats:
 		if not _mine(link).turns_freely:

@@ -1,7 +1,7 @@
 @tool
 extends RefCounted
-## How sockets and hands of a scene tree find each other: groups, and one SocketHand in each SpidarGHand. All of it lives in
-## the scene tree, so that nothing outlives a scene.
+## Lets sockets and hands of a scene tree find each other, by groups and by one SocketHand in each [SpidarGHand]. Everything
+## is in the scene tree, so nothing outlives a scene.
 
 const SocketHand := preload("socket_hand.gd")
 
@@ -9,12 +9,12 @@ const SOCKETS: StringName = &"_spidar_g_sockets"
 const HANDS: StringName = &"_spidar_g_socket_hands"
 
 
-## The sockets with this key.
+## Returns the group that contains the sockets with this key.
 static func group_of(key: StringName) -> StringName:
 	return StringName("_spidar_g_sockets_" + key)
 
 
-## Gives every hand of the tree what it needs, now and as long as there is a socket.
+## Gives every hand of the tree a SocketHand, now and as long as there is a socket.
 static func watch(tree: SceneTree) -> void:
 	# Without the add-on's library a SpidarGHand is a stand-in, which holds nothing.
 	if not ClassDB.class_exists(&"SpidarG") or tree.node_added.is_connected(_on_node_added):
@@ -23,13 +23,13 @@ static func watch(tree: SceneTree) -> void:
 	_equip_all.call_deferred(tree)
 
 
-## Looks no further when the last socket has left.
+## Stops looking for hands when the last socket has left the tree.
 static func unwatch(tree: SceneTree) -> void:
 	if tree.get_node_count_in_group(SOCKETS) == 0 and tree.node_added.is_connected(_on_node_added):
 		tree.node_added.disconnect(_on_node_added)
 
 
-## The hand that holds this body, of several the first; or null.
+## Returns the hand that holds this body, the first one if there are several, or [code]null[/code].
 static func holder_of(body: PhysicsBody3D) -> SocketHand:
 	var found: SocketHand = null
 	if body == null or not body.is_inside_tree():
@@ -41,7 +41,8 @@ static func holder_of(body: PhysicsBody3D) -> SocketHand:
 	return found
 
 
-## These two have come apart: a hand that still holds one of them draws them together again only after they were out of reach.
+## Records that two sockets have come apart. A hand that still holds one of them draws them together again only after they
+## were out of reach.
 static func note_parted(one: SpidarGSocket, other: SpidarGSocket) -> void:
 	var by_one: SocketHand = holder_of(one.get_body())
 	var by_other: SocketHand = holder_of(other.get_body())

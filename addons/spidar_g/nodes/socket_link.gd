@@ -1,22 +1,23 @@
 @tool
 extends RefCounted
-## Two linked sockets, and what holds them together: the spring of a hand, else a joint.
+## A link of two sockets, with what holds them together: the spring of a hand or a joint.
 
 const SocketHand := preload("socket_hand.gd")
 const SocketLink := preload("socket_link.gd")
 
-## The socket that came to the other one.
+## The socket that was moved to the other one of this link.
 var one: SpidarGSocket
+## The socket that the other one of this link was moved to.
 var other: SpidarGSocket
-## The hand whose held body sits on its mate by this link; null: the joint holds.
+## The hand whose held body sits on its mate by this link. If it is [code]null[/code], the joint holds the link.
 var holder: SocketHand
 
 var _joint: Generic6DOFJoint3D
-## Whether the exception between the two bodies is this link's own, and not the game's.
+# Whether this link, and not the game, made the collision exception between the two bodies.
 var _keeps_apart: bool = false
 
 
-## Links both. Nothing holds them until lock() or a hand does.
+## Links two sockets. Nothing holds them before [method lock] or [method seat] is called.
 static func make(from: SpidarGSocket, to: SpidarGSocket) -> SocketLink:
 	var link: SocketLink = SocketLink.new()
 	link.one = from
@@ -28,11 +29,12 @@ static func make(from: SpidarGSocket, to: SpidarGSocket) -> SocketLink:
 	return link
 
 
+## Returns the socket at the other end of this link.
 func mate_of(socket: SpidarGSocket) -> SpidarGSocket:
 	return other if socket == one else one
 
 
-## A joint holds the two bodies as they are.
+## Lets a joint hold the two bodies in their current poses.
 func lock() -> void:
 	holder = null
 	if _joint != null or one.get_body() == null or other.get_body() == null:
@@ -45,14 +47,14 @@ func lock() -> void:
 	_joint.node_b = _joint.get_path_to(one.get_body())
 
 
-## The spring of a hand holds instead of the joint.
+## Lets the spring of a hand hold the link in place of the joint.
 func seat(in_hand: SocketHand) -> void:
 	holder = in_hand
 	_free_joint()
 	_except()
 
 
-## Ends the link.
+## Ends the link, so that the two bodies collide again and wake up.
 func cut() -> void:
 	holder = null
 	one._links.erase(self)
@@ -77,7 +79,7 @@ func _has_exception() -> bool:
 	return one.get_body().get_collision_exceptions().has(other.get_body())
 
 
-## The linked bodies do not push each other. Again after a joint: with it goes the engine's own exception.
+# Makes the linked bodies not collide. It is needed again after a joint, which takes the engine's own exception with it.
 func _except() -> void:
 	if not _has_exception():
 		one.get_body().add_collision_exception_with(other.get_body())
@@ -96,7 +98,7 @@ func _end_exception() -> void:
 	body.remove_collision_exception_with(mate)
 
 
-## Another link of the same two bodies, or null.
+# Returns another link of the same two bodies, or null.
 static func _link_between(body: PhysicsBody3D, mate: PhysicsBody3D) -> SocketLink:
 	for child: Node in body.get_children():
 		if child is SpidarGSocket:

@@ -1,28 +1,29 @@
 @tool
 extends RefCounted
-## How one socket of a held body is drawn to its mate in one tick.
+## Computes how one socket of a held body is drawn to its mate in one physics tick.
 
 const SocketPull := preload("socket_pull.gd")
 
-## The stable limit of a load that is renewed at game rate: attraction rises no steeper.
+## The largest stiffness of a load that the game refreshes, in N/m. The attraction rises no more steeply.
 const LOAD_STIFFNESS_N_M: float = 150.0
-## Attraction begins at the capture distance and is full at this share of it.
+## The attraction is full at this share of the capture distance and begins at the capture distance.
 const FULL_FROM: float = 0.75
-## Of the turn into the seat, for sockets that do not turn freely.
+## The stiffness that turns a socket into its seat, in N m/rad. Ignored for a socket that turns freely.
 const TURN_STIFFNESS_NM_RAD: float = 0.10
+## The largest moment that turns a socket into its seat, in newton meters.
 const TURN_LIMIT_NM: float = 0.04
 
 var socket: SpidarGSocket
-## Where the grip would have the socket, world.
+## The pose of the socket in world coordinates if the body followed the grip.
 var at: Transform3D
 var mate: SpidarGSocket
-## On the held body, world axes.
+## The force on the held body, in newtons, in world axes.
 var force_n: Vector3
-## How far the magnet acts, or which part of the seats' spring this one is: 0 to 1.
+## This is the strength of the magnet, or the share of the seat in the common spring, from 0 to 1.
 var share: float
-## By how much the force changes when the grip moves across.
+## The change of the force when the grip moves across it, in newtons per meter.
 var stiffness_n_m: float
-## Whether it is in its seat.
+## If [code]true[/code], the socket sits in the seat of its mate.
 var is_seat: bool = false
 
 
@@ -40,7 +41,8 @@ func weaken(by: float) -> void:
 	stiffness_n_m /= by
 
 
-## What turns the held body into the seat (N m, world axes); none for a socket that turns freely.
+## Returns the moment that turns the held body into the seat, in newton meters, in world axes. It is zero for a socket that
+## turns freely.
 func turn_nm() -> Vector3:
 	if socket.turns_freely:
 		return Vector3.ZERO
@@ -57,7 +59,8 @@ func turn_stiffness_nm_rad() -> float:
 	return 0.0 if socket.turns_freely else share * TURN_STIFFNESS_NM_RAD
 
 
-## Angle between the axes of a socket at `where` and its mate, rad; 0 for a socket that turns freely.
+## Returns the angle between the axes of a socket with the pose `where` and those of its mate, in radians. It is 0 for a
+## socket that turns freely.
 static func turn_between(of: SpidarGSocket, where: Transform3D, to: SpidarGSocket) -> float:
 	if of.turns_freely:
 		return 0.0

@@ -1,31 +1,32 @@
 @tool
 extends RefCounted
-## What the sockets of a held body do to a grip. The attraction's force is a load, which draws the body ahead of the hand; all
-## else is one spring of the device's own loop. Renewed as loads at game rate, a seat's force came two frames late, 0.1 N too
-## weak on the way out and too strong on the way back; and a body gripped 0.1 m from its socket was shaken off, because the
-## moment grows with the square of the arm.
+## Computes what the sockets of a held body do to a grip. The attraction is a load, which moves the body ahead of the hand.
+## The seats are one spring effect of the servo loop: refreshed as loads by the game, their force came two frames late, which
+## made it 0.1 N wrong, and a body gripped 0.1 m from its socket was shaken off.
 
 const SocketPull := preload("socket_pull.gd")
 const SocketSpring := preload("socket_spring.gd")
 
-## The spring is renewed each frame; a game that hangs lets go.
+## The duration of the spring effect, in seconds. The game refreshes it in each tick, and a game that hangs lets go.
 const DURATION_S: float = 0.1
-## A spring's center is not turned further than this from the grip, rad.
+## The largest rotation between the grip and the center of the spring, in radians.
 const FARTHEST_TURN: float = 1.5
-## The stable limit of a moment that is renewed at game rate.
+## The largest rotational stiffness of a load that the game refreshes, in N m/rad. A stiffer one is not stable.
 const LOAD_TURN_STIFFNESS_NM_RAD: float = 0.5
 
-## Of the attraction, N, world axes.
+## The force of the attraction, in newtons, in world axes.
 var load_n: Vector3
-## Of the seats, now: N and N m, world axes; the moment also that of the attraction.
+## The force of the seats at this moment, in newtons, in world axes.
 var force_n: Vector3
+## The moment of the seats and of the attraction about the grip, in newton meters, in world axes.
 var moment_nm: Vector3
-## By how much they change when the grip moves: N/m and N m/rad.
+## The change of the force when the grip moves, in newtons per meter.
 var stiffness_n_m: float
+## The change of the moment when the grip turns, in newton meters per radian.
 var turn_stiffness_nm_rad: float
 
 
-## The sum of `pulls` about a grip at `grip`; with `on_mates` what their mates feel of them.
+## Returns the sum of `pulls` about the position `grip`. With `on_mates` it returns what the mates of these sockets feel.
 static func about(grip: Vector3, scale: float, pulls: Array, on_mates: bool) -> SocketSpring:
 	var spring: SocketSpring = SocketSpring.new()
 	var way: float = -1.0 if on_mates else 1.0
@@ -42,7 +43,7 @@ static func about(grip: Vector3, scale: float, pulls: Array, on_mates: bool) -> 
 	return spring
 
 
-## Renews the spring. Returns false when the device has no effect left for it.
+## Refreshes the spring effect with this id. Returns [code]false[/code] if the device has no effect left for it.
 func act(on: SpidarG, id: int) -> bool:
 	var limits: Vector3 = on.get_stiffness_limits()
 	var linear: float = minf(stiffness_n_m, limits.x)
@@ -58,10 +59,11 @@ func act(on: SpidarG, id: int) -> bool:
 	)
 
 
-## As loads, where the device has no effect left: only so much of them stays steady.
+## Returns the part of the force that is stable as a load, in newtons, for a device that has no effect left.
 func late_force_n() -> Vector3:
 	return force_n * minf(1.0, SocketPull.LOAD_STIFFNESS_N_M / maxf(stiffness_n_m, 1e-6))
 
 
+## Returns the part of the moment that is stable as a load, in newton meters, for a device that has no effect left.
 func late_moment_nm() -> Vector3:
 	return moment_nm * minf(1.0, LOAD_TURN_STIFFNESS_NM_RAD / maxf(turn_stiffness_nm_rad, 1e-6))

@@ -4,74 +4,78 @@ class_name SpidarGGrip
 extends Node3D
 ## Follows the grip of a [SpidarG], so that the children of this node follow the hand.
 ##
-## Make it a descendant of a [SpidarG], or set [member spidar_path], and put meshes, lights, sounds or areas below it.
+## Make this node a descendant of a [SpidarG], or set [member spidar_path], and add meshes, lights, sounds or areas as its
+## children.
 ## [codeblock]
-## SpidarG
-## ├─ SpidarGHand
-## └─ SpidarGGrip
-##    └─ MeshInstance3D    (a tool in the hand)
+## # A small box in the hand.
+## var grip := SpidarGGrip.new()
+## $SpidarG.add_child(grip)
+## var tool := MeshInstance3D.new()
+## tool.mesh = BoxMesh.new()
+## tool.scale = Vector3.ONE * 0.03
+## grip.add_child(tool)
 ## [/codeblock]
-## In each physics tick the node takes the pose that the device has in that tick, also where the [SpidarG] moves through
-## the scene. Its [method Node._physics_process] runs after that of the [SpidarG]: the priorities of this node are raised
-## where the order of the tree does not ensure that. A script below this node in the tree, or of a higher priority,
-## reads the pose of the same tick.
+## In each physics tick the node takes the pose that the device has in this tick, also if the [SpidarG] moves through the
+## scene. Its [method Node._physics_process] runs after that of the [SpidarG]: the priorities of this node are raised if the
+## order of the tree does not ensure this. A script below this node in the tree, or with a higher priority, reads the pose of
+## the same tick.
 ## [br][br]
-## Between ticks the node is drawn between the last two poses, if frames are drawn faster than the physics ticks: see
-## [member smoothing]. Where the engine's own physics interpolation is on for this node, the engine does that alone.
+## If frames are drawn faster than physics ticks, the node is drawn between the last two poses: see [member smoothing]. If the
+## engine's physics interpolation is on for this node, the engine alone does this.
 ## [br][br]
 ## The children keep their size: [member SpidarG.workspace_scale] and the scale of the parents do not change it.
 
-## What to follow.
+## Selects the pose that the node follows: the grip or the proxy.
 enum Follow {
-	## The grip of the device: [method SpidarG.get_grip_transform].
+	## The node follows the grip of the device: [method SpidarG.get_grip_transform].
 	GRIP,
-	## The tool as it is shown, which surfaces stop: [method SpidarGHand.get_proxy_transform] of the [SpidarGHand] that is a
-	## child of the [SpidarG].
+	## The node follows the proxy, which stops at surfaces: [method SpidarGHand.get_proxy_transform] of the [SpidarGHand] that
+	## is a child of the [SpidarG].
 	PROXY,
 }
-## How to move between physics ticks.
+## Selects how the node moves in frames that are drawn between physics ticks.
 enum Smoothing {
-	## From the pose of the last tick but one to that of the last, at most one tick late, if frames are drawn faster than
-	## the physics ticks. Smooth with every drive mode of the device.
+	## The node moves from the pose of the last tick but one to that of the last tick, if frames are drawn faster than physics
+	## ticks. It is at most one tick late, and it is smooth with every drive mode of the device.
 	INTERPOLATE,
-	## To the newest pose that the device has, as [SpidarGView] draws it. Nothing is late, and a device with
-	## [constant SpidarG.DRIVE_STEPPED] moves in the steps of the physics ticks.
+	## The node takes the newest pose of the device, as [SpidarGView] does. It is never late. With
+	## [constant SpidarG.DRIVE_STEPPED] it moves in the steps of the physics ticks.
 	NEWEST,
 }
 
-const Finder := preload("follow/spidar_finder.gd")
-## Frames count as faster than ticks until none was drawn between two ticks for so many ticks.
+const _Finder := preload("follow/spidar_finder.gd")
+## The node stops interpolating after this many physics ticks between which no frame was drawn.
 const TICKS_TO_FORGET: int = 30
 
-## Whether to follow the grip or the proxy. Without a [SpidarGHand] there is no proxy: the node then follows the grip, and
-## a configuration warning says so.
+## Selects whether the node follows the grip or the proxy. Without a [SpidarGHand] there is no proxy; the node then follows
+## the grip, and a configuration warning says so.
 @export var follow := Follow.GRIP:
 	set(value):
 		follow = value
 		_choose()
-## The [SpidarG] to follow. Empty: the nearest ancestor that is one.
+## Sets the [SpidarG] that the node follows. With an empty path the nearest ancestor that is a [SpidarG] is used.
 @export_node_path("SpidarG") var spidar_path: NodePath:
 	set(value):
 		spidar_path = value
 		_choose()
-## Place of this node in the frame of the grip: its origin is the middle of the grip, its x axis the jaws' (m, not scaled
-## by [member SpidarG.workspace_scale]). A scale in it scales the children. A transform that is flat or not finite is
-## refused with an error, and the old one stays.
-@export var offset := Transform3D.IDENTITY:
+## Sets the pose of this node in the frame of the grip, in meters that [member SpidarG.workspace_scale] does not scale. The
+## origin is the center of the grip, and the x axis is the axis of the jaws. A scale in the transform scales the children. A
+## transform that is flat or not finite is refused with an error, and the old one stays.
+@export_custom(PROPERTY_HINT_NONE, "suffix:m") var offset := Transform3D.IDENTITY:
 	set(value):
 		if not value.is_finite() or is_zero_approx(value.basis.determinant()):
 			push_error("SpidarGGrip.offset = %s: give a finite transform (m) with no scale of zero; the old one stays." % value)
 			return
 		offset = value
-## How to move in frames that are drawn between physics ticks. Has no effect while the engine's physics interpolation is
-## on for this node.
+## Selects how the node moves in frames that are drawn between physics ticks. Ignored while the engine's physics interpolation
+## is on for this node.
 @export var smoothing := Smoothing.INTERPOLATE
 
-## The device that is followed, or null: then the node stays where it is, and a configuration warning says why.
+## The device that the node follows. If it is [code]null[/code], the node does not move, and a configuration warning says why.
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null
-## The poses of the last tick and of the one before, and where the device stood then.
+# The poses of the last tick and of the one before, and the pose of the device at these ticks.
 var _pose := Transform3D.IDENTITY
 var _frame := Transform3D.IDENTITY
 var _pose_before := Transform3D.IDENTITY
@@ -81,8 +85,8 @@ var _frames_since_tick: int = 0
 var _ticks_to_smooth: int = 0
 
 
-## Returns the place of this node at the last physics tick, in the world. Between ticks [member Node3D.global_transform]
-## is what is drawn. Returns the current place while no device is followed.
+## Returns the pose of this node in the world at the last physics tick. Between ticks [member Node3D.global_transform] is the
+## pose that is drawn. Returns the current pose while no device is followed.
 func get_tick_transform() -> Transform3D:
 	return _carried(_pose, _frame) * offset if _is_placed and spidar != null else global_transform
 
@@ -96,7 +100,7 @@ func _enter_tree() -> void:
 func _ready() -> void:
 	_choose()
 	if spidar == null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG"):
-		push_warning(Finder.problem(self, spidar_path, "SpidarGGrip"))
+		push_warning(_Finder.problem(self, spidar_path, "SpidarGGrip"))
 
 
 func _exit_tree() -> void:
@@ -106,10 +110,10 @@ func _exit_tree() -> void:
 
 func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
-	var problem: String = Finder.problem(self, spidar_path, "SpidarGGrip")
+	var problem: String = _Finder.problem(self, spidar_path, "SpidarGGrip")
 	if not problem.is_empty():
 		warnings.append(problem)
-	elif follow == Follow.PROXY and Finder.find_hand(Finder.find(self, spidar_path)) == null:
+	elif follow == Follow.PROXY and _Finder.find_hand(_Finder.find(self, spidar_path)) == null:
 		warnings.append("SpidarGGrip follows the grip: its SpidarG has no SpidarGHand, which makes the proxy. "
 			+ "Add a SpidarGHand as a child of the SpidarG, or set follow to Grip.")
 	return warnings
@@ -148,7 +152,7 @@ func _process(_delta: float) -> void:
 	_place(now)
 
 
-## Finds device and hand, and runs after both. The engine turns processing on just before _ready().
+# Finds device and hand, and runs after both. The engine turns processing on just before _ready().
 func _choose() -> void:
 	if not is_inside_tree():
 		return
@@ -157,15 +161,15 @@ func _choose() -> void:
 		set_process(false)
 		set_physics_process(false)
 		return
-	spidar = Finder.find(self, spidar_path)
-	_hand = Finder.find_hand(spidar) if follow == Follow.PROXY else null
+	spidar = _Finder.find(self, spidar_path)
+	_hand = _Finder.find_hand(spidar) if follow == Follow.PROXY else null
 	_is_placed = false
 	set_process(spidar != null)
 	set_physics_process(spidar != null)
 	if spidar == null:
 		return
-	Finder.run_after(self, spidar)
-	Finder.run_after(self, _hand)
+	_Finder.run_after(self, spidar)
+	_Finder.run_after(self, _hand)
 	# A child of the device comes along at once when the device is moved; elsewhere a parent must not move it.
 	top_level = get_parent() != spidar
 
@@ -185,14 +189,14 @@ func _read_again() -> void:
 func _read_pose() -> Transform3D:
 	if follow == Follow.PROXY:
 		if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
-			_hand = Finder.find_hand(spidar)
-			Finder.run_after(self, _hand)
+			_hand = _Finder.find_hand(spidar)
+			_Finder.run_after(self, _hand)
 		if _hand != null:
 			return _hand.get_proxy_transform()
 	return spidar.get_grip_transform()
 
 
-## Where the device stands, without scale. A flat device stays where it was, as the SpidarG itself does.
+# Returns the pose of the device without scale. A flat transform is ignored, as in SpidarG.
 func _device_frame() -> Transform3D:
 	var place: Transform3D = spidar.global_transform
 	if not place.is_finite() or is_zero_approx(place.basis.determinant()):
@@ -200,7 +204,7 @@ func _device_frame() -> Transform3D:
 	return place.orthonormalized()
 
 
-## A pose that was read while the device stood at `frame`, where the device has taken it since.
+# Returns a pose that was read while the device was at `frame`, moved along with the device since then.
 func _carried(pose: Transform3D, frame: Transform3D) -> Transform3D:
 	var now: Transform3D = _device_frame()
 	return pose if now == frame else now * frame.inverse() * pose

@@ -1,14 +1,21 @@
 @tool
 class_name SpidarGMonitors
 extends Node
-## Adds what a [SpidarG] does to the Monitors tab of Godot's debugger: servo rate, punctuality, step time, saturation,
-## faults, and the energy given to the simulated hand.
+## Adds measurements of a [SpidarG] to the Monitors tab of the debugger.
 ##
-## Add it as a child of a [SpidarG]. The monitors are there while it is in the tree, in debug builds only, and cost
-## nothing unless the debugger asks for them.
+## Add this node as a child of a [SpidarG]. The monitors are the servo rate in hertz, the 99th percentiles of lateness and of
+## computing time in microseconds, missed deadlines, the percentage of saturated cycles, faults, and for a simulated device
+## the energy that the hand received in millijoules. They exist while the node is in the tree, in debug builds only, and take
+## no time unless the debugger reads them.
+## [codeblock]
+## var device: SpidarG = $SpidarG
+## var monitors := SpidarGMonitors.new()
+## device.add_child(monitors)
+## print(monitors.get_monitor_names())
+## [/codeblock]
 
-## Monitors are named [code]spidar_g/...[/code]; of further devices [code]spidar_g NODE/...[/code], and of further nodes of
-## that name [code]spidar_g NODE 2/...[/code].
+## The first part of the names of all monitors, as in [code]spidar_g/servo_rate_hz[/code]. For further devices it is followed
+## by the name of the node.
 const GROUP: String = "spidar_g"
 
 var _device: SpidarG = null
@@ -53,7 +60,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	return ["SpidarGMonitors shows nothing here: make it a child of a SpidarG node."]
 
 
-## The names under which Performance knows what this node added.
+## Returns the names of the monitors that this node has added, as [method Performance.get_custom_monitor] takes them.
 func get_monitor_names() -> Array[StringName]:
 	return _names
 
@@ -79,7 +86,7 @@ func _statistic(key: String) -> float:
 	return _device.get_statistics()[key]
 
 
-## Of the cycles since this was asked for last.
+# Returns the percentage of saturated cycles since the last call.
 func _saturated_percent() -> float:
 	var numbers: Dictionary = _device.get_statistics()
 	var ticks: int = numbers["ticks"] - _ticks_before

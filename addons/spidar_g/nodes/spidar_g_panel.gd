@@ -1,33 +1,45 @@
 @tool
 class_name SpidarGPanel
 extends PanelContainer
-## Shows what a [SpidarG] does: state, tensions, wrench asked for and given, what a [SpidarGHand] below it touches, how
-## punctual its servo thread is, and what happened; starts and stops recordings.
+## Shows what a [SpidarG] does, and starts and stops recordings.
 ##
-## Add [code]spidar_g_panel.tscn[/code] to a scene, under a CanvasLayer or as a child of the device, and set [member
-## device]. It only reads. While it is hidden it computes nothing.
+## Add the scene [code]spidar_g_panel.tscn[/code] under a [CanvasLayer] or as a child of the device, and set [member device].
+## The panel shows the state of the device, its tensions, the requested and the achieved wrench, the contacts of its
+## [SpidarGHand], the punctuality of the servo thread, and the last events. It changes nothing of the device except its
+## recording. While it is hidden it computes nothing.
+## [codeblock]
+## var panel: SpidarGPanel = preload("res://addons/spidar_g/nodes/spidar_g_panel.tscn").instantiate()
+## panel.device = $SpidarG
+## add_child(panel)
+## [/codeblock]
 
-const PlotStrip := preload("plot_strip.gd")
-const JitterPlot := preload("jitter_plot.gd")
+const _PlotStrip := preload("plot_strip.gd")
+const _JitterPlot := preload("jitter_plot.gd")
 
-## Where recordings go.
+## The folder in which [method toggle_recording] creates its files.
 const RECORDING_FOLDER: String = "user://spidar_g_recordings"
+## The largest number of lines that the log keeps; the oldest ones are removed.
 const MOST_EVENTS: int = 100
-## Numbers and the histogram are renewed after this many frames.
+## The numbers and the histogram are refreshed each time this many frames have been drawn.
 const FRAMES_PER_REPORT: int = 10
+## The curves of x, y and z are drawn in these colors.
 const FORCE_COLOURS: PackedColorArray = [
 	Color(0.95, 0.35, 0.30), Color(0.40, 0.80, 0.35), Color(0.35, 0.60, 1.0)
 ]
+## The curve of the grasp torque is drawn in this color.
 const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
+## The curve of contact points is drawn in this color.
 const POINTS_COLOUR: Color = Color(0.80, 0.60, 1.0)
+## The curve of the largest push of a contact is drawn in this color.
 const PUSH_COLOUR: Color = Color(0.95, 0.35, 0.65)
+## The curve of the achieved force is drawn in this color.
 const FELT_COLOUR: Color = Color(0.85, 0.87, 0.90)
-## The level of events that the log shows: something that should be looked at, but stopped nothing.
+## The level of the events that the log shows: [constant SpidarG.EVENT_WARNING].
 const WARNING: int = 1
-## Given values are drawn paler than asked ones.
+## Achieved values are drawn with this alpha, paler than requested ones.
 const GIVEN_ALPHA: float = 0.45
 
-## The device to show. Empty: the parent, when that is a [SpidarG].
+## Sets the device that the panel shows. If it is [code]null[/code], the parent is used if it is a [SpidarG].
 @export var device: SpidarG:
 	set(value):
 		if device != value:
@@ -36,23 +48,23 @@ const GIVEN_ALPHA: float = 0.45
 			_connect()
 			update_configuration_warnings()
 
-## The file of the recording that runs, or of the last one.
+## The path of the current recording of this panel, or of the last one. It is empty before the first recording.
 var recording_path: String = ""
 
-## The recording that runs is this panel's own; another's goes on when the panel leaves.
+# Whether this panel started the current recording. Another one goes on when the panel leaves.
 var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []
-## Whose contacts are shown: the first hand among the device's children.
+# The hand whose contacts are shown: the first one among the device's children.
 var _hand: SpidarGHand = null
 
 @onready var _state: Label = get_node_or_null(^"%State")
-@onready var _tensions: PlotStrip = get_node_or_null(^"%Tensions")
-@onready var _force: PlotStrip = get_node_or_null(^"%Force")
-@onready var _moment: PlotStrip = get_node_or_null(^"%Moment")
-@onready var _points: PlotStrip = get_node_or_null(^"%Points")
-@onready var _push: PlotStrip = get_node_or_null(^"%Push")
-@onready var _jitter: JitterPlot = get_node_or_null(^"%Jitter")
+@onready var _tensions: _PlotStrip = get_node_or_null(^"%Tensions")
+@onready var _force: _PlotStrip = get_node_or_null(^"%Force")
+@onready var _moment: _PlotStrip = get_node_or_null(^"%Moment")
+@onready var _points: _PlotStrip = get_node_or_null(^"%Points")
+@onready var _push: _PlotStrip = get_node_or_null(^"%Push")
+@onready var _jitter: _JitterPlot = get_node_or_null(^"%Jitter")
 @onready var _numbers: Label = get_node_or_null(^"%Numbers")
 @onready var _log: RichTextLabel = get_node_or_null(^"%Events")
 @onready var _record: Button = get_node_or_null(^"%Record")
@@ -76,17 +88,17 @@ func _ready() -> void:
 	for string: int in 8:
 		tints.append(Color.from_hsv(string / 8.0, 0.55, 0.95))
 	_tensions.colours = tints
-	_force.title = "Force x y z, N: asked, given pale"
+	_force.title = "Force x y z, N: requested, achieved pale"
 	_force.least_low = -1.0
 	_force.colours = _pairs(FORCE_COLOURS)
 	_moment.title = "Moment x y z, grasp, N m"
 	_moment.least_low = -0.02
 	_moment.least_high = 0.02
 	_moment.colours = _pairs(FORCE_COLOURS + PackedColorArray([GRASP_COLOUR]))
-	_points.title = "Contact points: that push, near pale"
+	_points.title = "Contact points: pushing, near ones pale"
 	_points.least_high = 4.0
 	_points.colours = _pairs([POINTS_COLOUR])
-	_push.title = "Largest push of a contact (pink), force felt (white), N"
+	_push.title = "Largest push of a contact (pink), achieved force (white), N"
 	_push.colours = [PUSH_COLOUR, FELT_COLOUR]
 	_record.pressed.connect(toggle_recording)
 	visibility_changed.connect(_visibility_changed)
@@ -118,7 +130,7 @@ func _enter_tree() -> void:
 
 func _process(_delta: float) -> void:
 	if not is_instance_valid(device):
-		_state.text = "No device: set the panel's device to a SpidarG."
+		_state.text = "No device is shown: set the panel's device to a SpidarG."
 		return
 	_tensions.add_sample(device.get_string_tensions())
 	var asked: PackedFloat64Array = device.get_requested_wrench()
@@ -132,16 +144,17 @@ func _process(_delta: float) -> void:
 	_frames += 1
 
 
-## What is in the log, newest last.
+## Returns the lines of the log, the newest one last.
 func get_events() -> PackedStringArray:
 	return _events
 
 
+## Returns [code]true[/code] while the device records, no matter who started the recording.
 func is_recording() -> bool:
 	return is_instance_valid(device) and device.is_recording()
 
 
-## Starts a recording into a new file under [constant RECORDING_FOLDER], or ends the one that runs.
+## Starts a recording into a new file in [constant RECORDING_FOLDER], or stops the recording of the device if one runs.
 func toggle_recording() -> void:
 	if not is_instance_valid(device):
 		return
@@ -178,7 +191,7 @@ func _add_contacts(felt_n: float) -> void:
 	_push.add_sample([most_n, felt_n])
 
 
-## A device without a hand has no contacts to show.
+# Finds the hand. A device without a hand has no contacts to show.
 func _find_hand() -> void:
 	var found: SpidarGHand = null
 	for child: Node in device.get_children():
@@ -192,7 +205,7 @@ func _find_hand() -> void:
 	_push.visible = _hand != null
 
 
-## State, numbers and histogram.
+# Shows the state, the numbers and the histogram.
 func _report() -> void:
 	if not is_instance_valid(device) or not is_visible_in_tree() or _state == null:
 		return
@@ -200,7 +213,7 @@ func _report() -> void:
 	_state.text = "%s   %s" % [device.get_state_text(), device.get_fault_text()]
 	var numbers: Dictionary = device.get_statistics()
 	_numbers.text = (
-		"servo %.0f Hz    late p50 %.0f, p99 %.0f, most %.0f us    step p99 %.1f us    missed %d    saturated %d"
+		"servo %.0f Hz    late p50 %.0f, p99 %.0f, max %.0f us    step p99 %.1f us    missed %d    saturated %d"
 		% [
 			numbers["servo_rate_hz"], numbers["lateness_p50_us"], numbers["lateness_p99_us"],
 			numbers["lateness_max_us"], numbers["step_p99_us"], numbers["missed_deadlines"],
@@ -223,7 +236,7 @@ func _visibility_changed() -> void:
 	_report()
 
 
-## Colours of values asked for, then the same, paler, of those given.
+# Returns the colors of the requested values, followed by the same colors, paler, for the achieved ones.
 func _pairs(colours: PackedColorArray) -> PackedColorArray:
 	var both: PackedColorArray = colours.duplicate()
 	for colour: Color in colours:
@@ -239,7 +252,7 @@ func _tell(text: String) -> void:
 		_log.text = "\n".join(_events)
 
 
-## Signals of the device and what the log says of them.
+# Returns the signals of the device and their handlers.
 func _listeners() -> Dictionary[StringName, Callable]:
 	return {
 		&"device_connected": _connected,
@@ -290,7 +303,7 @@ func _rejected(message: String) -> void:
 	_tell(message)
 
 
-## Warnings. Faults and refusals have signals of their own.
+# Logs warnings. Faults and refusals have signals of their own.
 func _event(event: Dictionary) -> void:
 	if event["level"] == WARNING and event["name"] != "request_refused":
 		var where: String = " (string %d of 1-8)" % (event["string"] + 1) if event["string"] >= 0 else ""

@@ -2,141 +2,144 @@
 @icon("../icons/spidar_g_tracker.svg")
 class_name SpidarGTracker
 extends Node
-## Makes a [SpidarG] an XR controller: an [XRController3D] follows its grip, and scenes that were made for XR controllers
-## work with it unchanged, without any XR headset.
+## Makes a [SpidarG] an XR controller: an [XRController3D] follows its grip, and scenes that were made for XR controllers work
+## with it unchanged, without an XR headset.
 ##
-## Make it a descendant of a [SpidarG], or set [member spidar_path], and give an [XRController3D] below an [XROrigin3D] the
-## tracker [code]right_hand[/code].
+## Make this node a descendant of a [SpidarG], or set [member spidar_path], and set the tracker of an [XRController3D] below
+## an [XROrigin3D] to [code]right_hand[/code].
 ## [codeblock]
-## SpidarG
-## └─ SpidarGTracker              (hand: Right)
-## XROrigin3D
-## └─ XRController3D              (tracker: right_hand)
+## var tracker := SpidarGTracker.new()
+## $SpidarG.add_child(tracker)
+## var origin := XROrigin3D.new()
+## add_child(origin)
+## var controller := XRController3D.new()
+## controller.tracker = tracker.get_tracker_name() # right_hand
+## origin.add_child(controller)
 ## [/codeblock]
-## The tracker has the poses [code]default[/code], [code]grip[/code] (both the grip) and [code]aim[/code]
-## ([member aim_offset] from it), with velocities. They are set in each physics tick, after the [SpidarG] has read its
-## device, and again in each drawn frame. The confidence is high, or low while a real device does not know its zero.
+## The tracker has the poses [code]default[/code] and [code]grip[/code], which are the grip, and [code]aim[/code], which is
+## [member aim_offset] from it, all with velocities. They are set in each physics tick, after the [SpidarG] has read its
+## device, and in each drawn frame. Their confidence is high, or low while a real device does not know its zero.
 ## [br][br]
-## Its inputs have the names of Godot's default action map:
-## [br]- [code]grip[/code], a float: how far the grasp is closed, 0 for open and 1 from
-## [member SpidarGConfig.jaw_closed_angle] on.
+## The inputs have the names of Godot's default action map:
+## [br]- [code]grip[/code], a float: how far the grasp is closed, from 0 for open to 1 at
+## [member SpidarGConfig.jaw_closed_angle].
 ## [br]- [code]trigger[/code], a float from 0 to 1: see [member trigger_source].
 ## [br]- [code]grip_click[/code] and [code]trigger_click[/code], booleans: pressed from [member click_at] on, until the float
 ## falls below [member release_below].
 ## [br]- The buttons of the device, booleans: see [member buttons].
 ## [br][br]
-## While the device is closed or in [constant SpidarG.STATE_FAULT], all buttons are let go, the poses are invalidated and the
-## tracker is taken from the [XRServer], as that of a controller that is switched off: [method XRNode3D.get_is_active] is
-## [code]false[/code] then. Haptic pulses of [method XRNode3D.trigger_haptic_pulse] go to the XR interface, never here: use
+## While the device is closed or in [constant SpidarG.STATE_FAULT], all buttons are released, the poses are invalid, and the
+## tracker is removed from the [XRServer]; [method XRNode3D.get_is_active] is then [code]false[/code]. Haptic pulses of
+## [method XRNode3D.trigger_haptic_pulse] go to the XR interface and not to the device: use
 ## [method SpidarG.set_vibration_effect].
 
-## Which tracker the device becomes.
+## Selects the tracker that the device becomes.
 enum Hand {
-	## The tracker [code]right_hand[/code], as the XR interfaces of Godot name the controller [code]/user/hand/right[/code].
+	## The tracker [code]right_hand[/code]: Godot's XR interfaces use this name for the right controller.
 	RIGHT,
-	## The tracker [code]left_hand[/code], as the XR interfaces of Godot name the controller [code]/user/hand/left[/code].
+	## The tracker [code]left_hand[/code]: Godot's XR interfaces use this name for the left controller.
 	LEFT,
-	## A tracker of any other name: [member custom_name].
+	## A tracker with any other name, which [member custom_name] sets.
 	OTHER,
 }
-## What the input [code]trigger[/code] tells.
+## Selects what the input [code]trigger[/code] measures.
 enum TriggerSource {
-	## [constant ACTION] for a rigid grip if the project has the action, else [constant SQUEEZE] if the [SpidarG] has a
+	## Uses [constant ACTION] for a rigid grip if the project has the action, else [constant SQUEEZE] if the [SpidarG] has a
 	## [SpidarGHand], else [constant GRASP].
 	AUTOMATIC,
-	## How hard the fingers press what is between the pads, or the closed pads on each other:
-	## [method SpidarGHand.get_squeeze_torque] as a part of [member full_squeeze_nm].
+	## Measures how hard the fingers press the body between the pads, or the closed pads on each other:
+	## [method SpidarGHand.get_squeeze_torque] divided by [member full_squeeze_nm].
 	SQUEEZE,
-	## How far the input action [member SpidarGConfig.grasp_action] is pressed.
+	## Measures how far the input action [member SpidarGConfig.grasp_action] is pressed.
 	ACTION,
-	## How far the grasp is closed, as the input [code]grip[/code].
+	## Measures how far the grasp is closed, as the input [code]grip[/code] does.
 	GRASP,
 }
 
-const Finder := preload("follow/spidar_finder.gd")
-const FrameMotion := preload("follow/frame_motion.gd")
-const PlaySpace := preload("follow/play_space.gd")
-const Inputs := preload("follow/tracker_inputs.gd")
-## All trackers in the tree are in this group.
+const _Finder := preload("follow/spidar_finder.gd")
+const _FrameMotion := preload("follow/frame_motion.gd")
+const _PlaySpace := preload("follow/play_space.gd")
+const _Inputs := preload("follow/tracker_inputs.gd")
+## The group that contains all trackers in the scene tree.
 const GROUP: StringName = &"spidar_g_trackers"
 ## The interaction profile that a tracker has unless [member profile] is set.
 const DEFAULT_PROFILE: String = "/interaction_profiles/oculus/touch_controller"
-## The poses that a tracker has.
+## The names of the poses that a tracker has.
 const POSES: Array[StringName] = [&"default", &"grip", &"aim"]
 
-## Which tracker the device becomes. Two nodes must not have the same: the second one shows a configuration warning, gives an
-## error and does nothing.
+## Selects the tracker that the device becomes. If two nodes select the same tracker, the second one shows a configuration
+## warning, pushes an error and does nothing.
 @export var hand := Hand.RIGHT:
 	set(value):
 		hand = value
 		notify_property_list_changed()
 		_restart()
-## Name of the tracker where [member hand] is Other. It must not be empty.
+## Sets the name of the tracker if [member hand] is Other. It must not be empty.
 @export var custom_name: StringName = &"":
 	set(value):
 		custom_name = value
 		_restart()
-## The [SpidarG] to publish. Empty: the nearest ancestor that is one.
+## Sets the [SpidarG] that is published. With an empty path the nearest ancestor that is a [SpidarG] is used.
 @export_node_path("SpidarG") var spidar_path: NodePath:
 	set(value):
 		spidar_path = value
 		_restart()
-## OpenXR's interaction profile that the tracker claims to have, from which some scenes choose the model of the controller.
+## Sets the OpenXR interaction profile that the tracker reports. Some scenes choose the model of the controller by it.
 @export var profile: String = DEFAULT_PROFILE:
 	set(value):
 		profile = value
 		_restart()
 @export_group("Place")
-## On: the controller stands where the grip of the [SpidarG] stands in the scene, whatever [member XROrigin3D.world_scale],
-## the origin and the [member SpidarG.workspace_scale] are. Off: the device stands at [member device_transform] in the play
-## space, as it must where a headset shows the real hands' places.
+## If [code]true[/code], the controller is where the grip of the [SpidarG] is in the scene, for any
+## [member XROrigin3D.world_scale], origin and [member SpidarG.workspace_scale]. If [code]false[/code], the device is at
+## [member device_transform] in the play space, as it must be if a headset shows where the real hands are.
 @export var place_from_scene: bool = true
-## Place of the middle of the device's frame in the play space, relative to the XR origin (m of the play space: the
-## [member XRServer.world_scale] multiplies them). Counts while [member place_from_scene] is off. [method calibrate_place]
-## sets it. A transform that is not finite or no rotation is refused with an error, and the old one stays.
-@export var device_transform := Transform3D.IDENTITY:
+## Sets the pose of the center of the device's frame in the play space, relative to the XR origin, in meters of the play
+## space. Ignored while [member place_from_scene] is on. [method calibrate_place] sets it. A transform that is not finite or
+## no rotation is refused with an error, and the old one stays.
+@export_custom(PROPERTY_HINT_NONE, "suffix:m") var device_transform := Transform3D.IDENTITY:
 	set(value):
 		device_transform = _checked_place("device_transform", value, device_transform)
-## Place of the pose [code]aim[/code] in the frame of the grip. It points along its -z axis (m). A transform that is not
+## Sets the pose [code]aim[/code] in the frame of the grip, in meters. It points along its -z axis. A transform that is not
 ## finite or no rotation is refused with an error, and the old one stays.
-@export var aim_offset := Transform3D.IDENTITY:
+@export_custom(PROPERTY_HINT_NONE, "suffix:m") var aim_offset := Transform3D.IDENTITY:
 	set(value):
 		aim_offset = _checked_place("aim_offset", value, aim_offset)
 @export_group("Inputs")
-## What the input [code]trigger[/code] tells.
+## Selects what the input [code]trigger[/code] measures.
 @export var trigger_source := TriggerSource.AUTOMATIC
-## Squeeze at which the input [code]trigger[/code] is 1, in N m of grasp torque. A value that is not above 0 is refused with an
-## error, and the old one stays.
+## Sets the grasp torque at which the input [code]trigger[/code] is 1, in newton meters. A value that is not above 0 is
+## refused with an error, and the old one stays.
 @export_range(0.001, 1.0, 0.001, "or_greater", "suffix:N m") var full_squeeze_nm: float = 0.05:
 	set(value):
 		if not (value > 0.0 and is_finite(value)):
 			push_error("SpidarGTracker.full_squeeze_nm = %s N m: give a finite number above 0; the old one stays." % value)
 			return
 		full_squeeze_nm = value
-## From this value of [code]grip[/code] or [code]trigger[/code] on, [code]grip_click[/code] or [code]trigger_click[/code] is
-## pressed. A value outside of 0 to 1 is refused with an error, and the old one stays.
+## Sets the value of [code]grip[/code] or [code]trigger[/code] from which on [code]grip_click[/code] or
+## [code]trigger_click[/code] is pressed. A value outside 0 to 1 is refused with an error, and the old one stays.
 @export_range(0.0, 1.0, 0.01) var click_at: float = 0.7:
 	set(value):
 		click_at = _checked_part("click_at", value, click_at)
-## Below this value the click is let go. A value outside of 0 to 1 is refused with an error, and the old one stays; one above
-## [member click_at] acts as [member click_at].
+## Sets the value below which the click is released. A value above [member click_at] acts as [member click_at]. A value
+## outside 0 to 1 is refused with an error, and the old one stays.
 @export_range(0.0, 1.0, 0.01) var release_below: float = 0.5:
 	set(value):
 		release_below = _checked_part("release_below", value, release_below)
-## Names of the inputs that the buttons 0 to 7 of the device are, in this order. A button without a name, or with an empty
+## Sets the names of the inputs for the buttons 0 to 7 of the device, in this order. A button without a name, or with an empty
 ## one, is no input.
 @export var buttons: PackedStringArray = [
 	"ax_button", "by_button", "menu_button", "select_button", "primary_click", "secondary_click", "", "",
 ]
 
-## The device that is published, or null: then there is no tracker, and a configuration warning says why.
+## The device that is published. If it is [code]null[/code], there is no tracker, and a configuration warning says why.
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null
 var _tracker: XRControllerTracker = null
 var _claim: StringName = &""
-## Of the XR origin, or of the device where that is placed by device_transform.
-var _base := FrameMotion.new()
+# The motion of the XR origin, or of the device if place_from_scene is off.
+var _base := _FrameMotion.new()
 var _base_is_origin: bool = true
 
 
@@ -155,28 +158,28 @@ func is_published() -> bool:
 	return _tracker != null
 
 
-## Computes [member device_transform] from one pose of an XR controller, and sets [member place_from_scene] off: hold the grip
-## where the controller is, turned as it is, and call this with the pose that the controller's tracker has then
+## Computes [member device_transform] from one pose of an XR controller, and sets [member place_from_scene] to
+## [code]false[/code]. Hold the grip at the controller, in the same orientation, and pass the pose of the controller's tracker
 ## ([code]XRServer.get_tracker(&"left_hand").get_pose(&"grip").transform[/code]). With [param keep_upright] the device stays
-## upright, as it stands on a desk, and only its heading is taken from the two poses. Returns [code]false[/code], with a
-## warning, when no device is open or [param tracker_pose] is not finite or no rotation; nothing changes then.
+## upright, as it stands on a desk, and only its heading is computed. Returns [code]false[/code] with a warning, and changes
+## nothing, if no device is open or if [param tracker_pose] is not finite or no rotation.
 func calibrate_place(tracker_pose: Transform3D, keep_upright: bool = true) -> bool:
 	if spidar == null or spidar.get_state() == SpidarG.STATE_CLOSED:
 		push_warning("SpidarGTracker.calibrate_place: no device is open. Open one, hold its grip at the controller, and call this again.")
 		return false
-	if not PlaySpace.is_rigid(tracker_pose):
+	if not _PlaySpace.is_rigid(tracker_pose):
 		push_warning("SpidarGTracker.calibrate_place: tracker_pose = %s: give a finite transform (m) without scale." % tracker_pose)
 		return false
-	device_transform = PlaySpace.place_of_device(tracker_pose, PlaySpace.grip_in_device(spidar), keep_upright)
+	device_transform = _PlaySpace.place_of_device(tracker_pose, _PlaySpace.grip_in_device(spidar), keep_upright)
 	place_from_scene = false
 	return true
 
 
-## Returns where the [SpidarG] has to stand in the world for its grip and the [XRController3D] to be in one place while
-## [member place_from_scene] is off. Its [member SpidarG.workspace_scale] may then be any: the controller follows.
+## Returns the pose in the world at which the [SpidarG] must stand for its grip and the [XRController3D] to be in the same
+## place while [member place_from_scene] is off. The controller follows for any [member SpidarG.workspace_scale].
 func get_scene_place() -> Transform3D:
 	var place := Transform3D(device_transform.basis, device_transform.origin * XRServer.world_scale)
-	return PlaySpace.origin_in_world() * place
+	return _PlaySpace.origin_in_world() * place
 
 
 func _enter_tree() -> void:
@@ -188,7 +191,7 @@ func _enter_tree() -> void:
 func _ready() -> void:
 	_restart()
 	if spidar == null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG"):
-		push_warning(Finder.problem(self, spidar_path, "SpidarGTracker"))
+		push_warning(_Finder.problem(self, spidar_path, "SpidarGTracker"))
 
 
 func _exit_tree() -> void:
@@ -203,14 +206,14 @@ func _validate_property(property: Dictionary) -> void:
 
 func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
-	var problem: String = Finder.problem(self, spidar_path, "SpidarGTracker")
+	var problem: String = _Finder.problem(self, spidar_path, "SpidarGTracker")
 	if not problem.is_empty():
 		warnings.append(problem)
 	if get_tracker_name().is_empty():
 		warnings.append("SpidarGTracker publishes nothing: custom_name is empty. Give a name, or choose the right or left hand.")
 	var rival: SpidarGTracker = _rival()
 	if rival != null:
-		warnings.append("Only one SpidarGTracker can be \"%s\", and \"%s\" is it as well. Give one of them another hand or custom_name."
+		warnings.append("Only one SpidarGTracker can be \"%s\", and \"%s\" already is. Give one of them another hand or custom_name."
 			% [get_tracker_name(), rival.name])
 	return warnings
 
@@ -234,7 +237,7 @@ func _process(_delta: float) -> void:
 		_set_poses()
 
 
-## Finds the device, and claims the name. The engine turns processing on just before _ready().
+# Finds the device, and claims the name. The engine turns processing on just before _ready().
 func _restart() -> void:
 	if not is_inside_tree():
 		return
@@ -244,7 +247,7 @@ func _restart() -> void:
 	_stop()
 	if Engine.is_editor_hint():
 		return
-	spidar = Finder.find(self, spidar_path)
+	spidar = _Finder.find(self, spidar_path)
 	if spidar == null or get_tracker_name().is_empty():
 		return
 	var rival: SpidarGTracker = _rival()
@@ -253,9 +256,9 @@ func _restart() -> void:
 		return
 	_claim = get_tracker_name()
 	spidar.button_changed.connect(_on_button_changed)
-	_hand = Finder.find_hand(spidar)
-	Finder.run_after(self, spidar)
-	Finder.run_after(self, _hand)
+	_hand = _Finder.find_hand(spidar)
+	_Finder.run_after(self, spidar)
+	_Finder.run_after(self, _hand)
 	_base.forget()
 	set_process(true)
 	set_physics_process(true)
@@ -272,7 +275,7 @@ func _stop() -> void:
 	set_physics_process(false)
 
 
-## Another node of the same name in the tree.
+# Returns another node with the same tracker name in the tree, or null.
 func _rival() -> SpidarGTracker:
 	if not is_inside_tree():
 		return null
@@ -288,7 +291,7 @@ func _is_there() -> bool:
 	return state != SpidarG.STATE_CLOSED and state != SpidarG.STATE_FAULT
 
 
-## False while an XR interface has a tracker of that name, such as a real controller; told once.
+# Returns false, with one error, if an XR interface has a tracker of this name, such as a real controller.
 func _publish() -> bool:
 	if XRServer.get_tracker(_claim) != null:
 		push_error("SpidarGTracker \"%s\" does nothing: XRServer has a tracker \"%s\" already, perhaps a real controller. Choose the other hand or a custom_name." % [name, _claim])
@@ -328,7 +331,7 @@ func _withdraw() -> void:
 
 
 static func _checked_place(field: String, value: Transform3D, old: Transform3D) -> Transform3D:
-	if PlaySpace.is_rigid(value):
+	if _PlaySpace.is_rigid(value):
 		return value
 	push_error("SpidarGTracker.%s = %s: give a finite transform (m) without scale; the old one stays." % [field, value])
 	return old
@@ -343,10 +346,10 @@ static func _checked_part(field: String, value: float, old: float) -> float:
 
 func _set_inputs() -> void:
 	if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
-		_hand = Finder.find_hand(spidar)
-	Inputs.set_with_click(_tracker, "grip", Inputs.closed_part(spidar), click_at, release_below)
-	var trigger: float = Inputs.trigger(trigger_source, spidar, _hand, full_squeeze_nm)
-	Inputs.set_with_click(_tracker, "trigger", trigger, click_at, release_below)
+		_hand = _Finder.find_hand(spidar)
+	_Inputs.set_with_click(_tracker, "grip", _Inputs.closed_part(spidar), click_at, release_below)
+	var trigger: float = _Inputs.trigger(trigger_source, spidar, _hand, full_squeeze_nm)
+	_Inputs.set_with_click(_tracker, "trigger", trigger, click_at, release_below)
 
 
 func _on_button_changed(button: int, pressed: bool) -> void:
@@ -358,20 +361,20 @@ func _note_base(delta: float) -> void:
 	if _base_is_origin != place_from_scene:
 		_base_is_origin = place_from_scene
 		_base.forget()
-	_base.note(PlaySpace.origin_in_world() if place_from_scene else spidar.global_transform.orthonormalized(), delta)
+	_base.note(_PlaySpace.origin_in_world() if place_from_scene else spidar.global_transform.orthonormalized(), delta)
 
 
-## Sets all poses relative to the XR origin: XRNode3D multiplies their place by XRServer.world_scale.
+# Sets all poses relative to the XR origin: XRNode3D multiplies their place by XRServer.world_scale.
 func _set_poses() -> void:
 	var world_to_space: Basis
 	var grip: Transform3D
 	if place_from_scene:
-		var origin: Transform3D = PlaySpace.origin_in_world()
+		var origin: Transform3D = _PlaySpace.origin_in_world()
 		grip = origin.inverse() * spidar.get_grip_transform()
 		grip.origin /= XRServer.world_scale
 		world_to_space = origin.basis.inverse()
 	else:
-		grip = device_transform * PlaySpace.grip_in_device(spidar)
+		grip = device_transform * _PlaySpace.grip_in_device(spidar)
 		world_to_space = device_transform.basis * spidar.global_basis.orthonormalized().inverse()
 	var at: Vector3 = spidar.get_grip_transform().origin
 	var velocity: Vector3 = world_to_space * (spidar.get_linear_velocity() - _base.velocity_at(at)) / XRServer.world_scale
@@ -384,7 +387,7 @@ func _set_poses() -> void:
 	_tracker.set_pose(&"aim", aim, aim_velocity, turning, confidence)
 
 
-## Only a device whose forces are off can lack its zero: the statistics are not asked for in the others' ticks.
+# Only a device without forces can lack its zero, so the statistics are read in these states only.
 func _confidence() -> XRPose.TrackingConfidence:
 	var may_lack_zero: bool = spidar.get_state() in [SpidarG.STATE_CONNECTED, SpidarG.STATE_TAUT]
 	if may_lack_zero and not spidar.is_simulated() and not spidar.get_statistics()["zero_known"]:

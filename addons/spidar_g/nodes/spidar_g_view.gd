@@ -2,50 +2,67 @@
 @icon("../icons/spidar_g_view.svg")
 class_name SpidarGView
 extends Node3D
-## Draws a SPIDAR-G as it is: frame, eight strings coloured by tension, the two crossing poles with their hinge,
-## hemispheres and hinge stops, the finger pads of a sibling [SpidarGHand], and the force that the strings give.
+## Draws a SPIDAR-G: its frame, strings, grip, finger pads and force.
 ##
-## Add it as a child of a [SpidarG]. It only reads; it redraws what changed since the last frame, and nothing while hidden.
+## Add this node as a child of a [SpidarG]. It draws the frame, the eight strings colored by their tension, the two poles with
+## their hinge, hemispheres and hinge stops, the finger pads of a sibling [SpidarGHand], and the achieved force as an arrow.
+## It changes nothing of the device. It redraws what has changed since the last frame, and does nothing while it is hidden.
+## [codeblock]
+## var device: SpidarG = $SpidarG
+## device.add_child(SpidarGView.new())
+## [/codeblock]
 
-const ViewParts := preload("view_parts.gd")
+const _ViewParts := preload("view_parts.gd")
 
-## Below this a string is slack, N.
+## A string whose tension is below this value is drawn as slack, in newtons.
 const SLACK_N: float = 0.05
+## Strings that are slack are drawn in this color.
 const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
+## Strings with a low tension are drawn in this color.
 const LOW_COLOUR: Color = Color(0.20, 0.48, 0.95)
+## Strings between low and medium tension are drawn in this color. It keeps the mixture away from the gray of a slack string.
 const FAIR_COLOUR: Color = Color(0.10, 0.70, 0.45)  # Straight from blue to yellow would pass through grey: slack.
+## Strings with a medium tension are drawn in this color.
 const MIDDLE_COLOUR: Color = Color(1.00, 0.82, 0.20)
+## Strings at their maximum tension are drawn in this color.
 const HIGH_COLOUR: Color = Color(0.95, 0.18, 0.15)
-## Forces weaker than this have no arrow, N.
+## The arrow is hidden while the achieved force is weaker than this value, in newtons.
 const LEAST_FORCE_N: float = 0.02
 
+## If [code]true[/code], the edges of the frame are drawn.
 @export var show_frame: bool = true:
 	set(value):
 		show_frame = value
 		_stale = true
+## If [code]true[/code], the strings are drawn, colored by their commanded tension from slack to
+## [member SpidarGConfig.tension_max].
 @export var show_strings: bool = true:
 	set(value):
 		show_strings = value
 		_stale = true
+## If [code]true[/code], the grip is drawn: two poles with their hinge, or the body of a rigid grip.
 @export var show_grip: bool = true:
 	set(value):
 		show_grip = value
 		_stale = true
+## If [code]true[/code], the finger pads of the [SpidarGHand] are drawn. Ignored if the [SpidarG] has no hand.
 @export var show_pads: bool = true:
 	set(value):
 		show_pads = value
 		_stale = true
+## If [code]true[/code], the achieved force is drawn as an arrow that begins at the center of the grip.
 @export var show_force: bool = true:
 	set(value):
 		show_force = value
 		_stale = true
-## Length of the force arrow, device metres per newton.
-@export_range(0.001, 0.1, 0.001, "suffix:m/N") var force_arrow_m_n: float = 0.015
+## Sets the length of the force arrow, in meters of device motion for each newton.
+@export_range(0.001, 0.1, 0.001, "suffix:m/N") var force_arrow_length: float = 0.015
 
-## The parent, or null: then nothing is drawn and a configuration warning says why.
+## The device that is drawn, which is the parent of this node. It is [code]null[/code] if the parent is no [SpidarG]; nothing
+## is then drawn, and a configuration warning says why.
 var spidar: SpidarG = null
 
-var _parts: ViewParts = null
+var _parts: _ViewParts = null
 var _hand: SpidarGHand = null
 var _is_rigid: bool = false
 var _stale: bool = true
@@ -57,7 +74,8 @@ var _drawn_tensions: PackedFloat64Array = PackedFloat64Array()
 var _drawn_force: Vector3 = Vector3.ZERO
 
 
-## Colour of a string under `tension_n`. Square root scale, so that pretension and half load look different.
+## Returns the color of a string with the tension [param tension_n], in newtons, when its maximum tension is [param max_n].
+## The color follows the square root of the tension, so that pretension and half load look different.
 static func tension_colour(tension_n: float, max_n: float) -> Color:
 	if not (tension_n >= SLACK_N) or not (max_n > 0.0):
 		return SLACK_COLOUR
@@ -69,8 +87,9 @@ static func tension_colour(tension_n: float, max_n: float) -> Color:
 	return MIDDLE_COLOUR.lerp(HIGH_COLOUR, part - 2.0)
 
 
-## Middle of a pad's inner face in the world as it was last drawn, side 0 at -x of the grip, x outward; the identity
-## before.
+## Returns the pose in the world at which a pad was last drawn. The origin is the middle of its inner face, and the x axis
+## points outward. [param side] is 0 for the pad at -x of the grip and 1 for the other one. Returns the identity transform
+## before the first drawing.
 func get_drawn_pad(side: int) -> Transform3D:
 	return _drawn_pads[side]
 
@@ -88,7 +107,7 @@ func _enter_tree() -> void:
 	if spidar == null:
 		push_warning("SpidarGView draws nothing: make it a child of a SpidarG node.")
 	elif _parts == null:
-		_parts = ViewParts.new()
+		_parts = _ViewParts.new()
 		# Internal: a copy of the view makes parts of its own.
 		add_child(_parts, false, Node.INTERNAL_MODE_FRONT)
 	if is_node_ready():
@@ -110,7 +129,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	return ["SpidarGView draws nothing here: make it a child of a SpidarG node."]
 
 
-## The engine turns processing on just before _ready().
+# The engine turns processing on just before _ready().
 func _follow() -> void:
 	# Without the add-on's library a SpidarG is a stand-in, of which there is nothing to draw.
 	var draws: bool = spidar != null and not Engine.is_editor_hint() and ClassDB.class_exists(&"SpidarG")
@@ -155,7 +174,7 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 	_parts.strings.visible = show_strings
 	if show_grip and _is_rigid:
 		var ends: PackedVector3Array = []
-		for string: int in ViewParts.STRINGS:
+		for string: int in _ViewParts.STRINGS:
 			ends.append(spidar.get_string_end(string))
 		_parts.place_rigid_grip(grip, ends)
 	elif show_grip:
@@ -166,7 +185,7 @@ func _draw_grip(grip: Transform3D, angle: float) -> void:
 			var target: SpidarG.ContactTarget = (SpidarG.CONTACT_POLE1_PLUS + end) as SpidarG.ContactTarget
 			_parts.place_knot(end, spidar.get_pole_end(target))
 	if show_strings:
-		for string: int in ViewParts.STRINGS:
+		for string: int in _ViewParts.STRINGS:
 			_parts.place_string(string, spidar.get_string_start(string), spidar.get_string_end(string))
 
 
@@ -177,7 +196,7 @@ func _draw_tensions(forced: bool) -> void:
 	if not forced and tensions == _drawn_tensions:
 		return
 	_drawn_tensions = tensions
-	for string: int in mini(tensions.size(), ViewParts.STRINGS):
+	for string: int in mini(tensions.size(), _ViewParts.STRINGS):
 		_parts.colour_string(string, tension_colour(tensions[string], _max_tension()))
 
 
@@ -205,7 +224,7 @@ func _draw_force(from: Vector3, forced: bool) -> void:
 	_drawn_force = force
 	_parts.arrow.visible = force.length() > LEAST_FORCE_N
 	if _parts.arrow.visible:
-		_parts.place_arrow(from, force * (force_arrow_m_n * spidar.workspace_scale))
+		_parts.place_arrow(from, force * (force_arrow_length * spidar.workspace_scale))
 
 
 func _find_hand() -> SpidarGHand:

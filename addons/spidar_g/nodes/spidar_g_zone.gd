@@ -2,66 +2,77 @@
 @icon("../icons/spidar_g_zone.svg")
 class_name SpidarGZone
 extends Area3D
-## A region of the scene in which the hand feels something: thick air, wind, a magnet, a buzz or notches.
+## A region of the scene in which the hand feels something: thick air, wind, a magnet, a vibration or detents.
 ##
-## Give it one or more [CollisionShape3D] children, choose a [member kind], and set its strength. Every [SpidarG] of the same
-## world feels it while the middle of its grip is inside of the shapes.
+## Add one or more [CollisionShape3D] nodes as children, choose a [member kind], and set its strength. Every [SpidarG] of the
+## same world feels the zone while the center of its grip is inside the shapes. A shape is a box, a sphere, a capsule, a
+## cylinder, a convex polygon or a world boundary.
 ## [codeblock]
-## SpidarGZone                (kind: Viscosity, viscosity: 6 N s/m)
-## └─ CollisionShape3D        (a box, sphere, capsule, cylinder, convex polygon or world boundary)
+## # Honey, in a ball of 10 cm around the device.
+## var shape := SphereShape3D.new()
+## shape.radius = 0.05
+## var collision := CollisionShape3D.new()
+## collision.shape = shape
+## var zone := SpidarGZone.new()
+## zone.kind = SpidarGZone.Kind.VISCOSITY
+## zone.viscosity = 5.0
+## zone.add_child(collision)
+## add_child(zone)
 ## [/codeblock]
-## The force is an effect of the servo loop ([method SpidarG.set_viscous_effect] and the like), renewed in each physics tick.
-## It rises from nothing at the surface of the shapes to all of it [member edge_width] further in, and never changes by all of
-## it in less than [member fade_time]. It ends within 0.2 s when the zone leaves the tree, is disabled or paused, or when the
-## game hangs.
+## The force is an effect of the servo loop, such as [method SpidarG.set_viscous_effect], and is refreshed in each physics
+## tick. It rises from 0 at the surface of the shapes to its full value [member edge_width] below the surface, and a full
+## change takes at least [member fade_time]. It ends within 0.2 s if the zone leaves the tree, is disabled or paused, or if
+## the game hangs.
 ## [br][br]
-## Inside is computed from the shapes, whatever [member Area3D.monitoring], [member Area3D.monitorable] and the collision layers
-## are: switch monitoring and monitorable off unless something else needs them. Disabled shapes do not count. Lengths of the
-## zone are scene metres; stiffness, viscosity and forces are those of the device, whatever
-## [member SpidarG.workspace_scale] is.
+## Whether a point is inside is computed from the shapes, independent of [member Area3D.monitoring],
+## [member Area3D.monitorable] and the collision layers: switch monitoring and monitorable off unless something else needs
+## them. Disabled shapes are ignored. Lengths of the zone are in meters of the scene; stiffness, viscosity and forces are
+## those of the device for any [member SpidarG.workspace_scale].
 ## [br][br]
-## A device takes 6 effects at once, of all zones and scripts together. A zone that finds none free warns, and tries again. A
-## zone takes one effect, and a [constant MAGNET_AXIS] that is oblique to the axes of the device takes two. Zones use
-## effect ids from [constant FIRST_ID] on, one each: use smaller ones, such as 0 to 999, for effects of your own.
+## A device renders 6 effects at once, of all zones and scripts together. If none is free, the zone warns and tries again. A
+## zone uses one effect, and a [constant MAGNET_AXIS] that is oblique to the axes of the device uses two. Zones use effect ids
+## from [constant FIRST_ID] on, one each: use smaller ids for effects of your own, such as 0 to 999.
 
-## Emitted when the middle of the grip of [param spidar] has come inside.
+## Emitted when the center of the grip of [param spidar] has entered the zone.
 signal hand_entered(spidar: SpidarG)
-## Emitted when the middle of the grip of [param spidar] has gone outside, and for each hand that was inside when the zone is
-## disabled or paused or leaves the scene tree, or when the device is closed.
+## Emitted when the center of the grip of [param spidar] has left the zone, and for each hand inside if the zone is disabled
+## or paused or leaves the scene tree, or if the device closes.
 signal hand_exited(spidar: SpidarG)
 
-## What is felt in the zone.
+## Selects what the hand feels in the zone.
 enum Kind {
-	## Thick air or honey: motion is resisted by [member viscosity], turns and the grasp by [member viscosity_angular] and
+	## The zone resists motion like thick air or honey, by [member viscosity], [member viscosity_angular] and
 	## [member viscosity_grasp].
 	VISCOSITY,
-	## A constant force: [member wind_force].
+	## The zone gives a constant force, [member wind_force].
 	WIND,
-	## A spring of [member stiffness] to the zone's origin.
+	## The zone pulls the grip to its origin like a spring with [member stiffness].
 	MAGNET_POINT,
-	## A spring of [member stiffness] to the zone's local y axis. Motion along the axis is free. An axis that is not
-	## parallel to one of the device's own is renewed by the game: its stiffness is at most 300 N/m.
+	## The zone pulls the grip to its local y axis like a spring with [member stiffness]. Motion along the axis is free. If
+	## the axis is not parallel to an axis of the device, the game computes the force, and the stiffness is clamped to 300
+	## N/m.
 	MAGNET_AXIS,
-	## A buzz of [member vibration_force] and [member vibration_frequency].
+	## The zone vibrates with [member vibration_force] and [member vibration_frequency].
 	VIBRATION,
-	## Notches every [member detent_spacing], along that axis of the device which is nearest to the zone's local x axis,
-	## with a valley at the zone's origin.
+	## The zone has a detent every [member detent_spacing], along the axis of the device that is nearest to the local x axis
+	## of the zone. One detent is at the zone's origin.
 	DETENTS,
 }
 
-const Depth := preload("zone/zone_depth.gd")
-const Devices := preload("zone/devices_in_tree.gd")
-const Touch := preload("zone_touch.gd")
-## Zones number their effects from here on; the game's own effects should have smaller ids.
+const _Depth := preload("zone/zone_depth.gd")
+const _Devices := preload("zone/devices_in_tree.gd")
+const _Touch := preload("zone_touch.gd")
+## The smallest effect id that zones use. Use smaller ids for effects of your own.
 const FIRST_ID: int = 1000000
-## A hand that is inside is outside from this far out on (device m), so that a trembling one does not enter again and again.
+## A hand that was inside has left the zone at this distance from its shapes, in meters of device motion. A trembling hand
+## therefore does not enter again and again.
 const EXIT_M: float = 0.0005
-## A force reaches the hand so many ticks after the pose that it was computed from, so it is computed for the place where the
-## hand is then: late forces at an edge would drive a loosely held grip.
+## The force is computed for the place of the grip this many physics ticks later, because it reaches the hand so late. A late
+## force at an edge would drive a loosely held grip.
 const LEAD_TICKS: float = 1.5
-## A wind that changes by more than this along its edge (N per scene m) is warned about.
+## A wind that changes by more than this along its edge, in newtons per meter of the scene, causes a configuration warning.
 const STEEP_N_M: float = 100.0
-## Properties that count for some kinds alone.
+## The properties that are used by some kinds only. The inspector hides them for all other kinds.
 const OF_KIND: Dictionary[String, Array] = {
 	"viscosity": [Kind.VISCOSITY],
 	"viscosity_angular": [Kind.VISCOSITY],
@@ -76,7 +87,7 @@ const OF_KIND: Dictionary[String, Array] = {
 
 static var _next_id: int = FIRST_ID
 
-## What is felt in the zone.
+## Selects what the hand feels in the zone. The inspector shows the properties of this kind only.
 @export var kind := Kind.VISCOSITY:
 	set(value):
 		if kind != value:
@@ -84,103 +95,108 @@ static var _next_id: int = FIRST_ID
 		kind = value
 		notify_property_list_changed()
 		update_configuration_warnings()
-## Whether anything is felt. Off, the zone costs nothing.
+## If [code]true[/code], the zone is felt. If [code]false[/code], it is not felt and takes no time.
 @export var enabled: bool = true:
 	set(value):
 		enabled = value
 		_choose()
-## The only [SpidarG] that feels the zone. Empty: every one of the same world does.
+## Sets the only [SpidarG] that feels the zone. With an empty path every [SpidarG] of the same world feels it.
 @export_node_path("SpidarG") var spidar_path: NodePath:
 	set(value):
 		spidar_path = value
 		_choose()
 		update_configuration_warnings()
-## Resistance to motion, in N s/m of device motion. The device takes no more than it can give without trembling: see
+## Sets the resistance to motion, in newton seconds per meter of device motion. The device clamps it to 5 N s/m: see
 ## [method SpidarG.get_clamp_text]. A negative or infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 20.0, 0.1, "or_greater", "suffix:N s/m") var viscosity: float = 4.0:
 	set(value):
 		viscosity = _checked("viscosity", value, viscosity, "N s/m")
-## Resistance to turns. A negative or infinite value is refused with an error, and the old one stays.
+## Sets the resistance to rotation, in N m s/rad. The device clamps it to 0.01 N m s/rad. A negative or infinite value is
+## refused with an error, and the old one stays.
 @export_range(0.0, 0.05, 0.0001, "or_greater", "suffix:N m s/rad") var viscosity_angular: float = 0.0:
 	set(value):
 		viscosity_angular = _checked("viscosity_angular", value, viscosity_angular, "N m s/rad")
-## Resistance to opening and closing the grasp. A negative or infinite value is refused with an error, and the old one stays.
+## Sets the resistance to opening and closing the grasp, in N m s/rad. The device clamps it to 0.003 N m s/rad. A negative or
+## infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 0.02, 0.0001, "or_greater", "suffix:N m s/rad") var viscosity_grasp: float = 0.0:
 	set(value):
 		viscosity_grasp = _checked("viscosity_grasp", value, viscosity_grasp, "N m s/rad")
-## The constant force of a wind (N), in the axes of the zone. A force that is not finite is refused with an error, and the old
-## one stays.
-@export var wind_force := Vector3(1.0, 0.0, 0.0):
+## Sets the constant force of a wind, in newtons, in the axes of the zone. A force that is not finite is refused with an
+## error, and the old one stays.
+@export_custom(PROPERTY_HINT_NONE, "suffix:N") var wind_force := Vector3(1.0, 0.0, 0.0):
 	set(value):
 		wind_force = _checked_force("wind_force", value, wind_force)
 		update_configuration_warnings()
-## Stiffness of a magnet, in newtons per metre of device motion. The device takes no more than
+## Sets the stiffness of a magnet, in newtons per meter of device motion. It is clamped to
 ## [method SpidarG.get_stiffness_limits]. A negative or infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 500.0, 1.0, "or_greater", "suffix:N/m") var stiffness: float = 120.0:
 	set(value):
 		stiffness = _checked("stiffness", value, stiffness, "N/m")
-## Amplitude of a vibration and its direction (N), in the axes of the zone. The device gives at most 2 N. A force that is not
-## finite is refused with an error, and the old one stays.
-@export var vibration_force := Vector3(0.0, 0.8, 0.0):
+## Sets the amplitude and direction of a vibration, in newtons, in the axes of the zone. The device clamps it to 2 N along
+## each of its axes. A force that is not finite is refused with an error, and the old one stays.
+@export_custom(PROPERTY_HINT_NONE, "suffix:N") var vibration_force := Vector3(0.0, 0.8, 0.0):
 	set(value):
 		vibration_force = _checked_force("vibration_force", value, vibration_force)
-## Frequency of a vibration, 5 to 250 Hz. A value outside of that is refused with an error, and the old one stays. The device
-## gives at most a quarter of its servo rate.
+## Sets the frequency of a vibration, from 5 to 250 Hz. The device gives at most a quarter of its servo rate. A value outside
+## this range is refused with an error, and the old one stays.
 @export_range(5.0, 250.0, 0.1, "suffix:Hz") var vibration_frequency: float = 80.0:
 	set(value):
 		vibration_frequency = _checked("vibration_frequency", value, vibration_frequency, "Hz", 5.0, 250.0)
-## Distance of a notch to the next, in scene metres; at least 1 mm of the device. A smaller value is refused with an error, and
-## the old one stays.
+## Sets the distance between two detents, in meters of the scene. The device needs at least 1 mm of its own motion. A value
+## below 0.001 is refused with an error, and the old one stays.
 @export_range(0.001, 0.1, 0.0005, "or_greater", "suffix:m") var detent_spacing: float = 0.01:
 	set(value):
 		detent_spacing = _checked("detent_spacing", value, detent_spacing, "m", 0.001)
-## Largest force on the way out of a notch. A negative or infinite value is refused with an error, and the old one stays.
+## Sets the largest force on the way out of a detent, in newtons. A negative or infinite value is refused with an error, and
+## the old one stays.
 @export_range(0.0, 5.0, 0.05, "or_greater", "suffix:N") var detent_force: float = 1.2:
 	set(value):
 		detent_force = _checked("detent_force", value, detent_force, "N")
-## No steady force of the zone is larger. Where a magnet or the viscosity would pull harder, its gain is lowered in each physics
-## tick, so a jerk of the hand may feel up to a third more for one or two ticks. A negative or infinite value is refused with an error, and the old one stays.
+## Sets the largest steady force of the zone, in newtons. The gain of a magnet or of the viscosity is lowered in each physics
+## tick if it would pull harder. For one or two ticks a fast motion can therefore cause up to a third more. A negative or
+## infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 10.0, 0.05, "or_greater", "suffix:N") var max_force: float = 3.0:
 	set(value):
 		max_force = _checked("max_force", value, max_force, "N")
 		update_configuration_warnings()
-## Least time in which the force of the zone rises from nothing to all of it, or falls back. A value below 0.016 s or an infinite
-## one is refused with an error, and the old one stays.
+## Sets the minimum time in which the force of the zone rises from 0 to its full value, or falls back, in seconds. A value
+## below 0.016 s or an infinite one is refused with an error, and the old one stays.
 @export_range(0.016, 1.0, 0.001, "or_greater", "suffix:s") var fade_time: float = 0.05:
 	set(value):
 		fade_time = _checked("fade_time", value, fade_time, "s", 0.016)
-## How far below the surface of the shapes the zone has its full force (scene m); up to there the force rises with the depth. A
-## zone that is thinner than twice that never has it. A strong wind needs a wide edge, 1 N at most for each 10 mm: in a
-## narrower one a loosely held grip may swing at the surface. A negative or infinite value is refused with an error, and the
-## old one stays.
+## Sets the depth below the surface of the shapes at which the force has its full value, in meters of the scene. A zone that
+## is thinner than twice this depth never has its full force. A strong wind needs a wide edge, at least 10 mm for each newton;
+## with a narrower one a loosely held grip can swing at the surface. A negative or infinite value is refused with an error,
+## and the old one stays.
 @export_range(0.0, 0.1, 0.001, "or_greater", "suffix:m") var edge_width: float = 0.02:
 	set(value):
 		edge_width = _checked("edge_width", value, edge_width, "m")
 		update_configuration_warnings()
 
 var _id: int = 0
-var _depth := Depth.new()
-var _devices: Devices = null
-var _touches: Dictionary[SpidarG, Touch] = {}
+var _depth := _Depth.new()
+var _devices: _Devices = null
+var _touches: Dictionary[SpidarG, _Touch] = {}
 
 
-## Returns the id of the zone's effects, for [method SpidarG.clear_effect]; 0 before the zone was in a running tree.
+## Returns the id of the effects of this zone, for [method SpidarG.clear_effect]. Returns 0 before the zone has entered a
+## running scene tree.
 func get_effect_id() -> int:
 	return _id
 
 
-## Returns [code]true[/code] while the middle of the grip of [param spidar] is inside.
+## Returns [code]true[/code] while the center of the grip of [param spidar] is inside the zone.
 func is_hand_inside(spidar: SpidarG) -> bool:
 	return _touches.has(spidar) and _touches[spidar].is_inside
 
 
-## Returns which part of the zone's force [param spidar] is given, from 0 outside to 1 deep inside.
+## Returns the share of the zone's force that acts on [param spidar], from 0 outside to 1 deep inside.
 func get_strength(spidar: SpidarG) -> float:
 	return _touches[spidar].strength if _touches.has(spidar) else 0.0
 
 
-## Returns how deep a point of the world is inside of the zone's shapes, in scene metres: negative outside, and -INF where the
-## zone has no shape that counts.
+## Returns how deep [param point], in world coordinates, is inside the shapes of the zone, in meters of the scene. The depth
+## is negative outside. Returns -INF if the zone has no usable shape.
 func get_depth(point: Vector3) -> float:
 	return _depth.of(self, point)
 
@@ -194,13 +210,13 @@ func _enter_tree() -> void:
 	if _id == 0:
 		_id = _next_id
 		_next_id += 1
-	_devices = Devices.of(get_tree())
+	_devices = _Devices.of(get_tree())
 	_devices.changed.connect(_choose)
 	if is_node_ready():
 		_choose()
 
 
-## The engine turns processing on just before.
+# The engine turns processing on just before.
 func _ready() -> void:
 	_choose()
 
@@ -229,9 +245,9 @@ func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
 	for owner: int in get_shape_owners():
 		for index: int in shape_owner_get_shape_count(owner):
-			var problem: String = Depth.problem(shape_owner_get_shape(owner, index))
+			var problem: String = _Depth.problem(shape_owner_get_shape(owner, index))
 			if not problem.is_empty():
-				warnings.append("A shape of the SpidarGZone is left out, because %s. Use boxes, spheres, capsules, cylinders or small convex polygons." % problem)
+				warnings.append("A shape of the SpidarGZone is ignored, because %s. Use boxes, spheres, capsules, cylinders or small convex polygons." % problem)
 	var steepness: float = minf(wind_force.length(), max_force) / maxf(edge_width, 1e-6)
 	if kind == Kind.WIND and steepness > STEEP_N_M:
 		warnings.append("The wind of the SpidarGZone rises by %.0f N/m along its edge: a loosely held grip may swing there. Make edge_width %.3f m or more, or the wind weaker."
@@ -251,7 +267,7 @@ func _physics_process(_delta: float) -> void:
 			_drop(spidar)
 
 
-## Runs only where somebody can feel the zone.
+# Turns processing on only if a device can feel the zone.
 func _choose() -> void:
 	if not is_inside_tree():
 		return
@@ -273,11 +289,11 @@ func _may_feel(spidar: SpidarG) -> bool:
 
 func _follow(spidar: SpidarG, tick_s: float) -> void:
 	var depth: float = _depth.of(self, spidar.get_grip_transform().origin)
-	var touch: Touch = _touches.get(spidar)
+	var touch: _Touch = _touches.get(spidar)
 	if touch == null:
 		if not depth > 0.0:
 			return
-		touch = Touch.new(spidar, _id)
+		touch = _Touch.new(spidar, _id)
 		_touches[spidar] = touch
 	var was_inside: bool = touch.is_inside
 	touch.is_inside = depth > (-EXIT_M * spidar.workspace_scale if was_inside else 0.0)
@@ -293,7 +309,7 @@ func _follow(spidar: SpidarG, tick_s: float) -> void:
 		(hand_entered if touch.is_inside else hand_exited).emit(spidar)
 
 
-## The part of the force that belongs to a depth.
+# Returns the share of the force at this depth, from 0 to 1.
 func _share(depth: float) -> float:
 	if depth <= 0.0:
 		return 0.0
@@ -306,7 +322,7 @@ func _let_go() -> void:
 
 
 func _drop(spidar: SpidarG) -> void:
-	var touch: Touch = _touches[spidar]
+	var touch: _Touch = _touches[spidar]
 	var was_inside: bool = touch.is_inside
 	touch.stop()
 	_touches.erase(spidar)

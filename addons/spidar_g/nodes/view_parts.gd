@@ -1,8 +1,9 @@
 extends Node3D
-## The meshes of SpidarGView, made once by code and then only moved. World coordinates throughout.
+## The meshes of SpidarGView. They are made once by code and then only moved. All positions are in world coordinates.
 
+## The number of strings that a device has.
 const STRINGS: int = 8
-## Sizes in device metres.
+## The thickness of the edges of the frame. The sizes below are radii and distances, all in meters of device motion.
 const EDGE_M: float = 0.004
 const STRING_RADIUS_M: float = 0.0009
 const POLE_RADIUS_M: float = 0.0022
@@ -13,7 +14,7 @@ const RIGID_BALL_RADIUS_M: float = 0.011
 const STOP_DISTANCE_M: float = 0.012
 const STOP_RADIUS_M: float = 0.0015
 const ARROW_RADIUS_M: float = 0.0022
-## Of the pads' rounded edge, in radii of a pad: half its thickness.
+## The radius of the rounded edge of a pad as a share of the pad's radius. It is half the thickness of the pad.
 const PAD_EDGE: float = 0.25
 
 const FRAME_COLOUR: Color = Color(0.45, 0.48, 0.53)
@@ -21,7 +22,7 @@ const POLE_COLOURS: Array[Color] = [Color(0.93, 0.55, 0.22), Color(0.25, 0.62, 0
 const METAL_COLOUR: Color = Color(0.82, 0.83, 0.86)
 const PAD_COLOUR: Color = Color(0.16, 0.18, 0.22)
 const FORCE_COLOUR: Color = Color(0.85, 0.15, 0.55)
-## Translucent, so that a held body inside the grip can be seen.
+## The alpha of the hemispheres, which are translucent so that a held body inside the grip can be seen.
 const GLASS_ALPHA: float = 0.22
 
 var frame: MultiMeshInstance3D
@@ -33,7 +34,7 @@ var arrow: Node3D
 var _scale: float = 1.0
 var _rods: Array[MeshInstance3D] = []
 var _knots: MultiMeshInstance3D
-## Of a rigid grip: a ball, and a spoke to each string's end.
+# The parts of a rigid grip: a ball, and a spoke to the end of each string.
 var _ball: MeshInstance3D
 var _spokes: MultiMeshInstance3D
 var _poles: Array[Node3D] = []
@@ -66,7 +67,7 @@ func _init() -> void:
 		part.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 
 
-## Sets what the grip is, and the sizes; everything is placed anew afterwards.
+## Sets the kind of the grip and the sizes. All parts must be placed again afterwards.
 func size_for(workspace_scale: float, pole_half_length_m: float, is_rigid: bool) -> void:
 	_scale = workspace_scale
 	_ball.visible = is_rigid
@@ -108,7 +109,7 @@ func place_knot(end: int, at: Vector3) -> void:
 	_knots.multimesh.set_instance_transform(end, Transform3D(size, at))
 
 
-## ends: SpidarG.get_string_end of each string.
+## Places the ball and the spokes of a rigid grip. `ends` has [method SpidarG.get_string_end] of each string.
 func place_rigid_grip(at: Transform3D, ends: PackedVector3Array) -> void:
 	_ball.global_transform = Transform3D(at.basis * Basis.from_scale(Vector3.ONE * _scale), at.origin)
 	for string: int in ends.size():
@@ -118,7 +119,8 @@ func place_rigid_grip(at: Transform3D, ends: PackedVector3Array) -> void:
 		)
 
 
-## pole1, pole2: SpidarG.get_pole_transform. The stops sit on pole 2 where pole 1 meets them at closed_angle.
+## Places the poles and the stops of a crossed grip. `pole1` and `pole2` are [method SpidarG.get_pole_transform]. The stops
+## are on pole 2, where pole 1 meets them at `closed_angle`.
 func place_grip(at: Transform3D, pole1: Transform3D, pole2: Transform3D, closed_angle: float) -> void:
 	_poles[0].global_transform = pole1.scaled_local(Vector3.ONE * _scale)
 	_poles[1].global_transform = pole2.scaled_local(Vector3.ONE * _scale)
@@ -133,7 +135,7 @@ func place_grip(at: Transform3D, pole1: Transform3D, pole2: Transform3D, closed_
 		)
 
 
-## at: x outward from the middle of the pad's inner face.
+## Places a pad. The origin of `at` is the middle of the pad's inner face, and its x axis points outward.
 func place_pad(side: int, at: Transform3D, radius: float) -> void:
 	# The disc's axis is Y.
 	var size: Basis = Basis.from_scale(Vector3.ONE * radius)
@@ -208,7 +210,7 @@ func _make_arrow() -> void:
 		arrow.add_child(part)
 
 
-## A unit cylinder along Y, from `from` to `to`.
+# Returns the transform of a unit cylinder along Y that makes it a rod from `from` to `to`.
 static func _between(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	var along: Vector3 = to - from
 	var length: float = along.length()

@@ -1,18 +1,20 @@
 extends RefCounted
-## What one [SpidarG] feels of one [SpidarGZone]: how strongly, and the effects that the servo loop renders.
+## What one [SpidarG] feels of one [SpidarGZone]: the strength of the zone and the effects that the servo loop renders.
 
 const RENEWED_FOR_S: float = 0.1
-## A device whose effects are all taken is asked again after so many ticks.
+## After this many physics ticks a device without a free effect is tried again.
 const TICKS_TO_RETRY: int = 15
-## A gain holds until the device has moved to that of the next tick: what the motion makes of the force until then counts.
+## A gain holds until the device has moved to that of the next tick. The force is therefore computed for the motion of this
+## many ticks.
 const TICKS_AHEAD: float = 2.0
-## Nearer than this (m/m) to an axis of the device, an axis counts as parallel to it.
+## An axis counts as parallel to an axis of the device if the sine of the angle between them is below this value.
 const PARALLEL: float = 1e-3
-## Stiffness of a magnet whose axis is oblique: the game renews half of it in each tick, which is stable up to 150 N/m.
+## The largest stiffness of a magnet with an oblique axis, in N/m. The game refreshes half of it, which is stable up to 150
+## N/m.
 const MOST_OBLIQUE_N_M: float = 300.0
 
 var is_inside: bool = false
-## Part of the zone's force that is given, 0 to 1.
+## The share of the zone's force that acts, from 0 to 1.
 var strength: float = 0.0
 
 var _spidar: SpidarG
@@ -28,7 +30,7 @@ func _init(spidar: SpidarG, id: int) -> void:
 	_id = id
 
 
-## Ends the effects, within one game frame.
+## Ends the effects of the zone on this device within 16 ms.
 func stop() -> void:
 	strength = 0.0
 	is_inside = false
@@ -36,7 +38,7 @@ func stop() -> void:
 		_spidar.clear_effect(_id)
 
 
-## Renews the zone's effect. False, once for each time, when the device takes no more effects.
+## Refreshes the effect of the zone. Returns [code]false[/code] once each time the device begins to have no free effect.
 func renew(zone: SpidarGZone, tick_s: float) -> bool:
 	if _wait > 0:
 		_wait -= 1
@@ -89,13 +91,13 @@ func _thicken(zone: SpidarGZone) -> bool:
 	)
 
 
-## From the zone's origin to the grip, in the axes of the device (device m).
+# Returns the vector from the zone's origin to the grip, in the axes of the device (m of device motion).
 func _from(zone: SpidarGZone) -> Vector3:
 	var to_device: Basis = _device_axes().inverse()
 	return to_device * (_spidar.get_grip_transform().origin - zone.global_position) / _spidar.workspace_scale
 
 
-## Of the grip, in the axes of the device (device m/s).
+# Returns the velocity of the grip in the axes of the device (m/s of device motion).
 func _velocity() -> Vector3:
 	return _device_axes().inverse() * _spidar.get_linear_velocity() / _spidar.workspace_scale
 
@@ -104,7 +106,7 @@ func _device_axes() -> Basis:
 	return _spidar.global_basis.orthonormalized()
 
 
-## Stiffness at which a magnet `away_m` from its middle pulls with no more than the zone's largest force.
+# Returns the stiffness with which a magnet at the distance `away_m` pulls with at most the zone's largest force.
 static func _magnet_gain(zone: SpidarGZone, away_m: float) -> float:
 	return zone.max_force / away_m if zone.stiffness * away_m > zone.max_force else zone.stiffness
 
@@ -114,8 +116,8 @@ func _pull(zone: SpidarGZone, gain: float, dof_mask: int) -> bool:
 	return _spidar.set_spring_effect(_id, centre, 0.0, strength * gain, 0.0, 0.0, dof_mask, RENEWED_FOR_S)
 
 
-## A spring of the servo loop pulls along axes of the device alone. For an oblique axis half of the stiffness is such a spring
-## in all directions, and a force that is renewed in each tick takes it away along the axis and doubles it across.
+# A spring of the servo loop pulls along the axes of the device alone. For an oblique axis, half of the stiffness is such a
+# spring in all directions. A force that is refreshed in each tick cancels it along the axis and doubles it across.
 func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	var axis: Vector3 = (_device_axes().inverse() * zone.global_basis.y).normalized()
 	var from: Vector3 = _from(zone)
@@ -138,6 +140,6 @@ func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	)
 
 
-## Number of the device's axis that is nearest to a direction of the world.
+# Returns the number of the device's axis that is nearest to a direction of the world.
 func _nearest_axis(direction: Vector3) -> int:
 	return (_device_axes().inverse() * direction).abs().max_axis_index()

@@ -1,7 +1,7 @@
 @tool
 extends VBoxContainer
-## What serial motor boards keep in their flash: shown, and written only when the user confirms what would be written and to
-## which board. Shown for a config with transport = Serial.
+## Shows the flash memory of serial motor boards. It writes only after the user has confirmed what is written to which board.
+## It is visible for a config with the transport Serial.
 
 const CalibrationSession := preload("calibration_session.gd")
 
@@ -23,13 +23,13 @@ var _waits: bool = false
 var _writes: bool = false
 
 
-## get_config: returns the SpidarGConfig to work with, or null.
+## Creates the controls. `get_config` returns the SpidarGConfig to work with, or [code]null[/code].
 func set_up(session: CalibrationSession, get_config: Callable) -> void:
 	_session = session
 	_get_config = get_config
 	_read.text = "Read boards"
 	_read.name = "ReadBoards"
-	_read.tooltip_text = "What the motor boards keep in their flash. Writes nothing; the device has to be closed."
+	_read.tooltip_text = "Reads the flash memory of the motor boards and writes nothing. The device must be closed."
 	_read.pressed.connect(_read_boards)
 	add_child(_read)
 	_boards.name = "Boards"
@@ -50,7 +50,7 @@ func set_up(session: CalibrationSession, get_config: Callable) -> void:
 	add_child(_row)
 	_write.text = "Write to flash ..."
 	_write.name = "WriteBoard"
-	_write.tooltip_text = "Says what would be written to which board, and asks."
+	_write.tooltip_text = "Shows what would be written to which board, and asks for confirmation."
 	_write.pressed.connect(_propose)
 	add_child(_write)
 
@@ -91,7 +91,7 @@ func _take() -> void:
 	_show_value()
 
 
-## What the board should hold as a rule: all motors by their encoders; its id as it is.
+# Proposes the usual value: all motors are read by their encoders, and the id stays as it is.
 func _show_value() -> void:
 	for board: Dictionary in _session.calibrator.get_boards():
 		if board["id"] == _board.get_selected_id():
@@ -108,7 +108,7 @@ func _propose() -> void:
 		return
 	var dialog: ConfirmationDialog = ConfirmationDialog.new()
 	dialog.title = "Write to flash"
-	dialog.dialog_text = "%s\nThe board keeps it when it is switched off." % told["text"]
+	dialog.dialog_text = "%s\nThe board keeps the value when it is switched off." % told["text"]
 	dialog.ok_button_text = "Write"
 	dialog.confirmed.connect(_confirm.bind(told["board"]))
 	dialog.visibility_changed.connect(

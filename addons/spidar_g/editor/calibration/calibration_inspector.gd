@@ -1,13 +1,13 @@
 @tool
 extends EditorInspectorPlugin
-## Puts the calibration panel on top of the inspector of a SpidarG node or a SpidarGCalibration. A panel comes and goes
-## with the inspector's redrawing; its session stays, and closes the device when no panel asks for it any more.
+## Puts the calibration panel on top of the inspector of a SpidarG node or a SpidarGCalibration. The inspector removes and
+## recreates the panel when it redraws. The session stays, and closes the device when no panel needs it any more.
 
 const CalibrationPanel := preload("calibration_panel.gd")
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 
-## The editor's EditorUndoRedoManager.
+## The EditorUndoRedoManager that records the changes of the panel.
 var history: Object
 
 var _sessions: Dictionary[int, CalibrationSession] = {}
@@ -28,7 +28,7 @@ func _parse_begin(object: Object) -> void:
 	add_custom_control(panel)
 
 
-## Motors off, devices closed: the plugin goes.
+## Switches the motors off and closes all devices, because the plugin is removed.
 func close_all() -> void:
 	for id: int in _sessions:
 		_sessions[id].close_device()
@@ -46,7 +46,7 @@ func _session_of(object: Object) -> CalibrationSession:
 	return _sessions[key]
 
 
-## The node of the edited scene that uses this calibration, for its config; null: none.
+# Returns the node of the edited scene that uses this calibration, or null.
 func _user_of(calibration: SpidarGCalibration, from: Node) -> SpidarG:
 	if from == null:
 		return null

@@ -1,8 +1,10 @@
 @tool
 extends VBoxContainer
-## The six steps of the calibration panel, one shown at a time.
+## Shows the six steps of the calibration panel, one at a time.
 
+## Emitted when the user accepts the result of the calibration.
 signal accepted
+## Emitted when the user wants to save the calibration in use.
 signal saved
 
 const CalibrationSession := preload("calibration_session.gd")
@@ -46,7 +48,7 @@ func set_up(session: CalibrationSession) -> void:
 	_build_result()
 
 
-## has_calibration: there is one to save.
+## Shows the current step. `has_calibration` states whether there is a calibration to save.
 func refresh(has_calibration: bool) -> void:
 	var is_open: bool = _session.is_open()
 	for page: int in _pages.size():
@@ -135,8 +137,11 @@ func _build_wiring() -> void:
 		"Hold the grip lightly in the middle. MOTORS WILL PULL: 0.5 N on all strings, 2 N on one after the other."
 	)
 	var row: HBoxContainer = _row(page)
-	_device_button(row, "Check all strings", "CheckWiring", _session.check_wiring)
-	_device_button(row, "Stop", "Stop", _session.stop, "Motors off.")
+	_device_button(
+		row, "Check all strings", "CheckWiring", _session.check_wiring,
+		"Pulls one string after the other and checks which encoder winds in."
+	)
+	_device_button(row, "Stop", "Stop", _session.stop, "Stops the task and switches the motors off.")
 	row = _row(page)
 	for _column: int in 2:
 		var label: Label = _label(row)
@@ -145,27 +150,30 @@ func _build_wiring() -> void:
 
 
 func _build_zero() -> void:
-	var page: VBoxContainer = _page("Put the grip into its stand at the home pose, strings taut. Read it several times.")
+	var page: VBoxContainer = _page("Put the grip into its stand at the home pose, with taut strings. Read the zero several times.")
 	var row: HBoxContainer = _row(page)
-	_device_button(row, "Read zero", "ReadZero", _session.read_zero)
-	_button(row, "Clear", "ClearZero", _session.clear_zero)
+	_device_button(row, "Read zero", "ReadZero", _session.read_zero, "Takes the current encoder counts as those of the home pose.")
+	_button(row, "Clear", "ClearZero", _session.clear_zero, "Forgets all readings at the home pose.")
 	_zero = _label(page)
 
 
 func _build_ruler() -> void:
 	var page: VBoxContainer = _page(
-		"May be left out. Measure a string from its exit to the grip by a ruler, at two lengths or more, each twice."
+		"This step is optional. Measure a string with a ruler from its exit to the grip, at two lengths or more, each one twice."
 	)
 	var row: HBoxContainer = _row(page)
 	_string = _spin(row, "String", "RulerString", 1, 8, 1, "")
 	_length = _spin(row, "", "RulerLength", 1, 2000, 0.1, "mm")
 	row = _row(page)
-	_device_button(row, "Read length", "ReadLength", _read_length)
-	_button(row, "Clear", "ClearLengths", func() -> void: _session.clear_lengths(int(_string.value) - 1))
+	_device_button(row, "Read length", "ReadLength", _read_length, "Takes this length for the current encoder count of the string.")
+	_button(
+		row, "Clear", "ClearLengths", func() -> void: _session.clear_lengths(int(_string.value) - 1),
+		"Forgets all lengths of this string."
+	)
 	row = _row(page)
 	_simulated_only.append(row)
-	_device_button(row, "Move hand", "MoveHand", _session.move_to_next_place, "The simulated hand goes to its next place.")
-	_device_button(row, "Look at ruler", "LookAtRuler", _look_at_ruler, "What the simulated ruler shows.")
+	_device_button(row, "Move hand", "MoveHand", _session.move_to_next_place, "Moves the simulated hand to its next place.")
+	_device_button(row, "Look at ruler", "LookAtRuler", _look_at_ruler, "Enters the length that the simulated ruler shows.")
 	_lengths = _label(page)
 
 
@@ -176,9 +184,10 @@ func _build_motion() -> void:
 	_taut = CheckButton.new()
 	_taut.text = "Motors hold strings taut (0.5 N)"
 	_taut.name = "Taut"
+	_taut.tooltip_text = "A real device counts correctly only while its strings are taut."
 	_taut.toggled.connect(_session.set_taut)
 	page.add_child(_taut)
-	_motion = _device_button(page, "Start", "Motion", _start_or_stop_motion)
+	_motion = _device_button(page, "Start", "Motion", _start_or_stop_motion, "Starts or stops the collection of poses.")
 	_progress = ProgressBar.new()
 	_progress.max_value = 1.0
 	_progress.name = "Progress"
@@ -188,16 +197,19 @@ func _build_motion() -> void:
 
 func _build_weights() -> void:
 	var page: VBoxContainer = _page(
-		"May be left out. Take a string off the grip and hang a known weight on it. ITS MOTOR WILL PULL until it rises."
+		"This step is optional. Take a string off the grip and hang a known weight on it. ITS MOTOR WILL PULL until the weight rises."
 	)
 	var row: HBoxContainer = _row(page)
 	_weighed = _spin(row, "String", "WeighedString", 1, 8, 1, "")
 	_weight = _spin(row, "", "Weight", 0.5, 4.0, 0.01, "N")
 	_weight.value = 2.0
-	_weight.tooltip_text = "Mass in kg times 9.81."
+	_weight.tooltip_text = "The weight in newtons is the mass in kilograms times 9.81."
 	row = _row(page)
-	_device_button(row, "Weigh", "Weigh", func() -> void: _session.weigh(int(_weighed.value) - 1, _weight.value))
-	_device_button(row, "Stop", "Stop", _session.stop, "Motors off.")
+	_device_button(
+		row, "Weigh", "Weigh", func() -> void: _session.weigh(int(_weighed.value) - 1, _weight.value),
+		"Pulls the string until the weight rises, and lets go until it sinks."
+	)
+	_device_button(row, "Stop", "Stop", _session.stop, "Stops the task and switches the motors off.")
 	_simulated_only.append(
 		_device_button(page, "Weigh all (simulated scale)", "WeighAll", func() -> void: _session.weigh_all(_weight.value))
 	)
@@ -206,13 +218,13 @@ func _build_weights() -> void:
 
 
 func _build_result() -> void:
-	var page: VBoxContainer = _page("What no pose explains of each string's length:")
+	var page: VBoxContainer = _page("Residuals of the string lengths, before and after the calibration:")
 	_plot = ResidualPlot.new()
 	_plot.name = "Plot"
 	page.add_child(_plot)
 	_result = _label(page)
 	var row: HBoxContainer = _row(page)
-	_accept = _button(row, "Accept", "Accept", accepted.emit, "Puts the result into the scene. Can be undone.")
+	_accept = _button(row, "Accept", "Accept", accepted.emit, "Puts the result into the scene. This can be undone.")
 	_save = _button(row, "Save as ...", "Save", saved.emit, "Saves the calibration in use as a file.")
 
 
@@ -254,8 +266,8 @@ func _show_lengths() -> void:
 	var lengths: PackedFloat64Array = told["lengths_m"]
 	var text: PackedStringArray = ["%d readings of this string" % lengths.size()]
 	if told["status"] >= 0:
-		text.append("scale %.4f um a count" % (1e6 * told["scale_m_per_count"]))
-		text.append("off its line by %.2f mm rms" % (1e3 * told["residual_rms_m"]))
+		text.append("scale %.4f um per count" % (1e6 * told["scale_m_per_count"]))
+		text.append("residual %.2f mm rms" % (1e3 * told["residual_rms_m"]))
 	if told["repeated_points"] > 0:
 		text.append("spread of repeats %.2f mm" % (1e3 * told["repeat_spread_m"]))
 	_lengths.text = "\n".join(text)
@@ -298,7 +310,7 @@ func _show_result() -> void:
 	var result: Dictionary = _session.calibrator.get_result()
 	_plot.visible = result["known"]
 	if not result["known"]:
-		_result.text = "No free motion yet: only the zero, lengths and weights would be accepted."
+		_result.text = "There is no free motion yet. Accept takes only the zero, the lengths and the weights."
 		return
 	_plot.show_residuals(result["residuals_before_m"], result["residuals_after_m"])
 	if not result["usable"]:
@@ -308,4 +320,4 @@ func _show_result() -> void:
 		1e3 * result["grip_error_rms_m"], 1e3 * result["offset_error_rms_m"], result["used"], result["left_out"]
 	]
 	for weak: String in result["weak"]:
-		_result.text += "\nNot told by this motion: %s" % weak
+		_result.text += "\nThis motion does not determine: %s" % weak

@@ -1,16 +1,17 @@
 @tool
 extends VBoxContainer
-## The calibration panel of the inspector: the device, its live readings, and one step at a time. Holds no state of its
-## own beside its controls: the inspector may throw it away and make it anew at any time.
+## Shows the calibration panel of the inspector: the device, its live readings and one step at a time. The state is in the
+## session, so the inspector may remove and recreate the panel at any time.
 
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 const CalibrationPages := preload("calibration_pages.gd")
 const BoardParameters := preload("board_parameters.gd")
 
-## Seconds between two refreshings of the numbers.
+## The numbers are refreshed after this time, in seconds.
 const REFRESH_S: float = 0.1
-## Longer than the inspector needs to make a panel anew.
+## A session without a panel closes its device after this time, in seconds. It is longer than the inspector needs to recreate
+## a panel.
 const GRACE_S: float = 0.6
 const PRESETS: PackedStringArray = ["Custom", "Paper", "SpidarG6X3R", "SpidarG6X3L", "SpidarG6X5R", "SpidarG6X5L", "SpidarG6X4"]
 const SMALL_FONT: int = 12
@@ -58,7 +59,7 @@ func _exit_tree() -> void:
 	get_tree().create_timer(GRACE_S).timeout.connect(_close_unheld.bind(_session))
 
 
-## The device is open only while a panel asks for it.
+# Closes the device if no panel shows its session any more.
 static func _close_unheld(session: CalibrationSession) -> void:
 	if session.get_meta("holders", 0) == 0:
 		session.close_device()
@@ -77,7 +78,7 @@ func _build() -> void:
 	_fold.name = "Fold"
 	_fold.toggle_mode = true
 	_fold.button_pressed = _session.is_busy() or _session.has_meta("unfolded")
-	_fold.tooltip_text = "Measure this device: wiring, zero, lengths, motors."
+	_fold.tooltip_text = "Measures this device: wiring, zero, string lengths and motors."
 	_fold.toggled.connect(_show_body)
 	add_child(_fold)
 	add_child(_body)
@@ -115,7 +116,7 @@ func _build_device() -> void:
 	for preset: String in PRESETS:
 		_preset.add_item(preset)
 	_preset.name = "Preset"
-	_preset.tooltip_text = "Which device it is: sets preset of the node's config, and makes one where there is none."
+	_preset.tooltip_text = "Selects the device. Sets the preset of the node's config, and creates a config if there is none."
 	_preset.size_flags_horizontal = Control.SIZE_EXPAND_FILL
 	_preset.item_selected.connect(
 		func(index: int) -> void:
@@ -125,7 +126,7 @@ func _build_device() -> void:
 	choice.add_child(_preset)
 	_practice.text = "Practice: unknown errors"
 	_practice.name = "Practice"
-	_practice.tooltip_text = "Gives the simulated device errors that only it knows, for the calibration to find."
+	_practice.tooltip_text = "Gives the simulated device unknown errors, which the calibration has to find."
 	_practice.pressed.connect(_draw_errors)
 	_body.add_child(_practice)
 	var row: HBoxContainer = HBoxContainer.new()
@@ -133,7 +134,7 @@ func _build_device() -> void:
 	_boards.set_up(_session, _target.get_config)
 	_body.add_child(_boards)
 	_open.name = "Open"
-	_open.tooltip_text = "The device is open while this panel asks for it. Opening it moves no motor."
+	_open.tooltip_text = "Opens or closes the device. Opening it moves no motor. The device closes when this panel is closed."
 	_open.pressed.connect(_open_or_close)
 	row.add_child(_open)
 	_state.name = "State"
@@ -147,7 +148,7 @@ func _build_steps() -> void:
 	_body.add_child(row)
 	_back.text = "<"
 	_back.name = "Back"
-	_back.tooltip_text = "Last step. What runs is stopped."
+	_back.tooltip_text = "Goes to the previous step. A task that runs is stopped."
 	_back.pressed.connect(func() -> void: _session.go_to(_session.step - 1))
 	row.add_child(_back)
 	_title.size_flags_horizontal = Control.SIZE_EXPAND_FILL
@@ -157,7 +158,7 @@ func _build_steps() -> void:
 	row.add_child(_title)
 	_next.text = ">"
 	_next.name = "Next"
-	_next.tooltip_text = "Next step. What runs is stopped."
+	_next.tooltip_text = "Goes to the next step. A task that runs is stopped."
 	_next.pressed.connect(func() -> void: _session.go_to(_session.step + 1))
 	row.add_child(_next)
 	_pages = CalibrationPages.new()
@@ -177,7 +178,7 @@ func _draw_errors() -> void:
 	random.randomize()
 	_target.draw_practice_errors(random)
 	_session.message_is_problem = false
-	_session.message = "Practice: open the device. Your scene keeps its settings; closing the device ends the practice."
+	_session.message = "The practice is prepared: open the device. Your scene keeps its settings, and closing the device ends the practice."
 	_refresh()
 
 
@@ -194,9 +195,9 @@ func _accept() -> void:
 	var made: SpidarGCalibration = _session.make_calibration()
 	if made != null:
 		_target.accept(_history, made)
-		_session.message = "Accepted; Ctrl+Z undoes it. Save it for your other scenes."
+		_session.message = "The calibration was accepted; Ctrl+Z undoes it. Save it to use it in other scenes."
 		if _target.is_practice():
-			_session.message = "Accepted, but of a simulated device: undo it with Ctrl+Z before a real device is used."
+			_session.message = "The calibration of a simulated device was accepted. Undo it with Ctrl+Z before you use a real device."
 		_refresh()
 
 
@@ -281,5 +282,7 @@ func _show_live() -> void:
 			% [string + 1, live["counts"][string], 1e3 * live["lengths_m"][string], live["tensions_n"][string]]
 		)
 	_live.text = "\n".join(lines)
-	_quality.text = "Lengths contradict each other by %.3f mm. Pose: %s" % [1e3 * live["residual_m"], live["pose_text"]]
+	_quality.text = "Residual of the string lengths: %.3f mm." % (1e3 * live["residual_m"])
+	if live["pose_status"] != 0:
+		_quality.text += " Pose: %s" % live["pose_text"]
 	_quality.tooltip_text = live["fallback_reason"]

@@ -1,29 +1,30 @@
 @tool
 extends RefCounted
-## One calibration in the making: which step, what runs, what was found. Knows no controls, so that it is tested without.
+## Holds the state of one calibration: the current step, the running task and the result. It does not depend on any controls,
+## so that it can be tested without them.
 
-## What the panel shows has changed, other than by a new reading.
+## Emitted when something that the panel shows has changed, except for a new reading.
 signal changed
 
 enum Step { WIRING, ZERO, RULER, MOTION, WEIGHTS, RESULT }
 
 const STRINGS: int = 8
 const STEP_NAMES: Array[String] = ["Wiring", "Zero at home", "Lengths by ruler", "Free motion", "Motor gain", "Result"]
-## Poses after which the free motion is enough: the expected error falls with their square root.
+## The free motion is complete after this many poses. The expected error falls with their square root.
 const ENOUGH_POSES: int = 320
-## A first estimate of the accuracy, then one each so many poses.
+## The accuracy is estimated each time this many poses have been collected.
 const ESTIMATE_EVERY: int = 80
-## A length counts as read off a ruler of half millimetres.
+## A simulated ruler is read in these steps, in meters, as a ruler with half millimeters is.
 const RULER_STEP_M: float = 0.0005
 
 var calibrator: SpidarGCalibrator = SpidarGCalibrator.new()
-## In simulated time, moved on by update(): for tests.
+## If [code]true[/code], the device is simulated, and [method update] advances its time. It is used by tests.
 var stepped: bool = false
 var step: Step = Step.WIRING
-## What went wrong or was done last; empty: nothing.
+## The sentence that states the last result or problem. It is empty if there is none.
 var message: String = ""
 var message_is_problem: bool = false
-## SpidarGCalibrator.Verdict of each string; -1: not checked.
+## The SpidarGCalibrator.Verdict of each string, or -1 for a string that was not checked.
 var wiring: PackedInt32Array = [-1, -1, -1, -1, -1, -1, -1, -1]
 var moving: bool = false
 var place: int = -1
@@ -40,7 +41,7 @@ var _final: bool = false
 var _was_computing: bool = false
 
 
-## Asks for the device; update() sees to it. What was measured before is forgotten.
+## Requests the device, which [method update] then opens. The earlier measurements are forgotten.
 func open_device(config: SpidarGConfig, calibration: SpidarGCalibration) -> void:
 	_config = config
 	_calibration = calibration
@@ -49,7 +50,7 @@ func open_device(config: SpidarGConfig, calibration: SpidarGCalibration) -> void
 	_try_open()
 
 
-## Motors off, device closed. What was measured stays.
+## Switches the motors off and closes the device. The measurements are kept.
 func close_device() -> void:
 	_wants_open = false
 	stop()
@@ -61,7 +62,8 @@ func is_open() -> bool:
 	return calibrator.get_device_state() == SpidarGCalibrator.DEVICE_OPEN and get_readings() > 0
 
 
-## Being opened, open or being closed: it is to be updated.
+## Returns [code]true[/code] while the device is being opened, open or being closed. Call [method update] in each frame
+## meanwhile.
 func is_busy() -> bool:
 	var state: SpidarGCalibrator.DeviceState = calibrator.get_device_state()
 	var at_rest: bool = state == SpidarGCalibrator.DEVICE_CLOSED or state == SpidarGCalibrator.DEVICE_FAILED
@@ -76,7 +78,7 @@ func is_simulated() -> bool:
 	return calibrator.get_live()["simulated"]
 
 
-## Each frame while is_busy().
+## Advances the session by `delta_s` seconds. Call it in each frame while [method is_busy] is [code]true[/code].
 func update(delta_s: float) -> void:
 	if _wants_open and calibrator.get_device_state() == SpidarGCalibrator.DEVICE_CLOSED:
 		_try_open()
@@ -91,7 +93,7 @@ func update(delta_s: float) -> void:
 	_watch_computation()
 
 
-## Motors off, hand home, nothing collected any more.
+## Stops the running task: the motors are switched off, the hand moves home, and no poses are collected any more.
 func stop() -> void:
 	_queue.clear()
 	_task_runs = false
@@ -106,19 +108,19 @@ func is_task_running() -> bool:
 	return _task_runs or not _queue.is_empty()
 
 
-## Pulls one string after the other and looks whose encoder winds in.
+## Checks the wiring of all strings: pulls one after the other and finds out whose encoder winds in.
 func check_wiring() -> void:
 	wiring.fill(-1)
 	_start_queue(SpidarGCalibrator.TASK_WIRING, range(STRINGS), 0.0)
 
 
-## All strings at 0.5 N, as a real device needs while it is moved by hand; or motors off.
+## Pulls all strings with 0.5 N, as a real device needs while it is moved by hand, or switches the motors off.
 func set_taut(taut: bool) -> void:
 	_report(calibrator.start_task(SpidarGCalibrator.TASK_TAUT if taut else SpidarGCalibrator.TASK_IDLE))
 
 
 func read_zero() -> void:
-	_report(calibrator.take_zero(), "Home read. Take the grip out, put it back and read again: the spread shows.")
+	_report(calibrator.take_zero(), "The home pose was read. Take the grip out, put it back and read again to see the spread.")
 
 
 func clear_zero() -> void:
@@ -135,13 +137,13 @@ func clear_lengths(string: int) -> void:
 	_say("")
 
 
-## Simulated device: the hand goes to the next of its places.
+## Moves the hand of a simulated device to the next of its places.
 func move_to_next_place() -> void:
 	place = (place + 1) % STRINGS
 	_report(calibrator.move_simulated_hand(SpidarGCalibrator.HAND_PLACE, place))
 
 
-## Simulated device: what the ruler shows along a string (m).
+## Returns the length that a ruler shows along a string of a simulated device, in meters.
 func read_ruler(string: int) -> float:
 	var ruler: PackedFloat64Array = calibrator.get_live().get("ruler_m", PackedFloat64Array())
 	return snappedf(ruler[string], RULER_STEP_M) if string < ruler.size() else 0.0
@@ -149,7 +151,7 @@ func read_ruler(string: int) -> float:
 
 func start_motion() -> void:
 	if calibrator.get_zero()["repeats"] == 0:
-		_say("Read the zero first: the fit begins there.", true)
+		_say("Read the zero first: the fit starts from it.", true)
 		return
 	calibrator.clear_poses()
 	_estimated_at = 0
@@ -167,7 +169,7 @@ func stop_motion() -> void:
 	changed.emit()
 
 
-## 0 to 1.
+## Returns how complete the free motion is, from 0 to 1.
 func get_progress() -> float:
 	return clampf(float(calibrator.get_coverage()["poses"]) / ENOUGH_POSES, 0.0, 1.0)
 
@@ -176,17 +178,18 @@ func weigh(string: int, weight_n: float) -> void:
 	_start_queue(SpidarGCalibrator.TASK_WEIGHING, [string], weight_n)
 
 
-## Simulated device: nobody has to hang the weight on the next string.
+## Weighs all strings of a simulated device, where nobody has to hang the weight on the next string.
 func weigh_all(weight_n: float) -> void:
 	_start_queue(SpidarGCalibrator.TASK_WEIGHING, range(STRINGS), weight_n)
 
 
-## Shows a sentence of somebody else's.
+## Shows a sentence that another part of the panel provides.
 func tell(text: String, problem: bool = false) -> void:
 	_say(text, problem)
 
 
-## What there is to accept now; null, with the reason as message: nothing.
+## Returns the calibration that can be accepted now. Returns [code]null[/code] if there is none; the message then states the
+## reason.
 func make_calibration() -> SpidarGCalibration:
 	var made: SpidarGCalibration = calibrator.make_calibration()
 	if made == null:
@@ -203,7 +206,7 @@ func go_to(next: int) -> void:
 	_say("")
 
 
-## What may be said of a step before the next one: true, and it is done.
+## Returns [code]true[/code] if the step is complete, so that the next one can begin.
 func is_done(of: Step) -> bool:
 	match of:
 		Step.WIRING:
@@ -244,7 +247,7 @@ func _start_queue(task: SpidarGCalibrator.Task, strings: Array, weight_n: float)
 	_say("")
 
 
-## One string after the other; a simulated hand is waited for.
+# Runs the task on one string after the other. A simulated hand must have arrived first.
 func _run_queue() -> void:
 	if _task_runs:
 		var told: Dictionary = calibrator.get_task()
@@ -295,7 +298,7 @@ func _watch_computation() -> void:
 		if _final:
 			var result: Dictionary = calibrator.get_result()
 			var usable: bool = result["usable"]
-			_say("Calibrated. Look at the result, then accept it." if usable else result["refusal"], not usable)
+			_say("The calibration is complete. Look at the result, then accept it." if usable else result["refusal"], not usable)
 		changed.emit()
 	_was_computing = computing
 

@@ -1,21 +1,21 @@
 @tool
 extends RefCounted
-## What is calibrated: a SpidarG node, or a SpidarGCalibration by itself. Every change is one action that can be undone.
+## Represents what is calibrated: a SpidarG node or a SpidarGCalibration alone. Every change is one action that can be undone.
 
 const NAMES: PackedStringArray = [
 	"string_offsets", "string_scales", "zero_counts", "effective_radii", "torque_constants", "tension_gains", "max_currents"
 ]
-## What practice errors are drawn from: a thumb's width of offset, a drum wound thick or thin, motors a tenth off.
+## Practice errors of the string lengths are drawn with this standard deviation, in meters.
 const PRACTICE_OFFSET_M: float = 0.005
 const PRACTICE_COMMON_GAIN: float = 0.03
 const PRACTICE_GAIN: float = 0.005
 const PRACTICE_TENSION: float = 0.12
 
-## Configs of practice by their nodes: of their own, so that nothing of practice is left in the scene.
+# The config of each node in practice, by instance id. It is kept here so that the scene does not contain it.
 static var _practice: Dictionary[int, SpidarGConfig] = {}
 
 var node: SpidarG
-## Edited by itself; null for a node.
+## The calibration that is edited alone, or [code]null[/code] for a node.
 var resource: SpidarGCalibration
 
 
@@ -23,7 +23,7 @@ func get_config() -> SpidarGConfig:
 	return config_of(node)
 
 
-## The config to calibrate with: of the practice, if the node is practised with.
+## Returns the config to calibrate with. For a node in practice it is the config of the practice.
 static func config_of(device: SpidarG) -> SpidarGConfig:
 	if not is_instance_valid(device):
 		return null
@@ -43,7 +43,8 @@ func get_calibration() -> SpidarGCalibration:
 	return node.calibration if is_instance_valid(node) and resource == null else resource
 
 
-## A node takes the new resource; a resource takes its values, so that all who use it have them.
+## Puts the result into the scene. A node takes the new resource. A resource takes the values, so that all its users have
+## them.
 func accept(history: Object, made: SpidarGCalibration) -> void:
 	history.call("create_action", "Calibrate SPIDAR-G")
 	if resource == null:
@@ -61,8 +62,8 @@ func set_preset(history: Object, preset: int) -> void:
 	_change_config(history, "Choose SPIDAR-G Preset", {"preset": preset})
 
 
-## A simulated device with errors that only it knows, for practice and for tests, until end_practice(). The node keeps its
-## own config.
+## Gives the node a simulated device with unknown errors, for practice and for tests, until [method end_practice] is called.
+## The node keeps its own config.
 func draw_practice_errors(random: RandomNumberGenerator) -> void:
 	if not is_instance_valid(node):
 		return

@@ -1,6 +1,7 @@
 @tool
 extends Control
-## What no pose explains of each string's length, before and after: two bars a string, on a logarithmic scale.
+## Draws the residuals of each string length before and after the calibration: two bars for each string, on a logarithmic
+## scale.
 
 const LOW_M: float = 1e-6
 const HIGH_M: float = 0.1
@@ -20,14 +21,15 @@ func _init() -> void:
 	custom_minimum_size = Vector2(220, 150)
 
 
-## Metres, a value a string; not a number: no pose fitted. Empty: nothing to show.
+## Shows the residuals of the strings, in meters. NAN means that no pose fits, and an empty array means that there is nothing
+## to show.
 func show_residuals(before_m: PackedFloat64Array, after_m: PackedFloat64Array) -> void:
 	_before_m = before_m
 	_after_m = after_m
 	queue_redraw()
 
 
-## Share of the height, 0 to 1; not a number stands for "more than can be shown".
+## Returns the height of a bar as a share of the plot, from 0 to 1. NAN is drawn as more than can be shown.
 static func height_of(value_m: float) -> float:
 	if is_nan(value_m):
 		return 1.0

@@ -1,6 +1,6 @@
 @tool
 extends EditorNode3DGizmoPlugin
-## The 3-D view of every SpidarG in the edited scene; one gizmo a node.
+## Draws every SpidarG of the edited scene in the 3D view, with one gizmo for each node.
 
 const Gizmo := preload("spidar_g_gizmo.gd")
 const Shapes := preload("workspace_shapes.gd")
@@ -34,18 +34,19 @@ func _init() -> void:
 	options.changed.connect(redraw_selected)
 
 
-## Begins to follow the selection: only a selected device shows more than its frame, strings and grip.
+## Starts to follow the selection. Only a selected device shows more than its frame, strings and grip.
 func start() -> void:
 	options.load_from(EditorInterface.get_editor_settings())
 	EditorInterface.get_selection().selection_changed.connect(redraw_selected)
 
 
+## Stops following the selection, and saves the options.
 func stop() -> void:
 	options.save_to(EditorInterface.get_editor_settings())
 	EditorInterface.get_selection().selection_changed.disconnect(redraw_selected)
 
 
-## Draws anew what is selected, and what was.
+## Redraws the selected devices, and those that were selected before.
 func redraw_selected() -> void:
 	var now: Array[int] = []
 	for node: Node in EditorInterface.get_selection().get_selected_nodes():

@@ -1,9 +1,10 @@
 @tool
 extends EditorNode3DGizmo
-## Draws one SpidarG in the editor: frame, strings and grip; while it is selected also corner numbers, workspace box, closure
-## map and force capacity at the probe, which is the grip itself: drag it. Handles on the frame edit its size.
+## Draws one SpidarG in the editor: frame, strings and grip. While it is selected, corner numbers, workspace box, closure map
+## and the force capacity at the probe are drawn too. The probe is the grip itself: drag it. Handles on the frame edit its
+## size.
 ##
-## It draws when the node says that something changed, and never by itself. What is computed is SpidarGWorkspace's.
+## The gizmo redraws only if the node reports a change. SpidarGWorkspace computes what it shows.
 
 const Shapes := preload("workspace_shapes.gd")
 const View := preload("../../nodes/spidar_g_view.gd")
@@ -25,27 +26,28 @@ const CAPACITY_EDGE_COLOUR: Color = Color(0.45, 0.72, 1.00, 0.45)
 const POLE_RADIUS_M: float = 0.0022
 const KNOT_RADIUS_M: float = 0.004
 const MAP_CELLS: int = 24
-## A rigid grip's closure takes forty times as long to find.
+## The map of a rigid grip has fewer cells along each side, because its closure takes forty times as long to compute.
 const RIGID_MAP_CELLS: int = 10
-## Of the texts, at any distance: Godot's units of a mesh with fixed size.
+## The size of a pixel of the texts at any distance, in Godot's units of a mesh with fixed size.
 const TEXT_PIXEL: float = 0.0013
 const NUMBER_SIZE: int = 22
 const REPORT_SIZE: int = 18
-## Dragged sizes: what a frame may measure, and in what steps (m).
+## The smallest size that a handle gives to the frame, in meters.
 const LEAST_SIZE_M: float = 0.1
 const LARGEST_SIZE_M: float = 5.0
 const SIZE_STEP_M: float = 0.001
 const FAR_M: float = 1000.0
-## From the grip's centre to the probe's handle: clear of the arrows by which the editor moves the node.
+## The position of the probe's handle relative to the grip's center, in meters. It keeps clear of the arrows with which the
+## editor moves the node.
 const PROBE_HANDLE_M: Vector3 = Vector3(-0.05, -0.05, 0.0)
-## Over the frame: clear of the corners' numbers.
+## The height of the report above the frame, in meters. It keeps clear of the numbers at the corners.
 const REPORT_HEIGHT_M: float = 0.09
 
 var options: ViewOptions
 var shapes: Shapes
-## Where the grip is tried, device frame.
+## The position in the device frame at which the grip is probed, in meters.
 var probe_m: Vector3 = Vector3.ZERO
-## How often it was drawn: an idle editor draws nothing.
+## The number of times the gizmo was drawn. An idle editor draws nothing.
 var draw_count: int = 0
 
 var _workspace := SpidarGWorkspace.new()
@@ -133,8 +135,8 @@ func _commit_handle(id: int, _secondary: bool, restore: Variant, cancel: bool) -
 	undo.commit_action()
 
 
-## Moves the probe with its handle, to where the view's ray meets the plane through it that faces the viewer; not out of
-## the frame.
+## Moves the probe with its handle to where the ray of the view meets the plane through the handle that faces the viewer. The
+## probe stays inside the frame.
 func drag_probe(from: Vector3, along: Vector3, facing: Vector3) -> void:
 	var met: Variant = Plane(facing, probe_m + PROBE_HANDLE_M).intersects_ray(from, along)
 	if met == null:
@@ -144,7 +146,7 @@ func drag_probe(from: Vector3, along: Vector3, facing: Vector3) -> void:
 	get_node_3d().update_gizmos()
 
 
-## Half the frame's size along an axis goes to where the view's ray passes that axis nearest.
+## Sets half the size of the frame along an axis to the point of this axis that is nearest to the ray of the view.
 func drag_size(axis: int, from: Vector3, along: Vector3) -> void:
 	var config: SpidarGConfig = (get_node_3d() as SpidarG).config
 	var unit: Vector3 = Vector3.ZERO
@@ -157,7 +159,7 @@ func drag_size(axis: int, from: Vector3, along: Vector3) -> void:
 	config.frame_size = size
 
 
-## What the strings can do at the probe, in words.
+## Returns a text that describes what the strings can do at the probe.
 func report() -> String:
 	if _workspace.get_problem() != "":
 		return _workspace.get_problem()
@@ -217,7 +219,7 @@ func _draw_map(box: PackedVector3Array, scale: float) -> void:
 	_glass(Shapes.map_mesh(points, margins, cells), Vector3.ZERO, scale)
 
 
-## The report stands at `above`.
+# Draws the force capacity at the probe, and the report at `above`.
 func _draw_capacity(above: Vector3, scale: float) -> void:
 	var pose := Transform3D(Basis.IDENTITY, probe_m)
 	var directions: PackedVector3Array = shapes.directions
@@ -282,7 +284,7 @@ static func _scaled_transform(at: Transform3D, scale: float) -> Transform3D:
 	return Transform3D(Basis.from_scale(Vector3.ONE * scale) * at.basis, scale * at.origin)
 
 
-## Over the middle of the frame's top.
+# Returns a point above the middle of the frame's top.
 static func _above(motors: PackedVector3Array) -> Vector3:
 	var middle: Vector3 = 0.5 * (_low(motors) + _high(motors))
 	return Vector3(middle.x, _high(motors).y + REPORT_HEIGHT_M, middle.z)

@@ -1,6 +1,6 @@
 @tool
 extends MenuButton
-## In the 3-D view's toolbar while a SpidarG is selected: what its gizmo shows.
+## The menu in the toolbar of the 3D view that selects what the gizmo shows. It is visible while a SpidarG is selected.
 
 const ViewOptions := preload("view_options.gd")
 
@@ -16,11 +16,11 @@ const LABELS: Dictionary[Item, String] = {
 	Item.BOX: "Workspace box",
 }
 const TIPS: Dictionary[Item, String] = {
-	Item.MAP_NONE: "No map is computed.",
-	Item.MAP_XY: "Where the strings can hold the grip, in the plane through the probe: green well, yellow hardly, red not.",
-	Item.CAPACITY: "How large a force the strings can give in every direction at the probe, without a moment. 6 mm are 1 N.",
-	Item.NUMBERS: "Strings 1 to 8, as in the paper; in scripts they are 0 to 7.",
-	Item.BOX: "Where the grip's centre meets no soft wall.",
+	Item.MAP_NONE: "Draws no map of the wrench closure.",
+	Item.MAP_XY: "Shows where the strings can hold the grip, in the plane through the probe: green is good, yellow is weak, red is impossible.",
+	Item.CAPACITY: "Shows how large a force the strings can give in every direction at the probe, without a moment. 6 mm are 1 N.",
+	Item.NUMBERS: "Shows the numbers of the strings, 1 to 8 as in the paper. Scripts use the indices 0 to 7.",
+	Item.BOX: "Shows the box in which the center of the grip meets no soft wall.",
 }
 
 var options: ViewOptions
@@ -28,7 +28,7 @@ var options: ViewOptions
 
 func _ready() -> void:
 	text = "SPIDAR-G"
-	tooltip_text = "What is drawn of the selected SpidarG"
+	tooltip_text = "Selects what is drawn of the selected SpidarG."
 	flat = true
 	var menu: PopupMenu = get_popup()
 	menu.hide_on_checkable_item_selection = false
@@ -45,6 +45,7 @@ func _ready() -> void:
 	_follow_selection()
 
 
+## Applies a menu item to the options, and saves them.
 func choose(item: Item) -> void:
 	match item:
 		Item.CAPACITY:

@@ -1,21 +1,23 @@
 @tool
 extends RefCounted
-## Shapes of the 3-D view: points in, meshes and lines out. Device metres; nothing here knows a device or the editor.
+## Makes meshes and lines of the 3D view from points. Lengths are in meters of device motion. It does not depend on a device
+## or on the editor.
 
-## Of a drawn force.
+## A force is drawn with this length, in meters for each newton.
 const METRES_PER_NEWTON: float = 0.006
 const LOST_COLOUR: Color = Color(0.90, 0.16, 0.14, 0.42)
 const WEAK_COLOUR: Color = Color(1.00, 0.80, 0.20, 0.36)
 const GOOD_COLOUR: Color = Color(0.15, 0.75, 0.40, 0.36)
-## A margin from here on is as good as any.
+## Closure margins from this value on have the color of a good margin.
 const GOOD_MARGIN: float = 0.5
-## How often the triangles of an icosahedron are split into four.
+## The triangles of an icosahedron are split into four this many times.
 const SPLITS: int = 2
-## How many of the directions are those of one split less: enough for least and largest.
+## This many directions exist after one split less. They are enough to find the smallest and the largest force.
 const FEW: int = 42
 
-## Unit vectors that cover the sphere evenly, and the triangles between them.
+## Unit vectors that cover the sphere evenly. They are the corners of [member triangles].
 var directions: PackedVector3Array = []
+## The triangles that connect the [member directions], with three indices each.
 var triangles: PackedInt32Array = []
 
 
@@ -25,7 +27,7 @@ func _init() -> void:
 		_split()
 
 
-## The twelve edges of a box, two points each.
+## Returns the twelve edges of a box, with two points for each edge.
 static func box_lines(low: Vector3, high: Vector3) -> PackedVector3Array:
 	var lines: PackedVector3Array = []
 	for axis: int in 3:
@@ -40,7 +42,7 @@ static func box_lines(low: Vector3, high: Vector3) -> PackedVector3Array:
 	return lines
 
 
-## A cylinder of radius and height 1 along +Y becomes a rod between two points.
+## Returns the transform that makes a cylinder of radius and height 1 along +Y a rod between two points.
 static func rod(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	var along: Vector3 = to - from
 	var length: float = along.length()
@@ -50,7 +52,8 @@ static func rod(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	return Transform3D(turn * Basis.from_scale(Vector3(radius, length, radius)), 0.5 * (from + to))
 
 
-## Points of a map: `cells` + 1 rows of as many, in the plane through `at` across `axis`, within a box.
+## Returns the points of a map: `cells` + 1 rows with as many points each, in the plane through `at` across `axis`, within a
+## box.
 static func map_points(low: Vector3, high: Vector3, at: Vector3, axis: int, cells: int) -> PackedVector3Array:
 	var points: PackedVector3Array = []
 	var across: int = (axis + 1) % 3
@@ -87,7 +90,7 @@ func few_directions() -> PackedVector3Array:
 	return directions.slice(0, FEW)
 
 
-## Every direction as far as the force that can be given along it.
+## Returns a mesh that extends in every direction as far as the force that the strings can give along it.
 func capacity_mesh(capacity_n: PackedFloat64Array, colour: Color) -> ArrayMesh:
 	var points: PackedVector3Array = []
 	var colours: PackedColorArray = []
@@ -97,7 +100,7 @@ func capacity_mesh(capacity_n: PackedFloat64Array, colour: Color) -> ArrayMesh:
 	return _mesh(points, triangles, colours)
 
 
-## The edges of the same.
+## Returns the edges of the mesh of [method capacity_mesh].
 func capacity_lines(capacity_n: PackedFloat64Array) -> PackedVector3Array:
 	var lines: PackedVector3Array = []
 	for corner: int in triangles.size():
@@ -148,7 +151,7 @@ func _edges(a: int, b: int, c: int, edge: float) -> bool:
 	return true
 
 
-## Each triangle into four, the new corners out on the sphere.
+# Splits each triangle into four and moves the new corners to the sphere.
 func _split() -> void:
 	var halves: Dictionary[Vector2i, int] = {}
 	var finer: PackedInt32Array = []

@@ -1,5 +1,5 @@
 extends Node3D
-## Says which clip the hand feels.
+## Shows the name of the clip that the hand feels.
 
 @onready var _told: Label3D = $Told
 

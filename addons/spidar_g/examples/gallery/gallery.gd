@@ -1,9 +1,10 @@
 extends Control
-## Shows all examples to choose from. A click, or Enter on the button that has the focus, opens one; Esc comes back.
+## Shows all examples to choose from. A click, or Enter on the button that has the focus, opens one. Esc returns to the
+## buttons.
 
 const FOLDER: String = "res://addons/spidar_g/examples/"
-## Name of the folder and scene: what the button says. To add an example, add its line here and make its picture, as the
-## README.md of the examples says.
+## Maps the name of each folder and scene to the text of its button. To add an example, add a line here and make its picture,
+## as the README.md of the examples describes.
 const EXAMPLES: Dictionary[String, String] = {
 	"first_touch": "First touch\nA table and a ball. Open this one first.",
 	"touch": "Touch\nBox, ball, cylinder and a mesh of hills.",
@@ -19,8 +20,9 @@ const EXAMPLES: Dictionary[String, String] = {
 	"mouse_hand": "Mouse hand\nWhat mouse and keys do where there is no device.",
 }
 
-## Of a button, in its own width: its height, and that of its letters.
+## The height of a button as a share of its width.
 const HEIGHT: float = 0.83
+## The font size of a button as a share of its width.
 const LETTERS: float = 0.058
 
 var _example: Node = null
@@ -52,7 +54,7 @@ func open(name: String) -> void:
 	add_child(_example)
 
 
-## Shows the buttons again. The focus is on the one that was pressed last.
+## Shows the buttons again. The focus is on the button that was pressed last.
 func close() -> void:
 	var name: String = _example.scene_file_path.get_file().get_basename()
 	_example.free()
@@ -62,7 +64,7 @@ func close() -> void:
 	(_buttons.get_node(name) as Button).grab_focus()
 
 
-## The pictures keep their shape in every window.
+# Sizes the buttons so that the pictures keep their shape in every window.
 func _size_buttons() -> void:
 	var width: float = _buttons.size.x / _buttons.columns
 	for button: Button in _buttons.get_children():

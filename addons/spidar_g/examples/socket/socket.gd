@@ -1,5 +1,5 @@
 extends Node3D
-## Says what the sockets of the plug do.
+## Shows in words what the sockets of the plug do.
 
 @onready var _told: Label3D = $Told
 

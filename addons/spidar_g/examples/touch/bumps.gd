@@ -1,10 +1,12 @@
 @tool
 extends StaticBody3D
-## A sheet of hills. The shape takes the mesh's triangles as they are: create_trimesh_shape() would round them to 0.1 mm.
+## Makes a sheet of hills. The shape takes the triangles of the mesh as they are; create_trimesh_shape() would round them to
+## 0.1 mm.
 
-const STEP_M: float = 0.0018 # 50 steps a side
+const STEP_M: float = 0.0018 # between two points of the mesh: 50 steps a side
 const HILL_M: float = 0.03 # from crest to crest
 
+## Sets the material with which the sheet is drawn.
 @export var look: Material
 
 

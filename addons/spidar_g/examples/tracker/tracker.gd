@@ -1,5 +1,5 @@
 extends Node3D
-## Made for XR controllers alone: the aim is shown on the wall, the grip shrinks the ball, the trigger colors it.
+## Uses an XR controller alone: the aim is shown on the wall, the grip shrinks the ball, and the trigger changes its color.
 
 @onready var _controller: XRController3D = $XROrigin3D/XRController3D
 @onready var _aim: XRController3D = $XROrigin3D/Aim

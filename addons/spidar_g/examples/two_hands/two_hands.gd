@@ -1,5 +1,5 @@
 extends Node3D
-## The right hand holds its end of the bar and sways; take the other end with the left hand, and feel it.
+## Moves the right hand, which holds its end of the bar and sways. Take the other end with the left hand, and feel it.
 
 const SWAY_M := Vector3(0.0, 0.012, 0.0)
 const PERIOD_S: float = 4.0

@@ -1,13 +1,15 @@
 extends RefCounted
-## How fast hands came to a body: the motion of both in the last physics ticks, from before the touch took the speed away.
+## Measures how fast hands came to a body. The motion of both is kept for the last physics ticks, from before the touch took
+## the speed away.
 
+## The motion is kept for this many physics ticks.
 const TICKS: int = 4
 
 var _hands: Dictionary[int, Array] = {}
 var _body: Array[Motion] = []
 
 
-## Of a rigid thing, in the world.
+## Holds the velocity of a rigid body or grip, in world coordinates.
 class Motion:
 	var at: Vector3
 	var linear: Vector3
@@ -22,7 +24,7 @@ class Motion:
 		return linear + angular.cross(point - at)
 
 
-## Once a physics tick.
+## Records the motion of the body and of all hands. Call it once per physics tick.
 func note(body: PhysicsBody3D, hands: Array[SpidarGHand]) -> void:
 	_keep(_body, _motion_of_body(body))
 	for id: int in _hands.keys():
@@ -39,13 +41,14 @@ func note(body: PhysicsBody3D, hands: Array[SpidarGHand]) -> void:
 		_keep(_hands.get_or_add(hand.get_instance_id(), [] as Array[Motion]), motion)
 
 
+## Forgets all recorded motion of the body and the hands.
 func forget() -> void:
 	_hands.clear()
 	_body.clear()
 
 
-## Largest speed of the last ticks at which hand and body came together at `point`, along `normal` (out of the body), in device
-## meters a second.
+## Returns the largest speed in the last ticks at which hand and body approached each other at `point` along `normal` (out of
+## the body), in meters of device motion per second.
 func speed(hand: SpidarGHand, point: Vector3, normal: Vector3) -> float:
 	var of_hand: Array = _hands.get(hand.get_instance_id(), [])
 	var most: float = 0.0

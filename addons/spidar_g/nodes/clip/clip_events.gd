@@ -1,35 +1,35 @@
 extends RefCounted
-## The events of a [SpidarGClipPlayer]: connected to the signals of its source, and told with what the player must know of them.
+## Connects a [SpidarGClipPlayer] to the signals of its source, and emits its events.
 
-## direction: along which the hand met the body, unit length, or zero where nothing tells it. speed: at which it came (device
-## m/s), for Event.IMPACT alone.
+## Emitted when the event occurs. `direction` is the unit vector along which the hand met the body, or zero if it is unknown.
+## `speed` is the speed of the hand in meters of device motion per second, for Event.IMPACT alone.
 signal occurred(hand: SpidarGHand, direction: Vector3, speed: float)
-## The hand is off the surface again, for the events of a touch.
+## Emitted when the hand has left the surface, for the events of a touch.
 signal left(hand: SpidarGHand)
-## The hand does not slip any more.
+## Emitted when the hand no longer slips along the surface.
 signal slip_ended(hand: SpidarGHand)
-## The children of the source are others: a surface may have come or gone.
+## Emitted when the children of the source have changed: a surface may have come or gone.
 signal source_changed
 
 const Event := SpidarGClipPlayer.Event
 const Approach := preload("approach.gd")
 const Source := preload("clip_source.gd")
 
-## A point that does not press counts for its normal as one that presses so hard, N.
+## The normal of a point that does not press has this weight, in newtons.
 const LEAST_WEIGHT_N: float = 0.001
-## Normals whose sum is shorter than this part of them oppose each other.
+## Normals oppose each other if the length of their sum is below this share of their weights.
 const OPPOSED: float = 0.3
 
 var source: Source = null
 
 var _event := Event.NONE
 var _approach := Approach.new()
-## What is connected, and to what of this object.
+# The connected signals. The callable of each one has the same place in _answers.
 var _signals: Array[Signal] = []
 var _answers: Array[Callable] = []
 
 
-## Connects what `event` of `from` needs. hands: all of the scene tree.
+## Connects what `event` of the source `from` needs. `hands` are all hands of the scene tree.
 func connect_to(event: Event, from: Source, hands: Array[SpidarGHand]) -> void:
 	var is_same: bool = source != null and source.surface == from.surface and _event == event
 	leave()
@@ -58,6 +58,7 @@ func connect_to(event: Event, from: Source, hands: Array[SpidarGHand]) -> void:
 					_answer(told, _on_body.bind(hand.get_instance_id()))
 
 
+## Disconnects everything, and forgets the source.
 func leave() -> void:
 	for i: int in _signals.size():
 		if _signals[i].get_object() != null and _signals[i].is_connected(_answers[i]):
@@ -67,19 +68,19 @@ func leave() -> void:
 	source = null
 
 
-## Whether the surface can still tell that a hand slips no more.
+## Returns [code]true[/code] if the surface can still report that a hand no longer slips.
 func has_surface() -> bool:
 	return source != null and is_instance_valid(source.surface) and source.surface.is_inside_tree()
 
 
-## Once a physics tick, for Event.IMPACT.
+## Records the motion of body and hands for Event.IMPACT. Call it once per physics tick.
 func note_motion(hands: Array[SpidarGHand]) -> void:
 	if has_surface() and source.body != null:
 		_approach.note(source.body, hands)
 
 
-## The direction in which a hand touches `body`, or anything where that is null; zero where it touches nothing. Of a body
-## between the pads it is the axis of the jaws.
+## Returns the direction in which a hand touches `body`, or any body if `body` is [code]null[/code]. It is zero if nothing is
+## touched. For a body between the pads it is the axis of the jaws.
 static func normal_at(hand: SpidarGHand, body: Node) -> Vector3:
 	var sum := Vector3.ZERO
 	var weights: float = 0.0
@@ -95,6 +96,7 @@ static func normal_at(hand: SpidarGHand, body: Node) -> Vector3:
 	return sum.normalized() if sum.length() > OPPOSED * weights else jaw_axis(hand)
 
 
+## Returns the axis of the jaws in the world, as a unit vector.
 static func jaw_axis(hand: SpidarGHand) -> Vector3:
 	return hand.get_proxy_transform().basis.x.normalized()
 

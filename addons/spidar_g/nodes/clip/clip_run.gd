@@ -1,33 +1,33 @@
 extends RefCounted
-## One clip as one device plays it: the vibration that the servo loop renders, renewed in each physics tick.
+## Plays one clip on one device: the servo loop renders the vibration, and each physics tick refreshes it.
 
-## A game that hangs lets go: the effect acts in full for this long, then fades in 50 ms.
+## The duration of each refresh, in seconds. If the game hangs, the effect ends after this time and a fade of 50 ms.
 const RENEWED_FOR_S: float = 0.05
-## A device whose game has long ticks is renewed for this many of them.
+## The duration of each refresh in physics ticks, if the ticks of the game are long.
 const RENEWED_FOR_TICKS: float = 2.5
-## In which the servo loop moves to a new amplitude; it is asked for what is due then.
+## The time in which the servo loop moves to a new amplitude, in seconds. The amplitude that is due at its end is requested.
 const CROSS_FADE_S: float = 0.016
 
 var spidar: SpidarG
-## Begins anew at its end, until end().
+## If [code]true[/code], the clip starts again at its end, until [method end] is called.
 var loops: bool = false
 
 var _clip: SpidarGClip
 var _id: int
-## Unit length, world.
+# Unit vector in world coordinates.
 var _direction: Vector3
 var _share: float
 var _began_s: float = 0.0
 var _ends: bool = false
-## Asked for in the last step, N.
+# The amplitude requested in the last step, in newtons.
 var _given_n: float = 0.0
-## When that was, s from the beginning.
+# The time of the last step, in seconds from the beginning of the clip.
 var _stepped_s: float = -1.0
-## Nothing more is asked for; what was given fades.
+# Nothing more is requested; the vibration fades.
 var _fades: bool = false
 
 
-## share: of the clip's strength, 0 to 1. direction: world, not zero.
+# share: of the clip's strength, from 0 to 1. direction: in world coordinates, not zero.
 func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: float, is_loop: bool) -> void:
 	spidar = of
 	loops = is_loop
@@ -38,7 +38,7 @@ func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: f
 	_began_s = of.get_device_time()
 
 
-## Renews the vibration. Returns false when the clip is over, and when the device does not take the effect.
+## Refreshes the vibration. Returns [code]false[/code] when the clip is over, and if the device does not accept the effect.
 func step(tick_s: float) -> bool:
 	if not is_instance_valid(spidar) or spidar.get_state() == SpidarG.STATE_CLOSED:
 		return false
@@ -61,18 +61,18 @@ func step(tick_s: float) -> bool:
 	)
 
 
-## Lets the vibration end, over the next ticks.
+## Lets the vibration end within the next ticks.
 func end() -> void:
 	_ends = true
 
 
-## Ends the vibration now.
+## Ends the vibration now, within the fade of the device.
 func stop() -> void:
 	if is_instance_valid(spidar):
 		spidar.clear_effect(_id)
 
 
-## The amplitude at the end of the tick from `at_s` on; a peak that lies within the tick is given instead.
+# Returns the amplitude at the end of the tick from `at_s` on. If the clip has a peak within the tick, returns the peak.
 func _due(at_s: float, lasts_s: float, tick_s: float) -> float:
 	var later_s: float = at_s + tick_s
 	var most_n: float = _clip.get_peak_strength(at_s, later_s)

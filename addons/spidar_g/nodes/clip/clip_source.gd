@@ -1,26 +1,26 @@
 extends RefCounted
-## Where a [SpidarGClipPlayer] stands: the node that its events come from, and what is missing there.
+## Finds the node that the events of a [SpidarGClipPlayer] come from, and what is missing there.
 
 const Event := SpidarGClipPlayer.Event
 
-## The device, hand, surface or body; null where there is none.
+## The device, hand, surface or body that is the source, or [code]null[/code].
 var node: Node = null
-## That of a surface or body; else null.
+## The body of a source that is a surface or a body, or [code]null[/code].
 var body: PhysicsBody3D = null
 var surface: SpidarGSurface = null
-## The only hand that counts; null where all do.
+## The only hand whose events count, or [code]null[/code] if all hands count.
 var hand: SpidarGHand = null
 var spidar: SpidarG = null
 
 
-## Looks from `player`: at the end of `path`, or at the nearest ancestor where `path` is empty.
+## Returns the source of `player`: the node at `path`, or the nearest ancestor if `path` is empty.
 static func find(player: Node, path: NodePath) -> RefCounted:
 	var source: RefCounted = new()
 	source._take(player.get_node_or_null(path) if not path.is_empty() else _above(player))
 	return source
 
 
-## Returns why `event` does not come from here, with a remedy; empty if it does.
+## Returns why `event` does not come from this source, with a remedy. Returns an empty string if it does.
 func problem(event: Event, path: NodePath) -> String:
 	if not path.is_empty() and node == null:
 		return "source_path \"%s\" leads to no SpidarG, SpidarGHand, SpidarGSurface or physics body. Choose one, or clear the path." % path

@@ -2,101 +2,101 @@
 @icon("../../icons/spidar_g_clip.svg")
 class_name SpidarGClip
 extends Resource
-## A vibration of limited length that a hand feels: a knock, a buzz, a creak. A [SpidarGClipPlayer] plays it.
+## A vibration of limited length, such as a knock, a buzz or a creak, that a [SpidarGClipPlayer] plays in the hand.
 ##
-## A clip is either described by its numbers, or made from a sound.
+## A clip is described by numbers or made from a sound.
 ## [codeblock]
 ## var knock := SpidarGClip.new()
 ## knock.frequency = 50.0
 ## knock.strength = 1.5
 ## knock.hold = 0.02
 ## knock.release = 0.08
-##
-## var creak := SpidarGClip.new()
-## creak.stream = preload("res://creak.wav") # imported as PCM
-## creak.strength = 1.0
+## print(knock.get_duration()) # Prints 0.1.
 ## [/codeblock]
-## [b]By numbers:[/b] the amplitude rises from 0 to [member strength] in [member attack], stays for [member hold] and falls to 0
-## in [member release]. The frequency is [member frequency] all the time.[br]
-## [b]From a sound:[/b] the loudness of [member stream] becomes the amplitude, [member strength] where the sound is loudest. The
-## frequency follows the sound's own dominant frequency. A sound that lies outside of 5 to 250 Hz is moved by whole octaves
-## into that range: 440 Hz becomes 220 Hz. All of it is moved by the same number of octaves, and what is still outside is
-## set to 5 or 250 Hz. The sound itself is not heard: play it by an [AudioStreamPlayer].[br]
-## [b]How exact:[/b] the servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
-## Amplitudes between two ticks are interpolated, so a rise or fall takes at least 16 ms, and what is shorter than a tick is felt
-## for one tick. Let the clip last for half a period of its frequency or longer, or the peak of the sine is not reached.[br]
-## [b]How strong.[/b] [member strength] is what the servo loop asks for. The strings of the device change it. On the simulated
-## device as it comes, whose strings are elastic, 20 to 40 Hz is felt within 10 %, 60 Hz is 1.2 times, 80 Hz 1.8 times and 100 to
-## 120 Hz 2 to 3.6 times as strong, and 250 Hz is a tenth. With stiff strings ([member SpidarGConfig.simulated_elastic] off) up to
-## 120 Hz is felt within 10 %, 150 Hz is 13 % and 250 Hz 27 % weaker. It was not measured on a real device: begin with weak clips.
+## [b]By numbers.[/b] The amplitude rises from 0 to [member strength] in [member attack], stays for [member hold] and falls to
+## 0 in [member release]. The frequency is always [member frequency].[br]
+## [b]From a sound.[/b] The loudness of [member stream] becomes the amplitude, with [member strength] where the sound is
+## loudest. The frequency follows the dominant frequency of the sound. A sound outside 5 to 250 Hz is moved by whole octaves
+## into this range: 440 Hz becomes 220 Hz. The whole sound is moved by the same number of octaves, and a frequency that is
+## still outside is set to 5 or 250 Hz. The sound itself is not played: use an [AudioStreamPlayer] for it.[br]
+## [b]Accuracy.[/b] The servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
+## Amplitudes between two ticks are interpolated. A rise or a fall therefore takes at least 16 ms, and a clip that is shorter
+## than a tick is felt for one tick. If the clip is shorter than half a period of its frequency, the peak of the sine is not
+## reached.[br]
+## [b]Strength.[/b] [member strength] is the requested amplitude, and the strings of the device change it. On the simulated
+## device with its default elastic strings, the achieved amplitude is within 10 % at 20 to 40 Hz. It is 1.2 times as large at
+## 60 Hz, 1.8 times at 80 Hz, 2 to 3.6 times at 100 to 120 Hz, and a tenth at 250 Hz. With rigid strings
+## ([member SpidarGConfig.simulated_elastic] off) it is within 10 % up to 120 Hz, 13 % smaller at 150 Hz and 27 % smaller at
+## 250 Hz. This was not measured on a real device: begin with weak clips.
 
-const InRange := preload("../values/in_range.gd")
-const WavFeel := preload("wav_feel.gd")
+const _InRange := preload("../values/in_range.gd")
+const _WavFeel := preload("wav_feel.gd")
 
-## Largest amplitude that the servo loop gives to a vibration, in newtons. [member strength] times [member gain] is limited to it.
+## The largest amplitude that the servo loop gives to a vibration, in newtons. [member strength] times [member gain] is
+## clamped to it.
 const MOST_N: float = 2.0
 
-## The sound that the clip is made from, of 8 or 16 bits, mono or stereo. If it is [code]null[/code], the clip is that of
-## [member frequency], [member attack], [member hold] and [member release].[br]
-## A compressed sound (QOA or IMA ADPCM) is refused with an error: the clip then has a [method get_problem] and is not played.
-## Import the file as PCM. A sound of more than 5 s is cut there with a warning. The sound is converted once, when the clip is
-## first used; set the property again after you have changed the samples of the same stream.
+## Sets the sound that the clip is made from: 8 or 16 bits, mono or stereo. If it is [code]null[/code], the clip is described
+## by [member frequency], [member attack], [member hold] and [member release].[br]
+## A compressed sound (QOA or IMA ADPCM) is refused with an error; the clip then has a [method get_problem] and is not played.
+## Import the file as PCM. A sound longer than 5 s is cut there with a warning. The sound is converted when the clip is first
+## used. Set the property again after you have changed the samples of the same stream.
 @export var stream: AudioStreamWAV:
 	set(value):
 		stream = value
 		_sound = null
-		if stream != null and not WavFeel.problem(stream).is_empty():
-			push_error("%s is not played: %s" % [_label(), WavFeel.problem(stream)])
+		if stream != null and not _WavFeel.problem(stream).is_empty():
+			push_error("%s is not played: %s" % [_label(), _WavFeel.problem(stream)])
 		notify_property_list_changed()
 		emit_changed()
-## Amplitude of the force that is asked for where the clip is strongest, in newtons, from 0 to 2. Any other value is refused with an error, and
-## the old one stays.
+## Sets the requested amplitude where the clip is strongest, in newtons, from 0 to 2. Another value is refused with an error,
+## and the old one stays.
 @export_range(0.0, 2.0, 0.05, "suffix:N") var strength: float = 1.0:
 	set(value):
 		strength = _checked("strength", value, strength, "N", 0.0, MOST_N)
 		emit_changed()
-## Multiplies [member strength], from 0 to 10: for a volume setting of the game. The amplitude is at most 2 N, whatever the gain
-## is. Any other value is refused with an error, and the old one stays.
+## Sets a factor for [member strength], from 0 to 10, such as a volume setting of the game. The product is clamped to 2 N.
+## Another value is refused with an error, and the old one stays.
 @export_range(0.0, 10.0, 0.05) var gain: float = 1.0:
 	set(value):
 		gain = _checked("gain", value, gain, "", 0.0, 10.0)
 		emit_changed()
-## Frequency of the vibration, in hertz, from 5 to 250. The device gives at most a quarter of its servo rate. Of a clip with a
-## [member stream] it counts only if no frequency is found in the sound. Any other value is refused with an error, and the old
-## one stays.
+## Sets the frequency of the vibration, in hertz, from 5 to 250. The device gives at most a quarter of its servo rate. In a
+## clip with a [member stream] it is used only if no frequency is found in the sound. Another value is refused with an error,
+## and the old one stays.
 @export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 50.0:
 	set(value):
-		frequency = _checked("frequency", value, frequency, "Hz", WavFeel.LEAST_HZ, WavFeel.MOST_HZ)
+		frequency = _checked("frequency", value, frequency, "Hz", _WavFeel.LEAST_HZ, _WavFeel.MOST_HZ)
 		_sound = null
 		emit_changed()
 @export_group("Envelope")
-## Time in which the amplitude rises to [member strength], in seconds, from 0 to 5. Ignored if there is a [member stream]. Any
-## other value is refused with an error, and the old one stays.
+## Sets the time in which the amplitude rises to [member strength], in seconds, from 0 to 5. Ignored if there is a
+## [member stream]. Another value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var attack: float = 0.0:
 	set(value):
-		attack = _checked("attack", value, attack, "s", 0.0, WavFeel.LONGEST_S)
+		attack = _checked("attack", value, attack, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
-## Time for which the amplitude stays at [member strength], in seconds, from 0 to 5. Ignored if there is a [member stream]. Any
-## other value is refused with an error, and the old one stays.
+## Sets the time for which the amplitude stays at [member strength], in seconds, from 0 to 5. Ignored if there is a
+## [member stream]. Another value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var hold: float = 0.05:
 	set(value):
-		hold = _checked("hold", value, hold, "s", 0.0, WavFeel.LONGEST_S)
+		hold = _checked("hold", value, hold, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
-## Time in which the amplitude falls to 0, in seconds, from 0 to 5. Ignored if there is a [member stream]. Any other value is
-## refused with an error, and the old one stays.
+## Sets the time in which the amplitude falls to 0, in seconds, from 0 to 5. Ignored if there is a [member stream]. Another
+## value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.001, "suffix:s") var release: float = 0.05:
 	set(value):
-		release = _checked("release", value, release, "s", 0.0, WavFeel.LONGEST_S)
+		release = _checked("release", value, release, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
 @export_group("Direction")
-## Whether the hand is shaken along the normal of the surface that it touches. A hand that grasps or lets go is shaken along the
-## axis of its jaws. If nothing is touched, or if this is [code]false[/code], [member direction] counts.
+## If [code]true[/code], the hand is shaken along the normal of the surface that it touches, and along the axis of its jaws
+## when it grasps or lets go. If [code]false[/code], or if nothing is touched, it is shaken along [member direction].
 @export var along_normal: bool = true:
 	set(value):
 		along_normal = value
 		emit_changed()
-## Direction in which the hand is shaken, in the world. Its length does not matter. Zero, or a direction that is not finite, is
-## refused with an error, and the old one stays.
+## Sets the direction in which the hand is shaken, in world coordinates. The length does not matter. A zero vector or one that
+## is not finite is refused with an error, and the old one stays.
 @export var direction: Vector3 = Vector3.UP:
 	set(value):
 		if not value.is_finite() or value.is_zero_approx():
@@ -105,36 +105,37 @@ const MOST_N: float = 2.0
 		direction = value
 		emit_changed()
 
-var _sound: WavFeel = null
+var _sound: _WavFeel = null
 
 
-## Returns how long the clip is, in seconds. Returns 0 if it has a [method get_problem].
+## Returns the length of the clip in seconds. Returns 0 if the clip has a [method get_problem].
 func get_duration() -> float:
 	if stream == null:
 		return attack + hold + release
 	return _hear().duration_s if get_problem().is_empty() else 0.0
 
 
-## Returns why the clip cannot be played, as a sentence with a remedy, or an empty text.
+## Returns why the clip cannot be played, as a sentence with the remedy. Returns an empty string if it can be played.
 func get_problem() -> String:
 	if stream == null:
 		return "" if attack + hold + release > 0.0 else "attack, hold and release are 0 s: make one of them longer."
 	# Asked in each tick: a stream that was converted is not looked at again.
-	var problem: String = WavFeel.problem(stream) if _sound == null else ""
+	var problem: String = _WavFeel.problem(stream) if _sound == null else ""
 	if problem.is_empty() and _hear().loudness.is_empty():
 		problem = "its stream is silent: give a louder sound."
 	return problem
 
 
-## Returns the amplitude at [param time_s] seconds after the beginning, in newtons, with [member gain]. Returns 0 before the
-## beginning, at the end and after it, and if the clip has a [method get_problem].
+## Returns the amplitude at [param time_s] seconds after the beginning, in newtons, including [member gain]. Returns 0 before
+## the beginning, at the end and after it, and if the clip has a [method get_problem].
 func get_strength_at(time_s: float) -> float:
 	if not (time_s >= 0.0 and time_s < get_duration()):
 		return 0.0
 	return _full_n() * (_level(time_s) if stream == null else _hear().loudness_at(time_s))
 
 
-## Returns the largest amplitude from [param from_s] to [param to_s] seconds after the beginning, in newtons, with [member gain].
+## Returns the largest amplitude from [param from_s] to [param to_s] seconds after the beginning, in newtons, including
+## [member gain].
 func get_peak_strength(from_s: float, to_s: float) -> float:
 	var first: float = maxf(from_s, 0.0)
 	var last: float = minf(to_s, get_duration())
@@ -164,7 +165,7 @@ func _full_n() -> float:
 	return minf(strength * gain, MOST_N)
 
 
-## Of the envelope by numbers, 0 to 1.
+# Returns the level of the envelope by numbers, from 0 to 1.
 func _level(time_s: float) -> float:
 	if time_s < attack:
 		return time_s / attack
@@ -172,12 +173,12 @@ func _level(time_s: float) -> float:
 	return clampf(1.0 - fallen / release, 0.0, 1.0) if fallen > 0.0 and release > 0.0 else 1.0
 
 
-## The stream's, converted when first asked for; the stream must be one that can be felt.
-func _hear() -> WavFeel:
+# Returns what can be felt of the stream, converted at the first call. The stream must have no problem.
+func _hear() -> _WavFeel:
 	if _sound == null:
-		_sound = WavFeel.make(stream, frequency)
+		_sound = _WavFeel.make(stream, frequency)
 		if _sound.was_cut:
-			push_warning("%s is cut after %s s: its stream is longer. Give a shorter sound." % [_label(), WavFeel.LONGEST_S])
+			push_warning("%s is cut after %s s: its stream is longer. Give a shorter sound." % [_label(), _WavFeel.LONGEST_S])
 	return _sound
 
 
@@ -187,4 +188,4 @@ func _label() -> String:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	return InRange.checked(_label(), field, value, old, unit, least, most)
+	return _InRange.checked(_label(), field, value, old, unit, least, most)

@@ -4,70 +4,72 @@ class_name SpidarGClipPlayer
 extends Node
 ## Plays a [SpidarGClip] in the hand: by script, or when the hand touches, slips, hits, grasps or lets go.
 ##
-## Make it a child of what its [member event] comes from, and give it a [member clip].
+## Make this node a child of the node that its [member event] comes from, and set its [member clip]. To play the clip by
+## script, call [method play].
 ## [codeblock]
-## RigidBody3D                  a cup
-## ├─ CollisionShape3D
-## ├─ SpidarGSurface            tells of touch and slip
-## └─ SpidarGClipPlayer         event: Impact, clip: a knock of 50 Hz
+## # A body that knocks when the hand hits it.
+## var body := StaticBody3D.new()
+## body.add_child(SpidarGSurface.new())
+## var player := SpidarGClipPlayer.new()
+## player.clip = SpidarGClip.new()
+## player.event = SpidarGClipPlayer.Event.IMPACT
+## body.add_child(player)
+## add_child(body)
 ## [/codeblock]
-## [codeblock]
-## func _on_button_pressed() -> void:
-##     $SpidarGClipPlayer.play() # event None: by script alone
-## [/codeblock]
-## [b]Where it stands.[/b] Its nearest ancestor that is a [SpidarG], a [SpidarGHand], a [SpidarGSurface] or a physics body is
-## its source, or the node at [member source_path]. Touches, slips and impacts come from a [SpidarGSurface], which is the
-## source itself or a child of it. Grasps come from the hand, or from every hand that grasps the body.[br]
-## [b]Who feels it.[/b] The device of the hand that the event is about. [method play] plays on the device above the player, or on
-## every open device of the same world if there is none above it.[br]
-## [b]Once.[/b] A device plays a player's clip once at a time: [method play] begins it anew.[br]
-## [b]Limits.[/b] A device renders 6 effects at once, those of zones, sockets and scripts included. If none is free, the clip is
-## not played, and one warning says so. Players use the effect ids from [constant FIRST_ID] to 999999. The vibration ends within
-## 0.1 s when the clip is over, when the player is paused or disabled or leaves the scene tree, and when the game hangs. A
-## player costs nothing between its events, except that one for [constant IMPACT] reads the speed of each hand in each
-## physics tick.
+## [b]Source.[/b] The source of the events is the nearest ancestor that is a [SpidarG], a [SpidarGHand], a [SpidarGSurface] or
+## a physics body, or the node at [member source_path]. Touches, slips and impacts come from a [SpidarGSurface], which is the
+## source or a child of it. Grasps come from the hand, or from every hand that grasps the body.[br]
+## [b]Device.[/b] The clip is played on the device of the hand that caused the event. [method play] plays it on the device
+## above the player, or on every open device of the same world if there is none above it.[br]
+## [b]Repetition.[/b] A device plays the clip of one player once at a time. [method play] starts it from its beginning.[br]
+## [b]Limits.[/b] A device renders 6 effects at once, including those of zones, sockets and scripts. If none is free, the clip
+## is not played, and one warning says so. Players use the effect ids from [constant FIRST_ID] to 999999. The vibration ends
+## within 0.1 s when the clip is over, when the player is paused or disabled or leaves the scene tree, and when the game
+## hangs. A player takes no time between its events, except that one for [constant IMPACT] reads the speed of each hand in
+## each physics tick.
 
 ## Emitted when [param spidar] begins to play the clip.
 signal started(spidar: SpidarG)
-## Emitted once for each [signal started], when [param spidar] plays the clip no more: at its end, after [method stop], before it
-## begins anew, and when the player is paused, disabled or removed. [param spidar] is [code]null[/code] if it was freed.
+## Emitted once for each [signal started], when [param spidar] no longer plays the clip: at its end, after [method stop],
+## before it is started again, and when the player is paused, disabled or removed. [param spidar] is [code]null[/code] if it
+## was freed.
 signal finished(spidar: SpidarG)
 
-## What starts the clip.
+## Selects the event of a hand that starts the clip.
 enum Event {
-	## Nothing: the clip is started by [method play] alone.
+	## No event starts the clip; only [method play] does.
 	NONE,
-	## A hand begins to press on the surface.
+	## The clip starts when a hand begins to press on the surface.
 	TOUCH,
-	## A hand presses on the surface no more.
+	## The clip starts when a hand no longer presses on the surface.
 	TOUCH_END,
-	## A hand slips along the surface. The clip is repeated until the hand slips no more.
+	## The clip is repeated while a hand slips along the surface.
 	SLIP,
-	## A hand holds the body, or the hand above the player holds any body.
+	## The clip starts when a hand begins to hold the body, or when the hand above the player begins to hold any body.
 	GRASP,
-	## A hand lets go of the body, or the hand above the player lets go of any body.
+	## The clip starts when a hand lets go of the body, or when the hand above the player lets go of any body.
 	RELEASE,
-	## A hand hits the surface: it begins to press on it, and came at [member least_impact_speed] or faster. Fingers that close
-	## on a body do not count as fast.
+	## The clip starts when a hand hits the surface: it begins to press on it and came with [member least_impact_speed] or
+	## faster. Fingers that close on a body do not count as fast.
 	IMPACT,
 }
 
-const Devices := preload("../zone/devices_in_tree.gd")
-const InRange := preload("../values/in_range.gd")
-const Events := preload("clip_events.gd")
-const Run := preload("clip_run.gd")
-const Source := preload("clip_source.gd")
-## Effect ids of players begin here. Zones have those from 1000000 on, sockets negative ones; a game's own should be smaller.
+const _Devices := preload("../zone/devices_in_tree.gd")
+const _InRange := preload("../values/in_range.gd")
+const _Events := preload("clip_events.gd")
+const _Run := preload("clip_run.gd")
+const _Source := preload("clip_source.gd")
+## The smallest effect id that players use. Use smaller ids for effects of your own.
 const FIRST_ID: int = 500000
-## How many effect ids players have; after the last one they begin again.
+## The number of effect ids that players use. After the last one the first one is used again.
 const ID_COUNT: int = 500000
-## A hand that was quiet for less than this bounces, s.
+## A hand that was quiet for a shorter time than this, in seconds of the device, bounces and starts no clip.
 const BOUNCE_S: float = 0.1
 
 static var _made: int = 0
 
-## What is played. If it is [code]null[/code], nothing is played, and a configuration warning says so. Another clip ends the one
-## that is being played.
+## Sets the clip that is played. If it is [code]null[/code], nothing is played, and a configuration warning says so. A change
+## ends the clip that is playing.
 @export var clip: SpidarGClip:
 	set(value):
 		if clip != value:
@@ -78,53 +80,54 @@ static var _made: int = 0
 		if clip != null:
 			clip.changed.connect(update_configuration_warnings)
 		update_configuration_warnings()
-## What starts the clip. A clip that is being played goes on when this is changed, unless it is one of a slip.
+## Selects what starts the clip. A clip that is playing continues if this property is changed, unless it is repeated for a
+## slip.
 @export var event := Event.NONE:
 	set(value):
 		event = value
 		notify_property_list_changed()
 		_look_and_warn()
-## The [SpidarG], [SpidarGHand], [SpidarGSurface] or physics body that the event comes from. If it is empty, the nearest
-## ancestor that is one of them counts. It is looked for when the player enters the scene tree, when this is set, and when a
-## device or a hand enters or leaves. A path that leads to something else gives a warning, and no event comes.
+## Sets the [SpidarG], [SpidarGHand], [SpidarGSurface] or physics body that the event comes from. With an empty path the
+## nearest ancestor of these types is used. The source is looked for when the player enters the scene tree, when this property
+## is set, and when a device or a hand enters or leaves. A path to another node causes a warning, and no event comes.
 @export_node_path("Node") var source_path: NodePath:
 	set(value):
 		source_path = value
 		_look_and_warn()
-## Time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from 0 to 60. Any
-## other value is refused with an error, and the old one stays.[br]
-## A strong clip shakes a light finger off the surface and onto it again, which must not start the clip anew. So two more rules
-## hold: no event starts a clip that is being played, and an event counts only if the hand was quiet for the last 0.1 s, without
-## another such event and without leaving the surface. A slow and strong clip (2 N at 15 Hz) throws a very loose hand off for
-## longer: set the cooldown to 0.5 s there. Nothing of this counts for [method play] and for [constant SLIP].
+## Sets the time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from
+## 0 to 60. Another value is refused with an error, and the old one stays.[br]
+## A strong clip shakes a light finger off the surface and onto it again. Therefore no event starts a clip that is playing,
+## and an event counts only if no such event occurred and the hand did not leave the surface in the last 0.1 s. A slow and
+## strong clip (2 N at 15 Hz) throws a very loose hand off for longer: set the cooldown to 0.5 s. [method play] and
+## [constant SLIP] ignore all of this.
 @export_range(0.0, 60.0, 0.01, "suffix:s") var cooldown: float = 0.1:
 	set(value):
 		cooldown = _checked("cooldown", value, cooldown, "s", 0.0, 60.0)
-## Whether a harder [constant IMPACT] is felt more: the strength is that of the clip times the speed at which the hand came,
-## divided by [member full_impact_speed], and never more than that of the clip. If it is [code]false[/code], each impact has the
-## full strength. Ignored for other events.
+## If [code]true[/code], the strength of an [constant IMPACT] is that of the clip times the speed of the hand divided by
+## [member full_impact_speed], and at most that of the clip. If [code]false[/code], each impact has the full strength. Ignored
+## for other events.
 @export var scale_by_impulse: bool = true
-## Speed of an [constant IMPACT] with the clip's full strength, in device meters a second, from 0.01 to 5. It is that of the hand
-## against the body, along the normal of the surface, in the ticks before the touch. Any other value is refused with an error,
-## and the old one stays.
+## Sets the speed at which an [constant IMPACT] has the full strength of the clip, in meters of device motion per second, from
+## 0.01 to 5. The speed is that of the hand against the body, along the normal of the surface, before the touch. Another value
+## is refused with an error, and the old one stays.
 @export_range(0.01, 5.0, 0.01, "suffix:m/s") var full_impact_speed: float = 0.3:
 	set(value):
 		full_impact_speed = _checked("full_impact_speed", value, full_impact_speed, "m/s", 0.01, 5.0)
-## A hand that comes more slowly makes no [constant IMPACT], in device meters a second, from 0.001 to 5. Any other value is refused
-## with an error, and the old one stays.
+## Sets the minimum speed of an [constant IMPACT], in meters of device motion per second, from 0.001 to 5. A slower hand
+## starts no clip. Another value is refused with an error, and the old one stays.
 @export_range(0.001, 5.0, 0.001, "suffix:m/s") var least_impact_speed: float = 0.03:
 	set(value):
 		least_impact_speed = _checked("least_impact_speed", value, least_impact_speed, "m/s", 0.001, 5.0)
 
 var _id: int = FIRST_ID
-var _devices: Devices = null
-var _events := Events.new()
-## By the instance of the device, as below: when the last clip ended there, and when the hand last did anything that an event
-## may come from, s of the device.
-var _runs: Dictionary[int, Run] = {}
+var _devices: _Devices = null
+var _events := _Events.new()
+# The run of each device, by the instance id of the device. The two below are by the same key: the time of the device at
+# which its last clip ended, and at which the hand last did anything that an event may come from, in seconds.
+var _runs: Dictionary[int, _Run] = {}
 var _ended_s: Dictionary[int, float] = {}
 var _heard_s: Dictionary[int, float] = {}
-## Whether it was said that no effect is free, since a clip was last played.
+# Whether the warning that no effect is free was given since the last clip was played.
 var _is_told: bool = false
 
 
@@ -137,16 +140,16 @@ func _init() -> void:
 	_events.source_changed.connect(_look)
 
 
-## Plays the clip now, from its beginning, on [param spidar]. If that is [code]null[/code], it plays on the device above the player
-## or at [member source_path], or on every open device of the same world if there is none. Returns whether a device plays it. A
-## warning says why not, unless there is no open device.
+## Plays the clip from its beginning on [param spidar]. If that is [code]null[/code], the clip is played on the device above
+## the player or at [member source_path], or on every open device of the same world if there is none. Returns
+## [code]true[/code] if a device plays it. Otherwise a warning says why, unless no device is open.
 func play(spidar: SpidarG = null) -> bool:
 	if _devices == null:
 		if ClassDB.class_exists(&"SpidarG"):
 			push_warning("SpidarGClipPlayer \"%s\" plays nothing: it is outside of the scene tree. Add it first." % name)
 		return false
 	var chosen: Array[SpidarG] = _devices.devices.duplicate()
-	var only: SpidarG = spidar if spidar != null else Source.find(self, source_path).spidar
+	var only: SpidarG = spidar if spidar != null else _Source.find(self, source_path).spidar
 	if only != null:
 		chosen = [only]
 	var plays: bool = false
@@ -157,13 +160,13 @@ func play(spidar: SpidarG = null) -> bool:
 	return plays
 
 
-## Ends the clip on all devices. What is left of the vibration fades in less than 0.1 s. Does nothing if nothing is played.
+## Ends the clip on all devices. The vibration fades in less than 0.1 s. Does nothing if no clip is playing.
 func stop() -> void:
 	for id: int in _runs.keys():
 		_drop(id)
 
 
-## Returns whether a device plays the clip now.
+## Returns [code]true[/code] while a device plays the clip.
 func is_playing() -> bool:
 	return not _runs.is_empty()
 
@@ -179,11 +182,11 @@ func _enter_tree() -> void:
 		return
 	if not ClassDB.class_exists(&"SpidarG"):
 		return
-	_devices = Devices.of(get_tree())
+	_devices = _Devices.of(get_tree())
 	_devices.changed.connect(_look)
 
 
-## Each time that the player has entered the tree, and its neighbors too. The engine turns processing on just before.
+# Called each time the player and its neighbors have entered the tree. The engine turns processing on just before.
 func _ready() -> void:
 	_look_and_warn()
 
@@ -220,7 +223,7 @@ func _get_configuration_warnings() -> PackedStringArray:
 	elif not clip.get_problem().is_empty():
 		warnings.append("The clip of the SpidarGClipPlayer is not played: " + clip.get_problem())
 	if is_inside_tree():
-		var problem: String = Source.find(self, source_path).problem(event, source_path)
+		var problem: String = _Source.find(self, source_path).problem(event, source_path)
 		if not problem.is_empty():
 			warnings.append(problem)
 	return warnings
@@ -239,15 +242,15 @@ func _physics_process(_delta: float) -> void:
 			_drop(id)
 
 
-## Connects the events anew, and runs only where something is to be done.
+# Connects the events again, and turns processing on only if it is needed.
 func _look() -> void:
 	update_configuration_warnings()
 	if _devices == null:
 		set_physics_process(false)
 		return
 	var old: Node = _events.source.surface if _events.has_surface() else null
-	_events.connect_to(event, Source.find(self, source_path), _devices.hands)
-	for run: Run in _runs.values():
+	_events.connect_to(event, _Source.find(self, source_path), _devices.hands)
+	for run: _Run in _runs.values():
 		if run.loops and (event != Event.SLIP or _events.source.surface != old):
 			run.end()
 	_choose()
@@ -283,7 +286,7 @@ func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 	_start(spidar, along, minf(1.0, speed / full_impact_speed) if is_scaled else 1.0, false)
 
 
-## Whether an event that comes now is more than a bounce of the hand, or of what the clip itself does to it.
+# Returns whether an event is more than a bounce of the hand or an effect of the clip itself.
 func _is_new(spidar: SpidarG) -> bool:
 	var id: int = spidar.get_instance_id()
 	var now_s: float = spidar.get_device_time()
@@ -298,7 +301,7 @@ func _on_left(hand: SpidarGHand) -> void:
 
 
 func _on_slip_ended(hand: SpidarGHand) -> void:
-	var run: Run = _runs.get(hand.spidar.get_instance_id()) if is_instance_valid(hand) and hand.spidar != null else null
+	var run: _Run = _runs.get(hand.spidar.get_instance_id()) if is_instance_valid(hand) and hand.spidar != null else null
 	if run != null and run.loops:
 		run.end()
 
@@ -306,18 +309,18 @@ func _on_slip_ended(hand: SpidarGHand) -> void:
 func _touched_direction(spidar: SpidarG) -> Vector3:
 	for hand: SpidarGHand in _devices.hands:
 		if hand.spidar == spidar:
-			return Events.normal_at(hand, null)
+			return _Events.normal_at(hand, null)
 	return Vector3.ZERO
 
 
-## along: the normal, or zero where nothing is touched. share: of the clip's strength, more than 0.
+# along: the normal, or zero if nothing is touched. share: of the clip's strength, above 0.
 func _start(spidar: SpidarG, along: Vector3, share: float, loops: bool) -> bool:
 	if not _get_problem().is_empty():
 		push_warning("SpidarGClipPlayer \"%s\" plays nothing: %s" % [name, _get_problem()])
 		return false
 	var id: int = spidar.get_instance_id()
 	var direction: Vector3 = along if clip.along_normal and not along.is_zero_approx() else clip.direction
-	var run := Run.new(spidar, clip, _id, direction, share, loops)
+	var run := _Run.new(spidar, clip, _id, direction, share, loops)
 	if _runs.has(id):
 		_runs.erase(id)
 		finished.emit(spidar)
@@ -341,7 +344,7 @@ func _get_problem() -> String:
 
 
 func _drop(id: int) -> void:
-	var run: Run = _runs[id]
+	var run: _Run = _runs[id]
 	_runs.erase(id)
 	run.stop()
 	_choose()
@@ -352,4 +355,4 @@ func _drop(id: int) -> void:
 
 
 func _checked(field: String, value: float, old: float, unit: String, least: float, most: float) -> float:
-	return InRange.checked("SpidarGClipPlayer \"%s\"" % name, field, value, old, unit, least, most)
+	return _InRange.checked("SpidarGClipPlayer \"%s\"" % name, field, value, old, unit, least, most)

@@ -1,41 +1,43 @@
 extends RefCounted
-## What can be felt of a recorded sound: how loud it is over time, and at which frequency. Computed once from the samples.
+## Computes what can be felt of a recorded sound: its loudness over time and its dominant frequency. It is computed once from
+## the samples.
 
-## Length of a frame, of which each has a loudness and a frequency.
+## The sound is divided into frames of this length, in seconds. Each frame has a loudness and a frequency.
 const FRAME_S: float = 0.005
-## More of a sound is not taken.
+## A longer sound is cut to this length, in seconds.
 const LONGEST_S: float = 5.0
-## What the servo loop renders.
+## The servo loop renders no frequency below this one, in hertz.
 const LEAST_HZ: float = 5.0
+## The servo loop renders no frequency above this one, in hertz.
 const MOST_HZ: float = 250.0
-## Slower motion of the samples is no sound: an offset of the recording is taken out.
+## Slower changes of the samples than this are no sound, in hertz. They are an offset of the recording and are removed.
 const OFFSET_HZ: float = 2.0
-## A crossing of zero counts when the wave goes on to this part of its recent peak, so that a little noise makes none.
+## A zero crossing counts if the wave goes on to this share of its recent peak, so that noise makes no crossings.
 const CLEAR_OF_ZERO: float = 0.25
 const PEAK_FORGOTTEN_S: float = 0.05
-## The frequency of a frame is that of the crossings this near to it.
+## The frequency of a frame is that of the zero crossings within this time, in seconds.
 const HEARD_WITHIN_S: float = 0.02
-## Weights of a frame and its neighbors: over one frame alone the loudness would follow the wave itself.
+## The weights of a frame and its neighbors in the loudness. Over one frame alone the loudness would follow the wave itself.
 const SMOOTHING: Array[float] = [1.0, 2.0, 3.0, 2.0, 1.0]
-## Full scale is 1; a sound below this is silence.
+## A sound that is weaker than this share of full scale counts as silence.
 const SILENCE: float = 1e-3
 const SIXTEEN_BITS: float = 1.0 / 32768.0
 const EIGHT_BITS: float = 1.0 / 128.0
 
 var duration_s: float = 0.0
-## Of each frame: 0 to 1, which is the loudest frame of the sound. Empty for silence.
+## The loudness of each frame, from 0 to 1 in the loudest frame. The array is empty if the sound is silent.
 var loudness: PackedFloat32Array = []
-## Of each frame, 5 to 250 Hz.
+## The frequency of each frame, in hertz, clamped to 5 to 250 Hz.
 var frequencies: PackedFloat32Array = []
-## Whether the sound was longer than LONGEST_S.
+## If [code]true[/code], the sound was longer than [constant LONGEST_S].
 var was_cut: bool = false
 
 var _energies: PackedFloat64Array = []
-## Times of the upward crossings of zero, s.
+# The times of the upward zero crossings, in seconds.
 var _crossings: PackedFloat64Array = []
 
 
-## Returns why this sound cannot be felt, with a remedy; empty for one that can.
+## Returns why this sound cannot be felt, with a remedy. Returns an empty string if it can be felt.
 static func problem(stream: AudioStreamWAV) -> String:
 	const REMEDY: String = "select the file, set Import > Compress > Mode to PCM (Uncompressed) and press Reimport."
 	match stream.format:
@@ -50,23 +52,25 @@ static func problem(stream: AudioStreamWAV) -> String:
 	return ""
 
 
-## `otherwise_hz`: the frequency of a sound in which none is found. `stream` must have no problem().
+## Returns the result for `stream`, which must have no [method problem]. `otherwise_hz` is the frequency if none is found in
+## the sound.
 static func make(stream: AudioStreamWAV, otherwise_hz: float) -> RefCounted:
 	var feel: RefCounted = new()
 	feel._take(stream, otherwise_hz)
 	return feel
 
 
-## Loudness at a time from the beginning; between the middles of two frames it is interpolated.
+## Returns the loudness at a time from the beginning, interpolated between the middles of two frames.
 func loudness_at(time_s: float) -> float:
 	return _at(loudness, time_s)
 
 
+## Returns the frequency at a time from the beginning, in hertz.
 func frequency_at(time_s: float) -> float:
 	return _at(frequencies, time_s)
 
 
-## Largest loudness from one time to another.
+## Returns the largest loudness from one time to another.
 func loudest_between(from_s: float, to_s: float) -> float:
 	var most: float = maxf(loudness_at(from_s), loudness_at(to_s))
 	var first: int = maxi(0, ceili(from_s / FRAME_S - 0.5))
@@ -102,7 +106,7 @@ func _take(stream: AudioStreamWAV, otherwise_hz: float) -> void:
 	_crossings.clear()
 
 
-## Both channels as one.
+# Returns the samples as floats, with both channels mixed.
 static func _samples(data: PackedByteArray, count: int, has_16_bits: bool, stereo: bool) -> PackedFloat32Array:
 	var samples: PackedFloat32Array = []
 	samples.resize(count)
@@ -121,7 +125,7 @@ static func _samples(data: PackedByteArray, count: int, has_16_bits: bool, stere
 	return samples
 
 
-## Mean square of each frame, and where the wave crosses zero upward.
+# Computes the mean square of each frame, and the upward zero crossings.
 func _listen(samples: PackedFloat32Array, rate: float) -> void:
 	var keeps: float = 1.0 - TAU * OFFSET_HZ / rate
 	var peak_keeps: float = exp(-1.0 / (PEAK_FORGOTTEN_S * rate))
@@ -152,7 +156,7 @@ func _listen(samples: PackedFloat32Array, rate: float) -> void:
 			_energies.append(energy / (end - first))
 
 
-## From the energies of the frames to their loudness.
+# Computes the loudness of the frames from their energies.
 func _weigh() -> void:
 	var most: float = 0.0
 	loudness.resize(_energies.size())
@@ -172,7 +176,8 @@ func _weigh() -> void:
 		loudness[frame] /= most
 
 
-## The frequency of each frame. All are moved by the same number of octaves, so that what rises still rises.
+# Computes the frequency of each frame. All frames are moved by the same number of octaves, so that a rising tone still
+# rises.
 func _tune(otherwise_hz: float) -> void:
 	var found: PackedFloat64Array = _heard()
 	var pitch: float = 0.0
@@ -195,7 +200,7 @@ func _tune(otherwise_hz: float) -> void:
 		frequencies[frame] = clampf(hz * factor, LEAST_HZ, MOST_HZ)
 
 
-## The frequency around the middle of each frame, before it is moved; 0 where none is heard.
+# Returns the frequency around the middle of each frame before it is moved by octaves, or 0 if none is found.
 func _heard() -> PackedFloat64Array:
 	var found: PackedFloat64Array = []
 	found.resize(loudness.size())

@@ -1,6 +1,6 @@
 extends RefCounted
-## Velocity of a frame of reference that moves through the scene, from its places in the physics ticks. As in [SpidarG], a
-## frame that is put elsewhere in one tick has jumped and has no velocity: only what two ticks in a row share counts.
+## Computes the velocity of a moving frame of reference from its poses in the physics ticks. As in [SpidarG], a frame that is
+## moved far within one tick was teleported and has no velocity: only the motion that two ticks in a row share is used.
 
 var linear := Vector3.ZERO
 var angular := Vector3.ZERO
@@ -11,6 +11,7 @@ var _linear_seen := Vector3.ZERO
 var _angular_seen := Vector3.ZERO
 
 
+## Forgets the last pose, so that the velocity is zero.
 func forget() -> void:
 	_is_known = false
 	linear = Vector3.ZERO
@@ -19,7 +20,7 @@ func forget() -> void:
 	_angular_seen = Vector3.ZERO
 
 
-## Takes the newest place (orthonormal), `tick_s` after the one before.
+## Takes the newest pose (orthonormal), `tick_s` seconds after the last one.
 func note(place: Transform3D, tick_s: float) -> void:
 	if _is_known and tick_s > 0.0:
 		var moved: Vector3 = (place.origin - _place.origin) / tick_s
@@ -33,7 +34,7 @@ func note(place: Transform3D, tick_s: float) -> void:
 	_is_known = true
 
 
-## Returns the velocity of the point of the frame that is at `point` of the world, in m/s.
+## Returns the velocity, in m/s, of the point of the frame that is at `point` in the world.
 func velocity_at(point: Vector3) -> Vector3:
 	return linear + angular.cross(point - _place.origin)
 

@@ -1,25 +1,26 @@
 extends RefCounted
-## Places in the play space of XR, in which trackers give their poses (m): [XRNode3D] multiplies them by
-## XRServer.world_scale, and the XR origin puts them into the world.
+## Computes poses in the play space of XR, in meters. Trackers report their poses in it, [XRNode3D] multiplies them by
+## XRServer.world_scale, and the XR origin moves them into the world.
 
 
+## Returns [code]true[/code] if the transform is finite and a pure rotation.
 static func is_rigid(place: Transform3D) -> bool:
 	return place.is_finite() and place.basis.is_conformal() and absf(place.basis.determinant() - 1.0) < 1e-3
 
 
-## Returns where an XRController3D at the zero of the play space would stand in the world.
+## Returns the pose in the world of an XRController3D at the origin of the play space.
 static func origin_in_world() -> Transform3D:
 	return XRServer.world_origin.orthonormalized() * XRServer.get_reference_frame()
 
 
-## Returns the grip in the frame of its device (m of the play space).
+## Returns the pose of the grip in the frame of its device, in meters of the play space.
 static func grip_in_device(spidar: SpidarG) -> Transform3D:
 	var place: Transform3D = spidar.global_transform.orthonormalized().inverse() * spidar.get_grip_transform()
 	return Transform3D(place.basis, place.origin / XRServer.world_scale)
 
 
-## Returns where the device stands whose grip is at `in_device` in its own frame and at `in_space` in the play space.
-## keep_upright: only the heading of the device is taken from the two.
+## Returns the pose of the device whose grip is at `in_device` in its own frame and at `in_space` in the play space. With
+## `keep_upright` only the heading of the device is computed.
 static func place_of_device(in_space: Transform3D, in_device: Transform3D, keep_upright: bool) -> Transform3D:
 	var turn: Basis = in_space.basis.orthonormalized() * in_device.basis.inverse()
 	if keep_upright:

@@ -1,9 +1,9 @@
 extends RefCounted
-## What the nodes that follow a [SpidarG] share: which device they mean, and that they run after it.
+## Helps the nodes that follow a [SpidarG]: it finds their device and makes them run after it.
 
 
-## Returns the [SpidarG] at `path` seen from `node`, or the nearest ancestor of `node` that is one where `path` is empty.
-## Returns null where there is none, and for the stand-in of a missing library.
+## Returns the [SpidarG] at `path` as seen from `node`, or the nearest ancestor of `node` that is one if `path` is empty.
+## Returns [code]null[/code] if there is none, or if it is the stand-in of a missing library.
 static func find(node: Node, path: NodePath) -> SpidarG:
 	if not ClassDB.class_exists(&"SpidarG"):
 		return null
@@ -15,7 +15,7 @@ static func find(node: Node, path: NodePath) -> SpidarG:
 	return above as SpidarG
 
 
-## Returns the [SpidarGHand] of `spidar`, its first child of that kind, or null.
+## Returns the [SpidarGHand] of `spidar`, which is its first child of this type, or [code]null[/code].
 static func find_hand(spidar: SpidarG) -> SpidarGHand:
 	if spidar == null:
 		return null
@@ -25,17 +25,17 @@ static func find_hand(spidar: SpidarG) -> SpidarGHand:
 	return null
 
 
-## Returns why find() found nothing, for a warning; empty where it finds a device.
+## Returns a warning that says why [method find] found nothing. Returns an empty string if it finds a device.
 static func problem(node: Node, path: NodePath, name: String) -> String:
 	if find(node, path) != null or not ClassDB.class_exists(&"SpidarG"):
 		return ""
 	if not path.is_empty():
-		return "%s rests: spidar_path \"%s\" leads to no SpidarG. Choose a SpidarG node, or clear the path to use an ancestor." % [name, path]
-	return "%s rests: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
+		return "%s does nothing: spidar_path \"%s\" leads to no SpidarG. Choose a SpidarG node, or clear the path to use an ancestor." % [name, path]
+	return "%s does nothing: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
 
 
-## Raises the process priorities of `node` by as little as it takes for `node` to run after `leader` in each frame and tick.
-## Nodes of one priority run in the order of the scene tree.
+## Raises the process priorities of `node` by the smallest amount that makes it run after `leader` in each frame and tick.
+## Nodes with the same priority run in the order of the scene tree.
 static func run_after(node: Node, leader: Node) -> void:
 	if leader == null:
 		return

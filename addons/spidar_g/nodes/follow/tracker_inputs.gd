@@ -1,5 +1,5 @@
 extends RefCounted
-## The inputs that a [SpidarGTracker] gives to its XR tracker: how far grip and trigger are closed, and their clicks.
+## Computes the inputs that a [SpidarGTracker] gives to its XR tracker: how far grip and trigger are closed, and their clicks.
 
 const TRIGGER_AUTOMATIC: int = 0
 const TRIGGER_SQUEEZE: int = 1
@@ -12,7 +12,7 @@ static func closed_part(spidar: SpidarG) -> float:
 	return clampf(spidar.get_grasp_angle() / closed, 0.0, 1.0) if closed > 0.0 else 0.0
 
 
-## Returns the input trigger, from 0 to 1. source: a SpidarGTracker.TriggerSource. hand: may be null.
+## Returns the input trigger, from 0 to 1. `source` is a SpidarGTracker.TriggerSource, and `hand` may be [code]null[/code].
 static func trigger(source: int, spidar: SpidarG, hand: SpidarGHand, full_squeeze_nm: float) -> float:
 	var config: SpidarGConfig = spidar.get_effective_config()
 	var action: StringName = config.grasp_action
@@ -29,7 +29,7 @@ static func trigger(source: int, spidar: SpidarG, hand: SpidarGHand, full_squeez
 	return closed_part(spidar)
 
 
-## Sets the float `input` to `value`, and the button `input`_click with hysteresis.
+## Sets the float `input` to `value`, and the boolean `input`_click with hysteresis.
 static func set_with_click(
 	tracker: XRControllerTracker, input: String, value: float, click_at: float, release_below: float
 ) -> void:

@@ -1,18 +1,19 @@
 extends RefCounted
-## The actions of SpidarGMouseHand: the keys and buttons of those that the project does not have, and what is pressed. An
+## Reads the actions of SpidarGMouseHand, and adds the default keys and buttons of those that the project does not have. An
 ## action that the InputMap does not have, such as one with an empty name, is never pressed.
 
 const DEFAULT_PREFIX: String = "spidar_g_"
 const SUFFIX: String = "_action"
 
-## By the property of SpidarGMouseHand that names the action.
+## Maps to its default mouse button the property of SpidarGMouseHand that names the action.
 const BUTTONS: Dictionary[StringName, MouseButton] = {
 	&"grasp_action": MOUSE_BUTTON_LEFT,
 	&"turn_action": MOUSE_BUTTON_RIGHT,
 	&"wheel_away_action": MOUSE_BUTTON_WHEEL_UP,
 	&"wheel_near_action": MOUSE_BUTTON_WHEEL_DOWN,
 }
-## By the property; keys are meant by their place on a US keyboard.
+## Maps to its default key the property of SpidarGMouseHand that names the action. A key is identified by its place on a US
+## keyboard.
 const KEYS: Dictionary[StringName, Key] = {
 	&"clutch_action": KEY_SHIFT,
 	&"move_left_action": KEY_A,
@@ -30,7 +31,7 @@ const KEYS: Dictionary[StringName, Key] = {
 }
 
 
-## Adds to the running project's InputMap each action of `node` that it lacks. An action with an empty name is not used.
+## Adds each action of `node` that the running project lacks to its InputMap. An action with an empty name is ignored.
 static func add_missing(node: Node) -> void:
 	for property: StringName in BUTTONS:
 		var event: InputEventMouseButton = InputEventMouseButton.new()

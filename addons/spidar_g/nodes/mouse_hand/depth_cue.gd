@@ -1,20 +1,21 @@
 extends MeshInstance3D
-## The depth cue of SpidarGMouseHand: a line from the grip straight down, and a ring on the surface that it meets.
-## One mesh, made once and then only moved: its x and z are the ring's plane, its y is the line.
+## Draws the depth cue of SpidarGMouseHand: a line from the grip straight down, and a ring on the surface that it meets. The
+## mesh is made once and then only moved. Its x and z axes are the plane of the ring, and its y axis is the line.
 
-## Of the ring's middle, in device metres.
+## The mean radius of the ring is this long, in meters of device motion.
 const RING_RADIUS_M: float = 0.008
-## The ring lies this far above the surface, so that the two do not flicker. Device metres.
+## The ring lies this far above the surface, in meters of device motion, so that the two do not flicker.
 const LIFT_M: float = 0.0005
-## Nothing is looked for farther down than this, device metres.
+## Surfaces further down than this are ignored, in meters of device motion.
 const RANGE_M: float = 1.0
-## Radii and half widths in radii of the ring, from the middle outward. Dark edges keep it visible on bright surfaces.
+## The strips of the ring end at these radii, in radii of the ring. Dark edges keep the ring visible on bright surfaces.
 const RING_STEPS: PackedFloat32Array = [0.74, 0.84, 1.06, 1.16]
+## The strips of the line end at these positions, in radii of the ring. Dark edges keep the line visible on bright surfaces.
 const LINE_STEPS: PackedFloat32Array = [-0.10, -0.05, 0.05, 0.10]
 const SEGMENTS: int = 40
 const EDGE_COLOR: Color = Color(0.05, 0.06, 0.08, 0.55)
 const MIDDLE_COLOR: Color = Color(1.0, 1.0, 1.0, 0.95)
-## A surface steeper than this (cosine of its slope) gets a level ring.
+## A surface that is steeper than this gets a level ring. The value is the cosine of its slope.
 const STEEPEST: float = 0.2
 
 var _hand: SpidarGHand = null
@@ -30,12 +31,13 @@ func _init() -> void:
 	visible = false
 
 
+## Sets the color of the line and the ring of the cue.
 func set_color(color: Color) -> void:
 	(material_override as StandardMaterial3D).albedo_color = color
 
 
-## Draws the cue below the device's grip, or hides it where no surface of the layers `mask` is below. Its flat side faces
-## `camera`, which may be null.
+## Draws the cue below the grip of the device, or hides it if no surface of the layers `mask` is below. Its flat side faces
+## `camera`, which may be [code]null[/code].
 func show_below(device: SpidarG, mask: int, camera: Camera3D) -> void:
 	var workspace_scale: float = device.workspace_scale
 	var from: Vector3 = device.get_grip_transform().origin
@@ -51,7 +53,7 @@ func show_below(device: SpidarG, mask: int, camera: Camera3D) -> void:
 		_place(from, hit["position"], hit["normal"], workspace_scale, right)
 
 
-## What a SpidarGHand of the device holds moves with the grip: it counts as air.
+# Returns the body that a SpidarGHand of the device holds. It moves with the grip, so the ray must ignore it.
 func _held_by(device: SpidarG) -> Array[RID]:
 	if not is_instance_valid(_hand) or _hand.get_parent() != device:
 		_hand = null

@@ -1,21 +1,23 @@
 extends RefCounted
-## The cursor of SpidarGMouseHand: where it points, what the clutch leaves, and how it is hidden while it turns the grip.
+## Handles the cursor of SpidarGMouseHand: computes where it points and what the clutch leaves, and hides the cursor while it
+## turns the grip.
 
-## Below this cosine between the view and the ground, the wheel moves along the view instead of the ground.
+## If the cosine of the angle between the view and the ground is below this value, the wheel moves along the view and not
+## along the ground.
 const LEVEL_VIEW: float = 0.2
 
-## Whether the mouse turns the grip instead of moving it.
+## If [code]true[/code], the mouse turns the grip and does not move it.
 var turning: bool = false
 
 var _mode_before: Input.MouseMode = Input.MOUSE_MODE_VISIBLE
-## Where the cursor was last, and how far the clutch left the grip from it, px.
+# The last position of the cursor, and the distance that the clutch left between it and the grip, in pixels.
 var _cursor_px: Vector2 = Vector2.ZERO
 var _offset_px: Vector2 = Vector2.ZERO
 var _was_clutched: bool = false
 
 
-## The place (world) to which the cursor brings a grip that is to be at `at`: under the cursor, at the same depth. With the
-## clutch pressed, or where the cursor points nowhere, that is `at` itself.
+## Returns the position in the world to which the cursor moves a grip with the target `at`: under the cursor, at the same
+## depth. Returns `at` while the clutch is pressed or if the cursor points nowhere.
 func point(motion: InputEventMouseMotion, camera: Camera3D, at: Vector3, clutched: bool) -> Vector3:
 	var from_px: Vector2 = _cursor_px
 	_cursor_px = motion.position
@@ -30,7 +32,7 @@ func point(motion: InputEventMouseMotion, camera: Camera3D, at: Vector3, clutche
 	return under if depth > camera.near and under.is_finite() else at
 
 
-## The direction (world) in which the wheel moves the grip away from the viewer.
+## Returns the direction in the world in which the wheel moves the grip away from the viewer.
 static func way_in_depth(camera: Camera3D) -> Vector3:
 	var forward: Vector3 = -camera.global_basis.orthonormalized().z
 	# Along the ground, so that depth does not change the height over a table.
@@ -39,12 +41,13 @@ static func way_in_depth(camera: Camera3D) -> Vector3:
 	return forward.normalized()
 
 
-## The grip is under the cursor again.
+## Puts the grip under the cursor again, without the distance that the clutch left.
 func forget_clutch() -> void:
 	_was_clutched = false
 	_offset_px = Vector2.ZERO
 
 
+## Starts to turn the grip, and captures the cursor.
 func begin_turn() -> void:
 	if turning:
 		return
@@ -54,6 +57,7 @@ func begin_turn() -> void:
 	Input.mouse_mode = Input.MOUSE_MODE_CAPTURED
 
 
+## Stops turning the grip, and frees the cursor where it was.
 func end_turn() -> void:
 	if turning:
 		turning = false

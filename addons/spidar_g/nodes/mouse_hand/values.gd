@@ -1,8 +1,9 @@
 extends RefCounted
-## What SpidarGMouseHand takes as a value: else an error that names field, value, unit and remedy, and the old value.
+## Checks the values that the properties of SpidarGMouseHand are set to. A refused value is reported as an error that names
+## the field, the value, the unit and the remedy.
 
 
-## `value`, or `old` when it is not finite.
+## Returns `value` if it is finite. Otherwise pushes an error and returns `old`.
 static func finite(field: StringName, value: Vector3, old: Vector3, unit: String) -> Vector3:
 	if value.is_finite():
 		return value
@@ -11,7 +12,7 @@ static func finite(field: StringName, value: Vector3, old: Vector3, unit: String
 	return old
 
 
-## `value`, or `old` when it is outside of `limits`.
+## Returns `value` if it is within `limits`. Otherwise pushes an error and returns `old`.
 static func in_range(field: StringName, value: float, old: float, limits: Vector2, unit: String) -> float:
 	# Written so that NAN is refused. A Vector2 rounds its numbers: what differs by that is taken.
 	if value >= limits.x - 1e-6 and value <= limits.y + 1e-6:

@@ -1,9 +1,10 @@
 @tool
 extends RefCounted
-## What a property takes as a number: else an error that names node, field, value, unit and remedy, and the old value.
+## Checks a number that a property is set to. A number out of range is reported as an error that names the node, the field,
+## the value, the unit and the remedy.
 
 
-## Returns `value`, or `old` when it is outside of `least` to `most`. `who` begins the error.
+## Returns `value` if it is from `least` to `most`. Otherwise pushes an error that begins with `who`, and returns `old`.
 static func checked(
 	who: String, field: StringName, value: float, old: float, unit: String, least: float, most: float
 ) -> float:

@@ -1,7 +1,8 @@
 extends RefCounted
-## All [SpidarG] and [SpidarGHand] nodes of a scene tree, kept by one watcher for all nodes that want to know them. It lives as
-## long as one of them holds it, so a tree without such nodes is not watched.
+## Lists all [SpidarG] and [SpidarGHand] nodes of a scene tree. One watcher is shared by all nodes that need the list. It
+## exists as long as one of them refers to it, so a tree without such nodes is not watched.
 
+## Emitted when a device or a hand has entered or left the scene tree.
 signal changed
 
 static var _shared: WeakRef = null
@@ -12,7 +13,7 @@ var hands: Array[SpidarGHand] = []
 var _tree: SceneTree = null
 
 
-## Returns the watcher of `tree`.
+## Returns the watcher of `tree`, and creates it if there is none.
 static func of(tree: SceneTree) -> RefCounted:
 	var watcher: RefCounted = _shared.get_ref() if _shared != null else null
 	if watcher == null or watcher.get("_tree") != tree:

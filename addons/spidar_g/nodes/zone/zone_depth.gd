@@ -1,16 +1,16 @@
 extends RefCounted
-## How deep a point is inside the collision shapes of an area, computed from the shapes themselves: it asks nothing of the
-## physics server, so it is the same whether the area monitors, is monitorable, has layers, or has just been moved.
+## Computes how deep a point is inside the collision shapes of an area, from the shapes alone. The physics server is not used,
+## so monitoring, layers and a recent move of the area do not matter.
 
-## A hull of more points is not taken: its faces would take too long to find.
+## A convex polygon with more points than this is ignored, because its faces would take too long to compute.
 const MOST_HULL_POINTS: int = 128
 
-## Of each convex shape seen so far, its points and its faces.
+# The points and the faces of each convex polygon that was seen.
 var _points: Dictionary[Shape3D, PackedVector3Array] = {}
 var _planes: Dictionary[Shape3D, Array] = {}
 
 
-## Returns why a shape cannot tell its inside; empty for one that can.
+## Returns why the depth in a shape cannot be computed. Returns an empty string if it can.
 static func problem(shape: Shape3D) -> String:
 	if shape is ConvexPolygonShape3D:
 		var count: int = (shape as ConvexPolygonShape3D).points.size()
@@ -20,9 +20,9 @@ static func problem(shape: Shape3D) -> String:
 	return "" if shape is WorldBoundaryShape3D else "a %s has no inside" % shape.get_class()
 
 
-## Returns the depth (scene m) of a point of the world below the nearest surface of the area's shapes: positive inside of one
-## of them, negative outside of all. -INF where no shape counts. Disabled shapes do not count. Of overlapping shapes the one
-## counts in which the point is deepest.
+## Returns the depth of a point of the world below the nearest surface of the area's shapes, in meters of the scene. It is
+## positive inside a shape and negative outside all shapes. Of overlapping shapes, the one in which the point is deepest is
+## used. Disabled shapes are ignored. Returns -INF if there is no usable shape.
 func of(area: CollisionObject3D, point: Vector3) -> float:
 	var deepest: float = -INF
 	for owner: int in area.get_shape_owners():
@@ -59,7 +59,7 @@ func _depth(shape: Shape3D, point: Vector3) -> float:
 	return -INF
 
 
-## beyond: how far the point is beyond the faces along each axis.
+# beyond: the distance of the point beyond the faces along each axis; negative inside.
 static func _in_box(beyond: Vector3) -> float:
 	var most: float = maxf(beyond.x, maxf(beyond.y, beyond.z))
 	return -most if most <= 0.0 else -beyond.max(Vector3.ZERO).length()
@@ -76,7 +76,8 @@ func _in_hull(shape: ConvexPolygonShape3D, point: Vector3) -> float:
 	return -most if most > -INF else -INF
 
 
-## The faces of the hull of `points`: each corner of the dual body, whose faces the points are, is a face of the hull.
+# Returns the faces of the hull of `points`. Each corner of the dual body, whose faces the points are, is a face of the
+# hull.
 static func _faces(points: PackedVector3Array) -> Array[Plane]:
 	var faces: Array[Plane] = []
 	if points.size() < 4 or points.size() > MOST_HULL_POINTS:
