@@ -33,7 +33,7 @@ def read(path):
 
 
 def main(site):
-    pages = [path for path in markdown_pages.read_pages() if path.startswith("docs/")]
+    pages = [path for path in markdown_pages.read_pages() if path.startswith("docs/") and not path.startswith("docs/pictures/")]
     classes = [os.path.basename(path)[:-4] for path in glob.glob(os.path.join(ROOT, "gdextension", "doc_classes", "*.xml"))]
     wanted = ["index.html", "search.html"] + [path[:-3] + ".html" for path in pages]
     wanted += [f"docs/reference/classes/{name.lower()}.html" for name in [*classes, "index", "SpidarGGrip"]]

@@ -49,6 +49,10 @@ class Help(unittest.TestCase):
         self.expect("Opens the recording [param path] and returns its state.", None)
         self.expect("If [code]true[/code], the pads are drawn on the surface.", None)
 
+    def test_a_verb_that_is_also_a_noun(self):
+        self.expect("The gate limits the force of each contact here.", None)
+        self.expect("The force limits of each contact, one after the other.", "no verb")
+
     def test_empty(self):
         self.expect("", "empty")
         self.expect("[br][br]", "empty")

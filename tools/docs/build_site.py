@@ -20,8 +20,8 @@ STAGE = os.path.join(ROOT, "build", "docs")
 HOME = "README.md"
 CLASSES = "docs/reference/classes"
 SHELVES = ("start", "how_to", "reference", "why")  # their order; the pages of each come from its folder
-# The copies that the add-on carries, and what lies beside programs and their results.
-LEFT_OUT = ("addons/spidar_g/LICENSE.md", "addons/spidar_g/THIRDPARTY.md", "tests/", "tools/")
+# The copies that the add-on carries, and what lies beside programs, their results and pictures.
+LEFT_OUT = ("addons/spidar_g/LICENSE.md", "addons/spidar_g/THIRDPARTY.md", "tests/", "tools/", "docs/pictures/")
 LIMIT_S = 300
 
 
