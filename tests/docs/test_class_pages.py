@@ -27,6 +27,7 @@ class Texts(unittest.TestCase):
                 ("[param size_max]", "`size_max`"),
                 ("a_b * c < d", "a\\_b \\* c \\< d"),
                 ("one [br][br]two\nthree", "one\n\ntwo\n\nthree"),
+                ("Keys:\n- [code]a[/code]: one.\n- b: two.\n- c: three.", "Keys:\n\n- `a`: one.\n- b: two.\n- c: three."),
                 ("[url=mailto:a@localhost]paper[/url]", "[paper](mailto:a@localhost)")):
             self.assertEqual(markdown(text), wanted)
 
@@ -40,6 +41,7 @@ class Texts(unittest.TestCase):
         self.assertEqual(markdown("[constant SpidarGThing.BIG]"), "[`BIG`](#help-spidargthing-enum-kind)")
         self.assertEqual(markdown("[enum Kind]"), "[`Kind`](#help-spidargthing-enum-kind)")
         self.assertIn("class_node3d.html", markdown("[method Node3D.rotate]"))
+        self.assertIn("class_int.html", markdown("[int]"))
         self.assertEqual(markdown("[member gone]"), "`gone`")
 
 

@@ -11,7 +11,7 @@ import repository
 from repository import ROOT, git
 
 VERSION = "7.8.9"
-LIMIT_S = 60
+LIMIT_S = 120
 MANIFEST = '[libraries]\n\nlinux.debug.x86_64 = "bin/lib.so"\n'
 
 

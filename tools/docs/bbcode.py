@@ -27,7 +27,7 @@ def dedented(text):
 
 
 def to_markdown(text, link):
-    """link(kind, name) gives the Markdown of a reference, where kind is class, method, member, signal, constant or enum."""
+    """link(kind, name) gives the Markdown of a reference; kind is class, method, member, signal, constant or enum."""
     kept = []
 
     def keep(markdown):
@@ -36,7 +36,9 @@ def to_markdown(text, link):
 
     def block(found):
         kind, options, inside = found.groups()
-        language = "csharp" if kind == "csharp" else "text" if "lang=text" in options or not is_gdscript(inside) else "gdscript"
+        language = "csharp" if kind == "csharp" else "gdscript"
+        if "lang=text" in options or not is_gdscript(inside):
+            language = "text"
         return keep(f"\n\n```{language}\n{dedented(inside)}\n```\n\n")
 
     text = BLOCK.sub(block, text)
@@ -47,11 +49,13 @@ def to_markdown(text, link):
     # GDScript comments also mark code as Markdown does.
     text = re.sub(r"`[^`\n]+`", lambda found: keep(found.group(0)), text)
     text = re.sub(r"[ \t]*(?:\[br\][ \t]*\n?)+", "\n", text)
-    text = re.sub(r"\[(/?[a-z]+)\]", lambda found: keep(SIMPLE[found.group(1)]) if found.group(1) in SIMPLE else found.group(0), text)
+    for tag, mark in SIMPLE.items():
+        text = text.replace(f"[{tag}]", keep(mark))
     text = CLASS.sub(lambda found: keep(link("class", found.group(1))), text)
     text = re.sub(r"([\\*_<>\[\]#])", r"\\\1", text)
-    # Each line of a help text is a paragraph.
+    # Each line of a help text is a paragraph, or an item of a list.
     text = "\n\n".join(line.strip() for line in text.split("\n") if line.strip())
+    text = re.sub(r"^(- .*)\n\n(?=- )", r"\1\n", text, flags=re.M)
     while re.search(r"\0\d+\0", text):
         text = re.sub(r"\0(\d+)\0", lambda found: kept[int(found.group(1))], text)
     return re.sub(r"\n{3,}", "\n\n", text).strip()
