@@ -12,10 +12,11 @@ const ViewParts := preload("view_parts.gd")
 ## Below this a string is slack, N.
 const SLACK_N: float = 0.05
 const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
-const LOW_COLOUR: Color = Color(0.20, 0.48, 0.95)
-const FAIR_COLOUR: Color = Color(0.10, 0.70, 0.45)  # Straight from blue to yellow would pass through grey: slack.
-const MIDDLE_COLOUR: Color = Color(1.00, 0.82, 0.20)
-const HIGH_COLOUR: Color = Color(0.95, 0.18, 0.15)
+# From blue to orange, with no red against green, so that color-blind people can tell the steps apart.
+const LOW_COLOUR: Color = Color(0.16, 0.40, 0.96)
+const FAIR_COLOUR: Color = Color(0.35, 0.85, 0.95)  # Straight from blue to yellow would pass through grey: slack.
+const MIDDLE_COLOUR: Color = Color(1.00, 0.90, 0.20)
+const HIGH_COLOUR: Color = Color(0.85, 0.30, 0.00)
 ## Forces weaker than this have no arrow, N.
 const LEAST_FORCE_N: float = 0.02
 
