@@ -8,7 +8,7 @@ const TextSize := preload("res://ui/text_size.gd")
 signal skipped
 signal forces_wanted
 
-## At a text size of 100 %; twice as large text makes the panel wider by half.
+## At a text size of 100 %; twice as large text makes the panel wider by two fifths.
 const WIDTH_PX := 320.0
 const MARGIN_PX := 20.0
 ## What a mouse user reads, and what a user of a real grip reads, in the order of the steps. Keys of the translation.
@@ -36,7 +36,7 @@ func _ready() -> void:
 ## percent: one of TextSize.CHOICES_PERCENT.
 func set_text_percent(percent: int) -> void:
 	TextSize.apply(_box, percent)
-	_text.custom_minimum_size.x = WIDTH_PX * (0.5 + 0.5 * percent / 100.0)
+	_text.custom_minimum_size.x = WIDTH_PX * (0.6 + 0.4 * percent / 100.0)
 
 
 func width_px() -> float:

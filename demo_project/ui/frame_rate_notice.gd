@@ -14,7 +14,7 @@ const PATIENCE_S := 2.0
 const MEAN_S := 0.5
 ## A longer frame counts as one of this length: a scene that loads is not a low rate.
 const LONGEST_FRAME_S := 0.25
-const WIDTH_PX := 420.0
+const WIDTH_PX := 600.0
 
 ## Whether the plain picture is on already.
 var is_plain := false
@@ -33,9 +33,9 @@ func _ready() -> void:
 	_button.pressed.connect(_choose_plain)
 
 
-## text_scale: 1.0 for a text size of 100 %.
-func set_text_scale(text_scale: float) -> void:
-	_text.custom_minimum_size.x = WIDTH_PX * (0.5 + 0.5 * text_scale)
+## most_px: the width that the text may have.
+func limit_width(most_px: float) -> void:
+	_text.custom_minimum_size.x = minf(WIDTH_PX, most_px)
 
 
 ## Counts one drawn frame that took delta_s.

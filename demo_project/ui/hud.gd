@@ -3,6 +3,7 @@ extends CanvasLayer
 ## wrench achieved, grasp angle. Three modes: off, short, full.
 
 const DemoPalette := preload("res://scene/demo_palette.gd")
+const FrameRateNotice := preload("res://ui/frame_rate_notice.gd")
 const GraspDial := preload("res://ui/grasp_dial.gd")
 const KeyNames := preload("res://ui/key_names.gd")
 const TaskBody := preload("res://scene/task_body.gd")
@@ -206,13 +207,14 @@ func _show_hint() -> void:
 		_fit()
 
 
-## Makes the hint as wide as the space between the columns lets it be.
+## Makes hint and notice as wide as the space between the columns lets them be.
 func _fit() -> void:
 	var side := side_taken_px
 	if mode != Mode.OFF:
 		side = maxf((%Left as Control).get_combined_minimum_size().x, (%Right as Control).get_combined_minimum_size().x)
 	var frame := _hint_panel.get_theme_stylebox(&"panel").get_minimum_size().x
 	var most := ($Screen as Control).size.x - 2.0 * (MARGIN_PX + side + (MARGIN_PX if side > 0.0 else 0.0)) - frame
+	(%FrameRate as FrameRateNotice).limit_width(most)
 	var font := _hint.get_theme_font(&"font")
 	var font_px := _hint.get_theme_font_size(&"font_size")
 	var one_line := font.get_string_size(_hint.text, HORIZONTAL_ALIGNMENT_LEFT, -1, font_px).x
