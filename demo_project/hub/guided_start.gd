@@ -12,6 +12,7 @@ var steps: GuideSteps
 
 var _thing: TaskBody
 var _end_s := 0.0
+var _ended := false
 
 @onready var _panel: GuidePanel = $Guide
 
@@ -30,6 +31,8 @@ func _ready() -> void:
 
 func _physics_process(delta: float) -> void:
 	super(delta)
+	if _ended:
+		return
 	if steps.watch():
 		_feedback.sound.say(&"linked")
 		_show_step()
@@ -51,6 +54,7 @@ func _restart() -> void:
 	super()
 	_thing.transform = _thing.start
 	_thing.linear_velocity = Vector3.ZERO
+	_thing.force_update_transform() # else the next physics step takes the node back to where it was
 	steps = GuideSteps.new(spidar, tool_hand, _thing, settings.may_have_forces())
 	_end_s = 0.0
 	_show_step()
@@ -75,6 +79,7 @@ func _show_step() -> void:
 
 
 func _end() -> void:
+	_ended = true
 	spidar.disarm()
 	left.emit()
 

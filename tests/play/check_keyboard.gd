@@ -140,7 +140,7 @@ func _check_values(hub: Hub, form: TabContainer) -> void:
 	await press(KEY_ENTER)
 	await press(KEY_DOWN)
 	await press(KEY_ENTER)
-	check(hub.settings.text_percent == 125, "the text size is %d %% after Enter, Down, Enter" % hub.settings.text_percent)
+	check(hub.settings.text_percent == 125, "Enter, Down, Enter: the text size is %d percent" % hub.settings.text_percent)
 	await press(KEY_ENTER)
 	await press(KEY_ESCAPE)
 	check(form.is_visible_in_tree() and hub.settings.text_percent == 125, "Escape in an open list does more than close it")
@@ -159,7 +159,7 @@ func _check_values(hub: Hub, form: TabContainer) -> void:
 	Input.parse_input_event(digit)
 	await frames(2)
 	check(hub.settings.participant == "7", "the participant is %s after 7" % hub.settings.participant)
-	check(_chosen.is_empty(), "a digit in a text field chooses %s" % _chosen)
+	check(_chosen.is_empty(), "a digit in a text field chooses %s" % [_chosen])
 	await press(KEY_ENTER)
 
 
