@@ -10,7 +10,8 @@ const LIFT_M := 0.0006
 ## Of the shadow at the surface, and at RANGE_M above it; device metres.
 const RADIUS_M := Vector2(0.014, 0.060)
 const OPACITY := Vector2(0.75, 0.30)
-const LINE_RADIUS_M := 0.0008
+## Half of its thickness. The plain picture in a window 640 pixels wide has a pixel for each 1.6 mm: a thinner line has gaps.
+const LINE_RADIUS_M := 0.0011
 const LINE_COLOR := Color(0.949, 0.722, 0.294, 0.8)
 ## A surface steeper than this (cosine of its slope) gets a level shadow.
 const STEEPEST := 0.2
@@ -89,12 +90,10 @@ func _blob_mesh() -> PlaneMesh:
 	return plane
 
 
-## Radius 1, height 2: its scale is a radius and half a height.
-func _rod_mesh() -> CylinderMesh:
-	var rod := CylinderMesh.new()
-	rod.top_radius = 1.0
-	rod.bottom_radius = 1.0
-	rod.radial_segments = 8
+## Two metres in each direction, so that its scale is half a thickness and half a height.
+func _rod_mesh() -> BoxMesh:
+	var rod := BoxMesh.new()
+	rod.size = Vector3(2.0, 2.0, 2.0)
 	return rod
 
 

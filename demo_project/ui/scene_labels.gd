@@ -8,9 +8,9 @@ const TextSize := preload("res://ui/text_size.gd")
 
 ## Between a label and what it keeps clear of.
 const GAP_PX := 4.0
-## Where the middle of a label is tried, in its own widths and heights from its thing: above, below, beside it, then farther.
+## Where the middle of a label is tried, in its own widths and heights from its thing: above, beside, below it, then farther.
 const PLACES: Array[Vector2] = [
-	Vector2(0.0, -0.5), Vector2(0.0, -1.6), Vector2(0.0, 0.8), Vector2(-0.6, 0.0), Vector2(0.6, 0.0), Vector2(0.0, 2.0),
+	Vector2(0.0, -0.5), Vector2(0.0, -1.6), Vector2(-0.6, 0.0), Vector2(0.6, 0.0), Vector2(0.0, 0.8), Vector2(0.0, 2.0),
 	Vector2(0.0, -2.7), Vector2(-0.6, -1.1), Vector2(0.6, -1.1), Vector2(-0.6, 1.1), Vector2(0.6, 1.1), Vector2(0.0, 3.2),
 	Vector2(0.0, -3.8), Vector2(-0.8, -2.2), Vector2(0.8, -2.2), Vector2(-0.8, 2.2), Vector2(0.8, 2.2), Vector2(0.0, 4.4),
 	Vector2(-1.2, 0.0), Vector2(1.2, 0.0), Vector2(0.0, -5.0), Vector2(-1.0, -3.3), Vector2(1.0, -3.3), Vector2(-1.0, 3.3),
