@@ -60,7 +60,7 @@ func _draw() -> void:
 	draw_line(center + needle * radius * 0.15, center + needle * (radius + 5.0), DemoPalette.TEXT, 3.0, true)
 	draw_circle(center, 4.0, DemoPalette.TEXT)
 	draw_string(
-		font, Vector2(0, size.y - 6.0), tr("HUD_ANGLE") % [rad_to_deg(angle_rad), caption],
+		font, Vector2(0, size.y - 6.0), "%.0f°,  %s" % [rad_to_deg(angle_rad), caption],
 		HORIZONTAL_ALIGNMENT_CENTER, size.x, roundi(14 * _text_scale), DemoPalette.TEXT
 	)
 
