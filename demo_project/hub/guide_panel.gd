@@ -50,11 +50,11 @@ func panels() -> Array[Control]:
 	return shown
 
 
-## count: how many steps there are. simulated: whether the mouse moves the hand.
-func show_step(step: GuideSteps.Step, count: int, simulated: bool) -> void:
+## count: how many steps there are. by_mouse: whether the mouse moves the hand.
+func show_step(step: GuideSteps.Step, count: int, by_mouse: bool) -> void:
 	var done := step == GuideSteps.Step.DONE
 	_heading.text = tr("GUIDE_TITLE_DONE") if done else tr("GUIDE_TITLE") % [step + 1, count]
-	_text.text = KeyNames.fill(tr(MOUSE_TEXTS[step] if simulated else GRIP_TEXTS[step]))
+	_text.text = KeyNames.fill(tr(MOUSE_TEXTS[step] if by_mouse else GRIP_TEXTS[step]))
 	_progress.visible = not done
 	_forces.visible = step == GuideSteps.Step.FORCES
 	_skip.text = KeyNames.fill(tr("GUIDE_TO_MENU" if done else "GUIDE_SKIP"))

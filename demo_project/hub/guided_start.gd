@@ -1,6 +1,6 @@
 extends "res://tasks/base/demo_task.gd"
-## The first half minute: move, close, lift, forces on. Shown at the first start of the demo, and from the menu. Each step goes
-## on by itself when the user has done it; a key or a button skips them all.
+## The first half minute: move, close, lift, forces on. It is shown until it has been finished or skipped once, and from the
+## menu. Each step ends by itself when the user has done it; a key or a button skips them all.
 
 const GuidePanel := preload("res://hub/guide_panel.gd")
 const GuideSteps := preload("res://hub/guide_steps.gd")
@@ -75,7 +75,7 @@ func _panels() -> Array[Control]:
 
 
 func _show_step() -> void:
-	_panel.show_step(steps.step, steps.count(), spidar.is_simulated())
+	_panel.show_step(steps.step, steps.count(), _mouse_hand.is_acting())
 
 
 func _end() -> void:

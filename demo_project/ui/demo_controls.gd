@@ -70,9 +70,13 @@ func _clutch(pressed: bool) -> void:
 
 ## The panic key comes before everything else: a button that has the focus would take Space for itself.
 func _input(event: InputEvent) -> void:
-	if interactive and _spidar.forces_enabled and event.is_action_pressed(&"demo_panic", true):
+	if not interactive or not event.is_action_pressed(&"demo_panic", true):
+		return
+	if _spidar.forces_enabled:
 		_cut_forces("NOTICE_STOPPED")
 		get_viewport().set_input_as_handled()
+	elif get_viewport().gui_get_focus_owner() is BaseButton:
+		get_viewport().set_input_as_handled() # Pressed once too often, it chooses nothing in a menu.
 
 
 func _unhandled_key_input(event: InputEvent) -> void:

@@ -103,7 +103,10 @@ func _check_steps_by_hand() -> void:
 	await move_hand(guide, home, OPEN_RAD, READING_S)
 	await move_hand(guide, home + Vector3.UP * 0.05, OPEN_RAD)
 	check(guide.steps.step == GuideSteps.Step.LIFT, "an empty hand counts as a lift")
-	var thing: Node3D = guide.get_node(^"Items/Thing")
+	var thing: RigidBody3D = guide.get_node(^"Items/Thing")
+	thing.linear_velocity = Vector3.UP # thrown up by about 5 cm
+	await _ticks(60)
+	check(guide.steps.step == GuideSteps.Step.LIFT, "a block that jumps by itself counts as a lift")
 	var at := thing.global_position
 	await move_hand(guide, at + Vector3.UP * 0.08, OPEN_RAD)
 	await move_hand(guide, at, OPEN_RAD)

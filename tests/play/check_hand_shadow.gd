@@ -58,7 +58,7 @@ func _check_below(task: DemoTask, surface_y: float, where: String) -> void:
 	check(line.visible and absf(top - grip.y) < TOLERANCE_M, where + ": the line does not end at the grip")
 
 
-## A thing in the fingers does not catch the shadow.
+## A thing in the fingers does not catch the shadow; it is held by its top edge, so that all of it is below the grip's middle.
 func _check_held() -> void:
 	var task := open("guided_start")
 	await frames(5)
@@ -66,9 +66,11 @@ func _check_held() -> void:
 	var thing: Node3D = task.get_node(^"Items/Thing")
 	var at := thing.global_position
 	await move_hand(task, at + Vector3.UP * 0.08, 0.1)
-	await move_hand(task, at, 0.1)
-	await move_hand(task, at, 0.9)
-	await move_hand(task, at + Vector3.UP * 0.08, 0.9)
+	var edge := at + Vector3.UP * 0.032
+	await move_hand(task, edge, 0.1)
+	await move_hand(task, edge, 0.9)
+	await move_hand(task, edge + Vector3.UP * 0.08, 0.9)
+	check(task.spidar.get_grip_transform().origin.y > thing.global_position.y + 0.030, "the grip's middle is inside the block")
 	check(task.tool_hand.get_held_body() == thing, "the block is not held")
 	_check_below(task, (task.get_node(^"Items") as Node3D).global_position.y, "with a held block")
 	await close(task)

@@ -99,6 +99,10 @@ func _check_entries() -> void:
 		await press(KEY_ENTER)
 		await press((KEY_1 + index) as Key)
 		check(_chosen == [StringName(entry), StringName(entry)], "%s: chosen by Enter and by its number: %s" % [entry, _chosen])
+	_chosen.clear()
+	(buttons[0] as Button).grab_focus()
+	await press(KEY_SPACE)
+	check(_chosen.is_empty(), "the panic key chooses %s" % [_chosen])
 	var level := hub.settings.level
 	(hub.get_node(^"Menu/Panel/Rows/Level") as Button).grab_focus()
 	await press(KEY_ENTER)

@@ -74,6 +74,9 @@ func _check_guide(guide: GuidedStart, where: String) -> void:
 		await frames(4)
 		check((guide.get_node(^"Guide/Panel/Rows/Text") as Label).text != "", "%s, step %d: no text" % [where, step])
 		_check_all(guide, "%s, step %d" % [where, step])
+		guide.get_node(^"Guide").call(&"show_step", step, 4, false)
+		await frames(4)
+		_check_all(guide, "%s, step %d, by the grip" % [where, step])
 
 
 func _check_experiment(percent: int, where: String) -> void:
