@@ -21,12 +21,7 @@ func _ready() -> void:
 		return
 	# Scripts that name SpidarG do not even compile without the library, so ask before loading any.
 	if not ClassDB.class_exists(&"SpidarG"):
-		_refuse(
-			"The SPIDAR-G add-on is not loaded: addons/spidar_g/bin holds no library for this "
-			+ "system.\nBuild it with `./dev build`, or unpack a release of the add-on into "
-			+ "the project's addons folder.",
-			arguments.scripted()
-		)
+		_refuse(tr("MISSING_LIBRARY"), arguments.scripted())
 		return
 	_arguments = arguments
 	_settings = (load("res://ui/demo_settings.gd") as Script).call(&"load_or_default")
@@ -36,7 +31,12 @@ func _ready() -> void:
 		_open(arguments.task)
 	else:
 		_settings.set(&"level", arguments.level if arguments.open_task != "" else _settings.get(&"level"))
-		_open(arguments.open_task if arguments.open_task != "" else "hub")
+		_open(arguments.open_task if arguments.open_task != "" else _first_scene())
+
+
+## The menu; at the very first start, and until it has been finished or skipped, the guided start.
+func _first_scene() -> String:
+	return "hub" if _settings.get(&"guide_shown") else "guided_start"
 
 
 ## Replaces what is open by a task, free play or the menu.
@@ -45,7 +45,7 @@ func _open(scene_name: String) -> void:
 		_scene.queue_free()
 	_scene = TaskList.make(scene_name)
 	if not _scene.has_signal(&"left"):
-		_refuse("%s did not load: import the project first (./dev does)." % scene_name, _arguments.scripted())
+		_refuse(tr("NOT_IMPORTED") % scene_name, _arguments.scripted())
 		return
 	_scene.set(&"arguments", _arguments)
 	_scene.set(&"settings", _settings)

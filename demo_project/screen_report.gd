@@ -87,7 +87,7 @@ func _buttons() -> Dictionary:
 		var button := child as Button
 		if button.is_visible_in_tree():
 			var at := get_viewport().get_final_transform() * button.get_global_rect().get_center()
-			found[button.text] = [at.x, at.y]
+			found[button.atr(button.text)] = [at.x, at.y]
 	return found
 
 

@@ -25,6 +25,7 @@ func _ready() -> void:
 	for child in _items.get_children():
 		_knobs.append(child as HubKnob)
 	_hud.show_mode(Hud.Mode.OFF)
+	_hud.help_shown.connect(func(shown: bool) -> void: _menu.visible = not shown)
 	_menu.setup(settings)
 	_menu.chosen.connect(_on_chosen)
 	_menu.applied.connect(_on_applied)
@@ -68,12 +69,23 @@ func _on_chosen(entry: StringName) -> void:
 func _on_applied() -> void:
 	settings.save()
 	settings.apply(spidar)
-	PictureQuality.apply(self, settings.picture)
+	_show_picture()
+	_show_texts()
 	_show_level()
+
+
+func _show_texts() -> void:
+	super()
+	_menu.set_text_percent(settings.text_percent)
+	_hud.side_taken_px = _menu.width_px()
+
+
+func _panels() -> Array[Control]:
+	return super() + _menu.panels()
 
 
 func _show_level() -> void:
 	for knob in _knobs:
 		if knob.entry == &"level":
-			knob.text = "Level %d" % settings.level
+			knob.text = tr("LEVEL") % settings.level
 	_menu.show_level(settings.level)

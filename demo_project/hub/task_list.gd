@@ -11,6 +11,7 @@ const TASKS: Dictionary[String, String] = {
 const OTHERS: Dictionary[String, String] = {
 	"hub": "res://hub/hub.tscn",
 	"free_play": "res://tasks/free_play/free_play.tscn",
+	"guided_start": "res://hub/guided_start.tscn",
 	"experiment": "res://study/experiment.tscn",
 }
 ## Tasks whose things can be carried about instead of being placed (--carries): elsewhere they link on the way.

@@ -17,11 +17,12 @@ signal left
 signal ended(exit_code: int)
 
 const TRIALS := 3
+## By condition: keys of the translation.
 const TEXTS: Dictionary[String, String] = {
-	"forces_on": "You hold the grip. The forces come on by themselves: surfaces, weight and width can be felt.",
-	"forces_off": "You hold the grip. The forces stay off.",
-	"mouse": "You use mouse and keyboard. {demo_help} shows the keys.",
-	"mouse_auto": "You use the mouse. Click on a thing to have it picked up, and on its target to have it put there.",
+	"forces_on": "CONDITION_FORCES_ON",
+	"forces_off": "CONDITION_FORCES_OFF",
+	"mouse": "CONDITION_MOUSE",
+	"mouse_auto": "CONDITION_MOUSE_AUTO",
 }
 
 var arguments := PlayArguments.new()
@@ -42,9 +43,10 @@ var _random := RandomNumberGenerator.new()
 
 
 func _ready() -> void:
+	_screen.text_percent = settings.text_percent
 	_participant = arguments.participant if arguments.simulates() else settings.participant.to_int()
 	if _participant < 1:
-		_screen.show_text("Participant", "Enter a number of 1 or more as participant in the settings.", "Back", left.emit)
+		_screen.show_text("EXPERIMENT_PARTICIPANT", "EXPERIMENT_NO_NUMBER", "EXPERIMENT_BACK", left.emit)
 		return
 	_random.seed = _participant
 	_plan = ExperimentPlan.make(
@@ -72,11 +74,13 @@ func _physics_process(_delta: float) -> void:
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
+	if _task == null and event.is_action_pressed(&"demo_leave"):
+		left.emit() # What is on file stays there; the next start goes on behind it.
 	if _task == null or not event.is_action_pressed(&"demo_abort_trial"):
 		return
 	_keep("aborted by the participant")
 	_close_task()
-	_screen.show_text("Trial aborted", "It is done again.", "Go on", _open_task)
+	_screen.show_text("EXPERIMENT_ABORTED", "EXPERIMENT_AGAIN", "GO_ON", _open_task)
 
 
 ## Goes to the first step that is not on file yet.
@@ -97,24 +101,22 @@ func _next() -> void:
 		ExperimentPlan.Kind.INSTRUCTION:
 			_instruct(step)
 		ExperimentPlan.Kind.BREAK:
-			_screen.show_text("Break", "Rest your hand as long as you like.", "Go on", _next)
+			_screen.show_text("EXPERIMENT_BREAK", "EXPERIMENT_REST", "GO_ON", _next)
 		ExperimentPlan.Kind.RATINGS:
 			_ask(step)
 		ExperimentPlan.Kind.END:
 			if arguments.simulates():
 				ended.emit(PlayArguments.EXIT_DONE)
 			else:
-				_screen.show_text("Thank you", "Results: %s" % _store.folder, "Back to the menu", left.emit)
+				_screen.show_text("EXPERIMENT_THANKS", tr("EXPERIMENT_RESULTS") % _store.folder, "EXPERIMENT_TO_MENU", left.emit)
 		_:
 			_open_task()
 
 
 func _instruct(step: ExperimentPlan.Step) -> void:
 	var shown: Trial = scene_of.call(step.task)
-	var text := "%s\n\n%s\n\nFirst a practice, then %d trials. {demo_abort_trial} breaks one off; it is then done again." % [
-		shown.goal, TEXTS[step.condition], TRIALS
-	]
-	_screen.show_text(shown.title, KeyNames.fill(text), "Start", _next)
+	var text := "%s\n\n%s\n\n%s" % [tr(shown.goal), tr(TEXTS[step.condition]), tr("EXPERIMENT_PRACTICE") % TRIALS]
+	_screen.show_text(shown.title, KeyNames.fill(text), "EXPERIMENT_START", _next)
 	shown.free()
 
 
@@ -153,6 +155,7 @@ func _open_task() -> void:
 	trial_settings.forces_allowed = step.condition == "forces_on"
 	trial_settings.auto_animation = step.condition == "mouse_auto"
 	trial_settings.picture = settings.picture
+	trial_settings.text_percent = settings.text_percent
 	trial_settings.participant = str(_participant)
 	_task = scene_of.call(step.task)
 	_task.arguments = trial_arguments

@@ -3,14 +3,21 @@ extends CanvasLayer
 
 const RatingRow := preload("res://study/rating_row.gd")
 const ROW := preload("res://study/rating_row.tscn")
+const TextSize := preload("res://ui/text_size.gd")
 
+## At a text size of 100 %; twice as large text makes the panel wider by four fifths.
+const WIDTH_PX := 640.0
+## By column of ratings.csv: keys of the translation.
 const QUESTIONS: Dictionary[String, String] = {
-	"grasp": "Grasping things",
-	"translation": "Moving things",
-	"rotation": "Turning things",
-	"overall": "Overall",
-	"against_mouse": "Compared with a mouse",
+	"grasp": "ASK_GRASP",
+	"translation": "ASK_TRANSLATION",
+	"rotation": "ASK_ROTATION",
+	"overall": "ASK_OVERALL",
+	"against_mouse": "ASK_AGAINST_MOUSE",
 }
+
+## One of TextSize.CHOICES_PERCENT.
+var text_percent := 100
 
 ## What the button does.
 var _then := Callable()
@@ -45,16 +52,16 @@ func show_text(heading: String, text: String, button_text: String, then: Callabl
 	_text.show()
 	_questions.hide()
 	_button.disabled = false
+	_fit()
 	_button.grab_focus()
 
 
 ## then: called with the answers by question, 1 to 5, when all are given.
 func ask_ratings(condition: String, then: Callable) -> void:
 	var answers := {}
-	_begin("How was it?", "Go on", then.bind(answers))
+	_begin("ASK_TITLE", "GO_ON", then.bind(answers))
 	_text.hide()
 	_questions.show()
-	_button.release_focus()
 	_button.disabled = true
 	var asked := questions(condition)
 	for key in asked:
@@ -64,6 +71,8 @@ func ask_ratings(condition: String, then: Callable) -> void:
 		row.rated.connect(func(value: int) -> void:
 			answers[key] = value
 			_button.disabled = answers.size() < asked.size())
+	_fit()
+	(_questions.get_child(0) as RatingRow).take_focus()
 
 
 func _begin(heading: String, button_text: String, then: Callable) -> void:
@@ -74,7 +83,11 @@ func _begin(heading: String, button_text: String, then: Callable) -> void:
 	_button.text = button_text
 	_then = then
 	_panel.show()
-	_panel.reset_size()
+
+
+func _fit() -> void:
+	TextSize.apply(_panel, text_percent)
+	($Panel/Rows as Control).custom_minimum_size.x = WIDTH_PX * (0.2 + 0.8 * text_percent / 100.0)
 
 
 func _go_on() -> void:

@@ -11,3 +11,7 @@ func _ready() -> void:
 
 func ask(question: String) -> void:
 	($Question as Label).text = question
+
+
+func take_focus() -> void:
+	($Scale/Choice1 as Control).grab_focus()

@@ -75,7 +75,7 @@ func save_interactive() -> String:
 	_task.logger.row["auto_animation"] = _task.settings.auto_animation
 	_task.logger.row["started_utc"] = started
 	_save(folder, table)
-	return "All placed in %.1f s. Results: %s" % [
+	return _task.tr("RESULT_ALL_PLACED") % [
 		_task.logger.task_time_s, ProjectSettings.globalize_path(folder)
 	]
 

@@ -5,6 +5,7 @@ extends Node
 const DemoSettings := preload("res://ui/demo_settings.gd")
 const Hud := preload("res://ui/hud.gd")
 const MouseHand := preload("res://ui/mouse_hand.gd")
+const SettingsForm := preload("res://ui/settings_form.gd")
 
 signal restart_wanted
 signal leave_wanted
@@ -21,7 +22,7 @@ var _zeroing := false
 var _steps_left := 0
 var _task_name := ""
 var _actions: Dictionary[StringName, Callable] = {
-	&"demo_forces": _toggle_forces,
+	&"demo_forces": toggle_forces,
 	&"demo_restart": func() -> void: restart_wanted.emit(),
 	&"demo_help": func() -> void: _hud.toggle_help(),
 	&"demo_display": func() -> void: _hud.next_mode(),
@@ -69,9 +70,13 @@ func _clutch(pressed: bool) -> void:
 
 ## The panic key comes before everything else: a button that has the focus would take Space for itself.
 func _input(event: InputEvent) -> void:
-	if interactive and _spidar.forces_enabled and event.is_action_pressed(&"demo_panic", true):
-		_cut_forces("Stopped. {demo_forces} turns the forces on again.")
+	if not interactive or not event.is_action_pressed(&"demo_panic", true):
+		return
+	if _spidar.forces_enabled:
+		_cut_forces("NOTICE_STOPPED")
 		get_viewport().set_input_as_handled()
+	elif get_viewport().gui_get_focus_owner() is BaseButton:
+		get_viewport().set_input_as_handled() # Pressed once too often, it chooses nothing in a menu.
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
@@ -91,7 +96,7 @@ func _unhandled_key_input(event: InputEvent) -> void:
 
 func _toggle_pause() -> void:
 	get_tree().paused = not get_tree().paused
-	_hud.show_notice("Paused. {demo_pause} goes on, {demo_step} does one step." if get_tree().paused else "")
+	_hud.show_notice("NOTICE_PAUSED" if get_tree().paused else "")
 
 
 func _step_once() -> void:
@@ -100,23 +105,27 @@ func _step_once() -> void:
 		get_tree().paused = false
 
 
+## The help is closed first.
 func _leave() -> void:
+	if _hud.is_help_shown():
+		_hud.toggle_help()
+		return
 	_spidar.disarm()
 	leave_wanted.emit()
 
 
 func _notification(what: int) -> void:
 	if what == NOTIFICATION_APPLICATION_FOCUS_OUT and interactive and _spidar.forces_enabled:
-		_cut_forces("Forces went off with the window's focus. {demo_forces} turns them on.")
+		_cut_forces("NOTICE_FOCUS_LOST")
 
 
-func _toggle_forces() -> void:
+func toggle_forces() -> void:
 	if _spidar.forces_enabled:
-		_cut_forces("Forces are off. {demo_forces} turns them on.")
+		_cut_forces("NOTICE_FORCES_OFF")
 		return
 	if not _settings.may_have_forces():
-		_hud.show_notice("The settings keep the forces off." if not _settings.forces_allowed else (
-			"No forces here: the settings' source is %s." % _settings.source
+		_hud.show_notice("NOTICE_FORCES_FORBIDDEN" if not _settings.forces_allowed else (
+			tr("NOTICE_NO_FORCES") % tr(SettingsForm.WORDS[_settings.source])
 		))
 		return
 	_hud.show_notice("")
@@ -124,7 +133,7 @@ func _toggle_forces() -> void:
 	_spidar.forces_enabled = true
 	if _settings.source == DemoSettings.SERIAL:
 		_zeroing = _spidar.zero_at_home()
-		_hud.show_notice("Hold the grip at home, then move it: the zero is taken.")
+		_hud.show_notice("NOTICE_ZERO")
 		return
 	# A real device arms only when told; a simulated one has armed itself by now.
 	_spidar.arm()
@@ -141,7 +150,7 @@ func _arm_when_zeroed() -> void:
 func _toggle_recording() -> void:
 	if _spidar.is_recording():
 		_spidar.stop_recording()
-		_hud.show_notice("Recorded. Settings, source: replay plays it.")
+		_hud.show_notice("NOTICE_RECORDED")
 	elif not _spidar.is_replaying() and _spidar.start_recording(DemoSettings.new_recording(_task_name)):
 		_hud.show_notice("")
 

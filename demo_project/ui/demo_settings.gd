@@ -4,6 +4,7 @@ extends RefCounted
 const DemoSettings := preload("res://ui/demo_settings.gd")
 const PictureQuality := preload("res://scene/picture_quality.gd")
 const PlayArguments := preload("res://play/play_arguments.gd")
+const TextSize := preload("res://ui/text_size.gd")
 
 const PATH := "user://settings.cfg"
 const RATES_HZ: PackedInt32Array = [500, 1000, 2000]
@@ -38,6 +39,10 @@ var clutch := CLUTCHES[0]
 var auto_animation := false
 ## One of PictureQuality.CHOICES.
 var picture := PictureQuality.AUTOMATIC
+## One of TextSize.CHOICES_PERCENT.
+var text_percent := 100
+## Whether the guided start has been finished or skipped.
+var guide_shown := false
 var level := 1
 var participant := ""
 ## 1 none to 5 a lot; 0 not asked.
@@ -114,6 +119,8 @@ func _clamp() -> void:
 		workspace_scale = 1.0
 	if not PictureQuality.CHOICES.has(picture):
 		picture = PictureQuality.AUTOMATIC
+	if not TextSize.CHOICES_PERCENT.has(text_percent):
+		text_percent = 100
 	level = clampi(level, 1, PlayArguments.LEVELS)
 	computer_experience = clampi(computer_experience, 0, 5)
 	haptic_experience = clampi(haptic_experience, 0, 5)
@@ -122,5 +129,5 @@ func _clamp() -> void:
 func _keys() -> PackedStringArray:
 	return [
 		"source", "device_serial", "recording", "forces_allowed", "workspace_scale", "rate_hz", "clutch", "auto_animation",
-		"picture", "level", "participant", "computer_experience", "haptic_experience",
+		"picture", "text_percent", "guide_shown", "level", "participant", "computer_experience", "haptic_experience",
 	]

@@ -2,12 +2,13 @@ extends RefCounted
 ## What the keys and buttons of an action are called on the screen. Texts name an action in braces, "{demo_help}  help", so
 ## that they stay true when the project's input map changes.
 
+## Keys of the translation.
 const BUTTONS: Dictionary[int, String] = {
-	MOUSE_BUTTON_LEFT: "Left button",
-	MOUSE_BUTTON_RIGHT: "Right button",
-	MOUSE_BUTTON_MIDDLE: "Middle button",
-	MOUSE_BUTTON_WHEEL_UP: "Wheel up",
-	MOUSE_BUTTON_WHEEL_DOWN: "Wheel down",
+	MOUSE_BUTTON_LEFT: "BUTTON_LEFT",
+	MOUSE_BUTTON_RIGHT: "BUTTON_RIGHT",
+	MOUSE_BUTTON_MIDDLE: "BUTTON_MIDDLE",
+	MOUSE_BUTTON_WHEEL_UP: "WHEEL_UP",
+	MOUSE_BUTTON_WHEEL_DOWN: "WHEEL_DOWN",
 }
 
 
@@ -27,10 +28,11 @@ static func of(action: StringName) -> String:
 		if event is InputEventKey:
 			names.append(_key_name(event as InputEventKey))
 		elif event is InputEventMouseButton:
-			names.append(BUTTONS.get((event as InputEventMouseButton).button_index, event.as_text()))
+			var key: String = BUTTONS.get((event as InputEventMouseButton).button_index, event.as_text())
+			names.append(TranslationServer.translate(key))
 		else:
 			names.append(event.as_text())
-	return "no key" if names.is_empty() else " / ".join(names)
+	return String(TranslationServer.translate("NO_KEY")) if names.is_empty() else " / ".join(names)
 
 
 ## The editor's own input map does not hold the project's actions: there they are read from the project's settings.

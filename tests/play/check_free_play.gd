@@ -55,7 +55,7 @@ func _open(settings: DemoSettings) -> void:
 
 
 func _check_zone(zone: FieldZone) -> void:
-	var text := FieldZone.TEXTS[zone.kind]
+	var text := String(FieldZone.Kind.keys()[zone.kind])
 	await _go(zone.global_position + OUTSIDE_M)
 	_bias_n = Vector3.ZERO
 	_check(_force().length() < BIAS_LIMIT_N, "%s: %s N above it" % [text, _force()])

@@ -53,7 +53,8 @@ class User:
         path = os.path.join(self.folder, SETTINGS)
         os.makedirs(os.path.dirname(path))
         with open(path, "w", encoding="utf-8") as file:
-            file.write("[demo]\n\n" + "".join(f"{key}={value}\n" for key, value in settings.items()))
+            rows = {"guide_shown": "true", **settings}  # the menu first, as for everybody but a newcomer
+            file.write("[demo]\n\n" + "".join(f"{key}={value}\n" for key, value in rows.items()))
         self.environment = dict(os.environ, DISPLAY=display, XDG_DATA_HOME=self.folder)
         with open(os.path.join(self.folder, "log.txt"), "w", encoding="utf-8") as log:
             self.demo = subprocess.Popen(

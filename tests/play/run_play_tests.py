@@ -29,6 +29,9 @@ DEMO = os.path.join(ROOT, "demo_project")
 OUT = os.path.join(ROOT, "build", "play_tests")
 TASKS = ("pick_and_place", "robot_linking", "match_linking")
 LEVELS = (1, 2, 3)
+# The demo's mathematics, free play, and what is seen of the demo and worked by keys.
+SCRIPTS = ("check_parts.gd", "check_free_play.gd", "check_hidden.gd", "check_labels.gd", "check_hand_shadow.gd",
+           "check_guide.gd", "check_frame_rate.gd", "check_layout.gd", "check_keyboard.gd", "check_texts.gd")
 RUN_LIMIT_S = 300  # a run takes seconds; a script error hangs Godot
 SIMULATED_LIMIT_S = 240.0  # the demo's own limit, on simulated time
 CARRIES_IN_ALL = 100
@@ -267,19 +270,23 @@ def check_bad_arguments(checks, godot):
 
 
 def check_parts(checks, godot, script):
-    """The demo's own mathematics, or free play, inside Godot; its counts are added."""
+    """One of the scripts below, run in the demo's project; its counts are added."""
     command = [godot, "--headless", "--audio-driver", "Dummy", "--fixed-fps", "60", "--path", DEMO,
                "-s", os.path.join(HERE, script)]
+    # The settings that a check saves are nobody's.
+    user = os.path.join(OUT, "user")
+    own = dict(os.environ, XDG_DATA_HOME=user, APPDATA=user)
     try:
         output = subprocess.run(
             command, timeout=RUN_LIMIT_S, text=True, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
+            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False, env=own,
         ).stdout
     except subprocess.TimeoutExpired:
         output = f"FAIL {script}: not finished in time"
     totals = re.findall(r"^(\d+) passed, (\d+) failed$", output, re.M)
     print("\n".join(line for line in output.splitlines() if line.startswith("FAIL")), end="")
     checks.check(len(totals) == 1, f"{script}: no totals\n{output[-2000:]}")
+    checks.check("SCRIPT ERROR" not in output, f"{script}: script error\n{output[-2000:]}")
     for passed, failed in totals:
         checks.passed += int(passed)
         checks.failed += int(failed)
@@ -312,9 +319,8 @@ def in_parallel(calls):
 def run_some(godot, seeds):
     """What a change is tested with: one level of each task."""
     checks = Checks()
-    check_parts(checks, godot, "check_parts.gd")
-    check_parts(checks, godot, "check_free_play.gd")
-    check_parts(checks, godot, "check_hidden.gd")
+    for script in SCRIPTS:
+        check_parts(checks, godot, script)
     good = [(task, level, seed) for task, level in zip(TASKS, LEVELS) for seed in range(1, seeds + 1)]
     calls = [lambda key=key: Play(godot, *key) for key in good]
     calls.append(lambda: Play(godot, *good[0], name="again"))

@@ -18,14 +18,15 @@ const _ViewParts := preload("view_parts.gd")
 const SLACK_N: float = 0.05
 ## Strings that are slack are drawn in this color.
 const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
+# The colors go from blue to orange, with no red against green, so that color-blind people can tell the steps apart.
 ## Strings with a low tension are drawn in this color.
-const LOW_COLOUR: Color = Color(0.20, 0.48, 0.95)
+const LOW_COLOUR: Color = Color(0.16, 0.40, 0.96)
 ## Strings between low and medium tension are drawn in this color. It keeps the mixture away from the gray of a slack string.
-const FAIR_COLOUR: Color = Color(0.10, 0.70, 0.45)  # Straight from blue to yellow would pass through grey: slack.
+const FAIR_COLOUR: Color = Color(0.35, 0.85, 0.95)
 ## Strings with a medium tension are drawn in this color.
-const MIDDLE_COLOUR: Color = Color(1.00, 0.82, 0.20)
+const MIDDLE_COLOUR: Color = Color(1.00, 0.90, 0.20)
 ## Strings at their maximum tension are drawn in this color.
-const HIGH_COLOUR: Color = Color(0.95, 0.18, 0.15)
+const HIGH_COLOUR: Color = Color(0.85, 0.30, 0.00)
 ## The arrow is hidden while the achieved force is weaker than this value, in newtons.
 const LEAST_FORCE_N: float = 0.02
 

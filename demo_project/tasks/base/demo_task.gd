@@ -5,11 +5,14 @@ extends "res://study/trial.gd"
 const AutoAnimator := preload("res://ui/auto_animator.gd")
 const CarryPlayer := preload("res://play/carry_player.gd")
 const DemoControls := preload("res://ui/demo_controls.gd")
+const FrameRateNotice := preload("res://ui/frame_rate_notice.gd")
+const HandShadow := preload("res://scene/hand_shadow.gd")
 const Hud := preload("res://ui/hud.gd")
 const ModelHand := preload("res://play/model_hand.gd")
 const MouseHand := preload("res://ui/mouse_hand.gd")
 const PictureQuality := preload("res://scene/picture_quality.gd")
 const PictureTaker := preload("res://play/picture_taker.gd")
+const SceneLabels := preload("res://ui/scene_labels.gd")
 const ScriptedHand := preload("res://play/scripted_hand.gd")
 const ScriptedRun := preload("res://tasks/base/scripted_run.gd")
 const TaskFeedback := preload("res://tasks/base/task_feedback.gd")
@@ -34,6 +37,8 @@ var player: TaskPlayer
 @onready var _controls: DemoControls = $Controls
 @onready var _feedback: TaskFeedback = $Feedback
 @onready var _script_run: ScriptedRun = $ScriptedRun
+@onready var _labels: SceneLabels = $SceneLabels
+@onready var _frame_rate: FrameRateNotice = $Hud/%FrameRate
 
 
 ## Builds the things of arguments.level from arguments.seed_number under _items, and fills `bodies`.
@@ -98,12 +103,17 @@ func _ready() -> void:
 	_watch_hand()
 	_feedback.setup(self, _hud)
 	_hud.setup(spidar, tool_hand, goal)
+	_hud.help_shown.connect(func(shown: bool) -> void: _labels.visible = not shown)
+	_labels.obstacles = _panels
+	_frame_rate.plain_wanted.connect(_choose_plain)
+	($HandShadow as HandShadow).setup(spidar, tool_hand)
 	_controls.setup(spidar, _hud, _mouse_hand, settings, task_name)
 	_controls.restart_wanted.connect(_restart)
 	_controls.leave_wanted.connect(left.emit)
 	player = _make_player() if arguments.carries == 0 else _make_carry_player()
 	add_child(player)
 	_start_layout()
+	_show_texts()
 	if arguments.scripted():
 		_start_script()
 	else:
@@ -121,6 +131,29 @@ func _start_layout() -> void:
 			body.felt.checks_width = false
 	_watch_bodies()
 	_equip_player()
+	_labels.watch(_items, spidar, tool_hand, settings.text_percent)
+
+
+## Shows all text at the size that the settings say.
+func _show_texts() -> void:
+	_hud.set_text_percent(settings.text_percent)
+	_labels.set_text_percent(settings.text_percent)
+
+
+## What is on the screen and must not be covered by the labels of things.
+func _panels() -> Array[Control]:
+	return _hud.panels()
+
+
+func _show_picture() -> void:
+	PictureQuality.apply(self, settings.picture)
+	_frame_rate.is_plain = PictureQuality.is_plain(settings.picture, RenderingServer.get_video_adapter_name())
+
+
+func _choose_plain() -> void:
+	settings.picture = PictureQuality.PLAIN
+	settings.save()
+	_show_picture()
 
 
 func _restart() -> void:
@@ -134,7 +167,7 @@ func _restart() -> void:
 
 
 func _start_person() -> void:
-	PictureQuality.apply(self, settings.picture)
+	_show_picture()
 	_controls.interactive = true
 	spidar.forces_enabled = forces_at_start
 	if forces_at_start:
@@ -144,20 +177,23 @@ func _start_person() -> void:
 	if settings.source == DemoSettings.REPLAY and may_replay:
 		_start_replay()
 	_animator.setup(_mouse_hand, _scripted_hand, player, settings.auto_animation)
+	if in_experiment: # The picture is the same in all trials.
+		_frame_rate.process_mode = Node.PROCESS_MODE_DISABLED
 
 
 func _start_replay() -> void:
 	spidar.replay_finished.connect(func(_identical: bool, message: String) -> void:
-		_hud.show_notice("Replay of %s has ended: %s" % [settings.recording, message]))
+		_hud.show_notice(tr("NOTICE_REPLAY_ENDED") % [settings.recording, message]))
 	if settings.recording == "":
-		_hud.show_notice("No recording is chosen in the settings. {demo_record} records a run.")
+		_hud.show_notice("NOTICE_NO_RECORDING")
 	elif spidar.start_replay(DemoSettings.RECORDINGS.path_join(settings.recording)):
-		_hud.show_notice("Replay of %s.   {demo_leave}  leaves" % settings.recording)
+		_hud.show_notice(tr("NOTICE_REPLAY") % settings.recording)
 
 
 func _start_script() -> void:
 	_mouse_hand.process_mode = Node.PROCESS_MODE_DISABLED
 	_animator.process_mode = Node.PROCESS_MODE_DISABLED
+	_frame_rate.process_mode = Node.PROCESS_MODE_DISABLED
 	_script_run.trial = self
 	_script_run.player = player
 	_script_run.hud = _hud

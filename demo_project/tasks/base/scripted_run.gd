@@ -40,7 +40,7 @@ func play(home: Transform3D) -> void:
 	var arguments := trial.arguments
 	if not _open_folder(arguments):
 		return
-	hud.show_result("Played by script, layout %d" % arguments.seed_number)
+	hud.show_result(tr("RESULT_PLAYING") % arguments.seed_number)
 	trial.spidar.forces_enabled = not trial.in_experiment or trial.forces_at_start
 	_hand.be(arguments.hand, arguments.seed_number)
 	var reason := await _wait_until_ready(home)
@@ -53,7 +53,7 @@ func play(home: Transform3D) -> void:
 		if _hand.stopped:
 			reason = "time limit of %d s simulated time" % int(_time_limit_s())
 	trial.stop_clock()
-	hud.show_result("Played by script in %.1f s" % trial.logger.task_time_s)
+	hud.show_result(tr("RESULT_PLAYED") % trial.logger.task_time_s)
 	await _pictures.take("done")
 	trial.finish(reason)
 

@@ -25,9 +25,6 @@ const WRENCH_N := Vector3(0.0, 1.5, 0.0)
 const ALPHA := 0.16
 const ALPHA_INSIDE := 0.40
 
-## In the order of Kind.
-const TEXTS: PackedStringArray = ["buzz", "spring", "thick air", "notches", "wind", "lift"]
-
 @export var kind := Kind.VISCOUS
 @export var colour := Color.WHITE:
 	set(value):
