@@ -32,17 +32,19 @@ class Checks:
         self.failed += not good
 
 
-def walk_through(walker, walk, check):
+def walk_through(walker, walk, check, pictures):
     """One example; its row of the table, or None where it was not finished."""
     name = walk.__name__
     in_gallery = name == "gallery"
     try:
         if not in_gallery:
             walker.open_example(name)
+        walker.picture(pictures, name + "_begin")
         began = time.monotonic()
         walk(walker, check)
         seconds = time.monotonic() - began
         actions = ", ".join(f"{count} {kind}" for kind, count in walker.actions.items() if count)
+        walker.picture(pictures, name + "_end")
         if not in_gallery:
             walker.leave_example()
         return f"| {name} | {walk.__doc__} | {seconds:.1f} | {actions} |"
@@ -56,10 +58,14 @@ def main():
     parser.add_argument("godot")
     parser.add_argument("names", nargs="*", metavar="PART_OF_NAME")
     parser.add_argument("--display", default=os.environ.get("DISPLAY", ""))
+    parser.add_argument("--pictures", metavar="FOLDER", help="NAME_begin.png and NAME_end.png (needs ImageMagick's import)")
+    parser.add_argument("--size", metavar="WxH", default="640x360", help="a small window costs a computer without a GPU little")
     arguments = parser.parse_args()
     if not arguments.display:
         parser.error("no display: run under xvfb-run, or give --display")
     prepare_project(PROJECT, arguments.godot)
+    if arguments.pictures:
+        os.makedirs(arguments.pictures, exist_ok=True)
     check = Checks()
     rows = []
     walks = [walk for walk in WALKS if not arguments.names or any(part in walk.__name__ for part in arguments.names)]
@@ -68,7 +74,7 @@ def main():
         for number, walk in enumerate(walks):
             walker = walker or start(arguments, os.path.join(folder, f"{number}.txt"), check)
             print(walk.__name__, flush=True)
-            rows.append(walk_through(walker, walk, check) if walker else None)
+            rows.append(walk_through(walker, walk, check, arguments.pictures) if walker else None)
             if walker and rows[-1] is None:  # the next example begins in a game of its own
                 close(walker, check)
                 walker = None
@@ -81,7 +87,7 @@ def main():
 
 def start(arguments, log_path, check):
     """A game that shows the gallery, or None."""
-    walker = Walker(arguments.godot, PROJECT, arguments.display, log_path)
+    walker = Walker(arguments.godot, PROJECT, arguments.display, arguments.size, log_path)
     try:
         walker.enter()
         return walker

@@ -99,7 +99,8 @@ func _device(device: SpidarG) -> Dictionary:
 	var told: Dictionary = {
 		"scale": device.workspace_scale, "axes": _axes(device.global_basis.orthonormalized()),
 		"grip": _numbers(device.get_grip_transform().origin), "wanted": [], "angle": device.get_grasp_angle(), "held": "",
-		"touched": [], "active": device.get_state() == SpidarG.STATE_ACTIVE, "felt": [0.0, 0.0, 0.0], "swing": 0.0,
+		"touched": [], "active": device.get_state() == SpidarG.STATE_ACTIVE, "felt": [0.0, 0.0, 0.0], "least": [0.0, 0.0, 0.0],
+		"swing": 0.0,
 	}
 	var forces: PackedVector3Array = _felt.get(device.name, PackedVector3Array())
 	if not forces.is_empty():
@@ -111,6 +112,7 @@ func _device(device: SpidarG) -> Dictionary:
 			most = most.max(force)
 			sum += force
 		told["felt"] = _numbers(sum / forces.size())
+		told["least"] = _numbers(least)
 		told["swing"] = (most - least).length()
 	for child: Node in device.get_children():
 		if child is SpidarGMouseHand:

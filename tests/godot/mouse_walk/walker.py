@@ -8,7 +8,6 @@ import subprocess
 import threading
 import time
 
-RESOLUTION = (640, 360)  # a small window costs a computer without a GPU little
 WINDOW = "spidar_g examples"
 START_LIMIT_S = 60
 STEP_LIMIT_S = 15
@@ -37,18 +36,20 @@ def minus(a, b):
 class Walker:
     """The game, a mouse and a keyboard."""
 
-    def __init__(self, godot, project, display, log_path):
+    def __init__(self, godot, project, display, size, log_path):
         self.environment = dict(os.environ, DISPLAY=display)
         self.log_path = log_path
+        self.size = [int(part) for part in size.split("x")]
         self.cursor = None
         self.window = None
         self.actions = {"moves": 0, "buttons": 0, "wheel": 0, "keys": 0}
         self.state = None
+        self.clutch_used = False
         self.history = []  # the states since it was emptied last
         self.changed = threading.Condition()
         self.game = subprocess.Popen(
             [godot, "--audio-driver", "Dummy", "--rendering-driver", "opengl3", "--path", project,
-             "--resolution", "%dx%d" % RESOLUTION, "-s", "res://report_gallery.gd"],
+             "--resolution", size, "-s", "res://report_gallery.gd"],
             env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
             errors="replace")
         self.reader = threading.Thread(target=self._read, daemon=True)
@@ -122,7 +123,7 @@ class Walker:
 
     def move_cursor(self, to, px_a_step=CURSOR_STEP_PX):
         """As a hand moves it: not in one jump."""
-        start = self.cursor or [0.5 * size for size in RESOLUTION]
+        start = self.cursor or [0.5 * size for size in self.size]
         steps = max(1, math.ceil(math.dist(start, to) / px_a_step))
         words = []
         for step in range(1, steps + 1):
@@ -197,7 +198,10 @@ class Walker:
         state = self.next_state(2)
         off = minus(goal, self.device(state)["wanted"])
         if max(abs(dot(off, right)), abs(dot(off, up))) > 0.0005:
-            self.move_cursor(self.on_screen(state, goal), px_a_step)
+            to = self.on_screen(state, goal)
+            if self.clutch_used:  # the grip keeps its distance to the cursor
+                to = plus(self.cursor, minus(to, self.on_screen(state, self.device(state)["wanted"])))
+            self.move_cursor(to, px_a_step)
 
     def key_along(self, device, way):
         """A key press for the longest part of a way in the device's axes."""
@@ -216,6 +220,12 @@ class Walker:
         px = 0.5 * height / math.tan(math.radians(0.5 * camera["fov_deg"]))
         return [0.5 * width - px * x / z, 0.5 * height + px * y / z]
 
+    def picture(self, folder, name):
+        if folder:
+            self.next_state(3)
+            path = os.path.join(folder, name + ".png")
+            subprocess.run(["import", "-window", self.window, path], env=self.environment, check=True)
+
     # --- The gallery ---
 
     def enter(self):
@@ -227,7 +237,7 @@ class Walker:
         self.xdotool("windowfocus", self.window)
         count = self.state["inputs"]
         for _ in range(10):
-            self.click([0.5 * RESOLUTION[0], 10])  # beside every button
+            self.click([0.5 * self.size[0], 10])  # beside every button
             if self.next_state(5)["inputs"] >= count + 3:
                 break
         self.next_state(5)
@@ -241,6 +251,7 @@ class Walker:
         state = self.wait("the gallery", lambda now: name in now["buttons"])
         self.click(state["buttons"][name])
         self.actions = {kind: 0 for kind in self.actions}
+        self.clutch_used = False
         return self.wait(f"{name} with forces", lambda now: now["example"] == name and now["devices"]
                          and all(device["active"] for device in now["devices"].values()))
 
