@@ -49,7 +49,7 @@ def walk_through(walker, walk, check, pictures):
             walker.leave_example()
         return f"| {name} | {walk.__doc__} | {seconds:.1f} | {actions} |"
     except (GaveUp, subprocess.SubprocessError, KeyError, StopIteration) as problem:
-        check(False, f"{name}: {type(problem).__name__} {problem}")
+        check(False, f"{name}: {type(problem).__name__} {problem}; the devices: {(walker.state or {}).get('devices')}")
         return None
 
 

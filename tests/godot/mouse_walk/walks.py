@@ -62,6 +62,7 @@ def touch(walker, check):
         expect(walker, check, f"{name} pushes up, N", lambda state: felt(walker, state, 1), FELT_N)
         check(name in walker.device()["touched"], f"{name} is touched")
         walker.bring(on(walker, name, y=height + 0.06))
+    walker.bring(plus(walker.device()["wanted"], at(0.0, 0.06, 0.0)))  # open fingers have no room beside the cylinder
     walker.open_fingers()
 
 
