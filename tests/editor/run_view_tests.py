@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The add-on in a real editor: run_view_tests.py GODOT [--actions N] [--seed S] [--part view|idle|actions|mouse] [--display]
+"""The add-on in a real editor: run_view_tests.py GODOT [--actions N] [--seed S] [--part view|claims|idle|actions|mouse] [--display]
 
-Part mouse drags the handles with a real mouse on $DISPLAY. The others need no display: the 3-D view's checks, what an
-idle editor pays, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a handle,
+Part mouse drags the handles with a real mouse on $DISPLAY. The others need no display: the 3-D view's checks, the
+claims of devices in the inspector, what an idle editor pays, then N random actions of a user: add, duplicate, delete, undo, redo, change a resource, drag a handle,
 save, close and open scenes, switch the plugin off and on, close and open the project. Fails on a failed check, an error,
 a crash, a servo thread in the editor or an object left behind. The seed is printed: --seed S repeats a run. The last
 line is "N passed, N failed".
@@ -149,7 +149,7 @@ def main():
     options.add_argument("godot")
     options.add_argument("--actions", type=int, default=200)
     options.add_argument("--seed", type=int, default=int(time.time()) % 1000000)
-    options.add_argument("--part", choices=("view", "idle", "actions", "mouse"))
+    options.add_argument("--part", choices=("view", "claims", "idle", "actions", "mouse"))
     options.add_argument("--pictures", nargs=2, default=(), metavar="FILE", help="of the mouse part: editor and view")
     options.add_argument("--display", action="store_true", help="use $DISPLAY in place of --headless")
     chosen = options.parse_args()
@@ -158,7 +158,7 @@ def main():
     copy_project()
     prepare_project(PROJECT, chosen.godot)
     passed = failed = 0
-    for part, script in (("view", "view_checks"), ("idle", "idle_cost")):
+    for part, script in (("view", "view_checks"), ("claims", "claim_checks"), ("idle", "idle_cost")):
         if chosen.part in (None, part):
             good, bad = checks(chosen.godot, script)
             print(f"{script}: {good} checks, {bad} failed")

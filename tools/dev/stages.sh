@@ -134,6 +134,12 @@ stage_mouse() { # a user with a real mouse, under an X server of its own
     counted python3 tests/play/run_mouse_tests.py "$GODOT" --quick
 }
 
+stage_mouse_walk() { # under an X server of its own, too
+    need "${picture_needs[@]}" xdotool:xdotool
+    start_xvfb
+    counted python3 tests/godot/run_mouse_walk.py "$GODOT"
+}
+
 sanitizer() { # sanitizer NAMES [doctest filter]
     scons -Q -j"$jobs" spidar_tests sanitize="$1"
     doctest "build/${1//,/-}/bin/spidar_tests" "${@:2}"

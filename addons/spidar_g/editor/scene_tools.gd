@@ -1,13 +1,15 @@
 @tool
 extends RefCounted
-## Adds the calibration panel of the inspector and the 3D view of SpidarG nodes to the scene editor.
+## Adds the calibration panel and the claims of devices to the inspector, and the 3D view of SpidarG nodes to the scene editor.
 
 const CalibrationInspector := preload("calibration/calibration_inspector.gd")
+const ClaimsInspector := preload("claims/claims_inspector.gd")
 const GizmoPlugin := preload("gizmo/gizmo_plugin.gd")
 const ViewMenu := preload("gizmo/view_menu.gd")
 
 var _plugin: EditorPlugin
 var _calibration: CalibrationInspector = CalibrationInspector.new()
+var _claims: ClaimsInspector = ClaimsInspector.new()
 var _gizmos: GizmoPlugin = GizmoPlugin.new()
 var _view_menu: ViewMenu = ViewMenu.new()
 
@@ -16,6 +18,7 @@ func _init(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_calibration.history = plugin.get_undo_redo()
 	plugin.add_inspector_plugin(_calibration)
+	plugin.add_inspector_plugin(_claims)
 	plugin.add_node_3d_gizmo_plugin(_gizmos)
 	_gizmos.start()
 	_view_menu.options = _gizmos.options
@@ -26,6 +29,7 @@ func _init(plugin: EditorPlugin) -> void:
 func remove() -> void:
 	_calibration.close_all()
 	_plugin.remove_inspector_plugin(_calibration)
+	_plugin.remove_inspector_plugin(_claims)
 	_plugin.remove_control_from_container(EditorPlugin.CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
 	_view_menu.queue_free()
 	_gizmos.stop()

@@ -1,5 +1,5 @@
 extends Node3D
-## Shows the name of the clip that the hand feels.
+## Shows the name of the clip that the hand felt last.
 
 @onready var _told: Label3D = $Told
 
@@ -7,4 +7,3 @@ extends Node3D
 func _ready() -> void:
 	for player: SpidarGClipPlayer in [$Drum/Knock, $Motor/Buzz, $Board/Creak]:
 		player.started.connect(func(_spidar: SpidarG) -> void: _told.text = "felt: %s" % player.name.to_lower())
-		player.finished.connect(func(_spidar: SpidarG) -> void: _told.text = "")

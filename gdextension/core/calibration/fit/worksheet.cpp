@@ -13,7 +13,7 @@ namespace {
 
 // Number of poses over which a residual is averaged: more change nothing in its second digit.
 constexpr std::size_t kResidualPoses = 300;
-// Accuracy of scales found by ruler (docs/how_to/calibration.md), in place of the 5 % of a winding.
+// Accuracy of scales found by ruler (docs/why/calibration_mathematics.md), in place of the 5 % of a winding.
 constexpr double kRulerGainPrior = 0.002;
 
 std::string percent(double ratio) {
