@@ -1,4 +1,4 @@
-// A texture of Godot as the relief of a surface (device/contact/shapes/relief_map.h). Main thread only.
+// A texture of Godot as the relief of a surface (device/contact/relief/relief_map.h). Main thread only.
 #pragma once
 
 #include <memory>

@@ -184,6 +184,21 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     return cut || anticipated;
 }
 
+// How far the tool gives way per newton of a push that all its contacts with a part of the scene share. Two pads that press side
+// by side do not turn the tool, so that it is stiffer than at each of them.
+double ToolProxy::softness_together(const Rows &rows, int scene_part) const noexcept {
+    Move sum{};
+    int pushing = 0;
+    for (int i = 0; i < count_; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (contacts_[k].scene_part == scene_part && (active_mask_ >> k & 1U) != 0) {
+            add(sum, 1.0, rows[k].row);
+            ++pushing;
+        }
+    }
+    return pushing > 0 ? dot(sum, sum) / (pushing * pushing) : 0.0;
+}
+
 // Computes the pushes that the hand feels, with damping and the compliance of surfaces.
 void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                      const Twist &velocity, double dt_s) noexcept {
@@ -208,10 +223,12 @@ void ToolProxy::push(const Tool &tool, const ContactScene &scene, const ToolPose
         const auto k = static_cast<std::size_t>(i);
         ProxyContact &contact = contacts_[k];
         const ScenePart &other = scene.parts[contact.scene_part];
-        const double softness_m_n = dot(rows[k].row, rows[k].row);
         if (!(rows[k].depth > 0.0)) {
             continue;
         }
+        const double softness_m_n = other.stiffness_n_m > 0.0
+                                        ? softness_together(rows, contact.scene_part)
+                                        : dot(rows[k].row, rows[k].row);
         double more_m_n = 0.0; // by which the surface gives way beside the tool
         if (other.stiffness_n_m > 0.0) {
             more_m_n = std::max(0.0, 1.0 / other.stiffness_n_m - softness_m_n);

@@ -179,6 +179,7 @@ private:
     // rubs, of the same tool part if there is one.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
+    [[nodiscard]] double softness_together(const Rows &rows, int scene_part) const noexcept;
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
     // Updates slips_s and strained_s of the contact from `last`, the contact one cycle before (may
     // be null), and returns the friction coefficient of this cycle. stretch_m: of the friction

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "device/contact/shapes/relief_map.h"
+#include "device/contact/relief/relief_map.h"
 #include "device/contract/dof_lanes.h"
 
 namespace spidar {
@@ -72,9 +72,9 @@ Relief mapped_relief(const SurfaceTexture &texture, double coarseness, const Vec
             continue;
         }
         const Lay &lay = kLays[static_cast<std::size_t>(axis)];
-        const ReliefPoint point =
-            relief_point(*texture.relief, coarseness, local_m[lay.u] / texture.wavelength_m,
-                         lay.v_sign * local_m[lay.v] / texture.wavelength_m);
+        const ReliefPoint point = relief_point(texture.relief->relief(), coarseness,
+                                               local_m[lay.u] / texture.wavelength_m,
+                                               lay.v_sign * local_m[lay.v] / texture.wavelength_m);
         const double scaled_m = share * texture.depth_m;
         relief.height_m += scaled_m * (point.height - 1.0);
         relief.slope[lay.u] += scaled_m * point.slope_u / texture.wavelength_m;
@@ -112,16 +112,15 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
     double passing_share = passing / kFinestPassing;
     double stiffens_n_m = 0.0;
     if (texture.relief != nullptr) {
+        const ReliefLevels &levels = texture.relief->relief();
         const double curvature =
             bends_n_m > 0.0 ? most_n_m / bends_n_m : std::numeric_limits<double>::infinity();
         // Its finest crests are two heights apart.
-        const double coarseness =
-            relief_coarseness(*texture.relief, 0.5 * passing_share, curvature);
+        const double coarseness = relief_coarseness(levels, 0.5 * passing_share, curvature);
         relief = mapped_relief(texture, coarseness, local_m, normal);
-        const ReliefLevel &coarsest = coarsest_level(*texture.relief);
-        stiffens_n_m =
-            std::max(std::min(most_n_m, bends_n_m * finest_level(*texture.relief).most_curvature),
-                     bends_n_m * coarsest.most_curvature);
+        const ReliefLevel &coarsest = levels.back();
+        stiffens_n_m = std::max(std::min(most_n_m, bends_n_m * levels.front().most_curvature),
+                                bends_n_m * coarsest.most_curvature);
         passing_share *= 0.5 * coarsest.columns;
     } else {
         const double k = 2.0 * std::numbers::pi;

@@ -283,6 +283,10 @@ const ShapeDescription &CookedShape::description() const noexcept {
     return data_->description;
 }
 
+const ReliefLevels &CookedShape::relief() const noexcept {
+    return data_->relief;
+}
+
 Vec3 CookedShape::lower_m() const noexcept {
     return data_->lower_m;
 }

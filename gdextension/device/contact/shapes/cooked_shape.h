@@ -12,6 +12,7 @@
 
 #include "core/base/status.h"
 #include "core/base/types.h"
+#include "device/contact/relief/relief_map.h"
 
 namespace spidar {
 
@@ -80,6 +81,8 @@ public:
     // The description that was cooked, with a mesh welded. Cooking it again gives the same shape
     // bit for bit, with another number.
     [[nodiscard]] const ShapeDescription &description() const noexcept;
+    // Empty for all kinds but relief.
+    [[nodiscard]] const ReliefLevels &relief() const noexcept;
 
     // Unique among all cooked and tool shapes of this process: remembered data fits no other shape.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }

@@ -3,7 +3,6 @@
 
 #include "device/contact/shapes/convex_core.h"
 #include "device/contact/shapes/cooked_shape.h"
-#include "device/contact/shapes/relief_map.h"
 #include "device/contact/shapes/tool_shape.h"
 #include "device/contact/shapes/triangle_tree.h"
 
@@ -18,7 +17,7 @@ struct CookedShape::Data {
     double skin_m = 0.0;
     TriangleTree tree;                     // mesh only
     std::vector<std::uint8_t> sharp_edges; // mesh only: NearTriangle::sharp_edges
-    std::vector<ReliefLevel> relief;       // relief only: finest first
+    ReliefLevels relief;       // relief only: finest first
     // Mesh only: neighbor across each edge, or kNone.
     std::vector<std::array<std::uint32_t, 3>> neighbours;
 };

@@ -5,11 +5,7 @@
 
 #include <vector>
 
-#include "core/base/types.h"
-
 namespace spidar {
-
-class CookedShape;
 
 struct ReliefLevel {
     int columns = 0;
@@ -19,9 +15,11 @@ struct ReliefLevel {
     double most_curvature = 0.0;
 };
 
-// The copies of a relief, finest first. heights: columns * rows values from 0 to 1.
-[[nodiscard]] std::vector<ReliefLevel> make_relief_levels(int columns, int rows,
-                                                          std::vector<float> heights);
+// The copies of a relief, finest first.
+using ReliefLevels = std::vector<ReliefLevel>;
+
+// Returns at least one level. heights: columns * rows values from 0 to 1.
+[[nodiscard]] ReliefLevels make_relief_levels(int columns, int rows, std::vector<float> heights);
 
 struct ReliefPoint {
     double height = 0.0;  // from 0 to 1
@@ -29,18 +27,14 @@ struct ReliefPoint {
     double slope_v = 0.0; // along v, for one tile width
 };
 
-// The functions below need a shape of kind relief.
-
 // The relief at (u, v), both in tile widths: it repeats after 1 along u and after rows / columns of the finest level along v.
 // coarseness: 0 is the finest level, 1 the next; in between, the two are blended. Beyond the last level the last is used.
-[[nodiscard]] ReliefPoint relief_point(const CookedShape &map, double coarseness, double u,
+[[nodiscard]] ReliefPoint relief_point(const ReliefLevels &levels, double coarseness, double u,
                                        double v) noexcept;
 
 // The smallest coarseness at which two neighbouring heights are at least `spacing` apart (tile widths) and no curvature
 // exceeds `curvature`. It may be larger than the last level's: then even that one is too fine.
-[[nodiscard]] double relief_coarseness(const CookedShape &map, double spacing,
+[[nodiscard]] double relief_coarseness(const ReliefLevels &levels, double spacing,
                                        double curvature) noexcept;
-[[nodiscard]] const ReliefLevel &finest_level(const CookedShape &map) noexcept;
-[[nodiscard]] const ReliefLevel &coarsest_level(const CookedShape &map) noexcept;
 
 } // namespace spidar

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "device/contact/relief/relief_map.h"
 #include "device/contact/shapes/cooked_shape.h"
-#include "device/contact/shapes/relief_map.h"
 
 using namespace spidar;
 
@@ -56,7 +56,7 @@ TEST_CASE("relief: waves are waves, lower by what a cubic B-spline smooths") {
     const double kept = (4.0 + 2.0 * std::cos(step)) / 6.0;
     for (int column = 0; column < 64; ++column) {
         const double u = column / 64.0;
-        const ReliefPoint point = relief_point(*made.shape, 0.0, u, 0.123);
+        const ReliefPoint point = relief_point(made.shape->relief(), 0.0, u, 0.123);
         CHECK(point.height ==
               doctest::Approx(0.5 + 0.5 * kept * std::cos(step * column)).epsilon(1e-6));
         CHECK(std::abs(point.slope_v) < 1e-5);
@@ -73,13 +73,13 @@ TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
         const double u = place(random);
         const double v = place(random);
         const double level = 0.5 * std::abs(place(random));
-        const ReliefPoint here = relief_point(*made.shape, level, u, v);
-        const ReliefPoint again = relief_point(*made.shape, level, u + 2.0, v - 0.5);
+        const ReliefPoint here = relief_point(made.shape->relief(), level, u, v);
+        const ReliefPoint again = relief_point(made.shape->relief(), level, u + 2.0, v - 0.5);
         CHECK(here.height == doctest::Approx(again.height).epsilon(1e-9));
         CHECK(here.height >= 0.0);
         CHECK(here.height <= 1.0);
         const auto height = [&](double du, double dv) {
-            return relief_point(*made.shape, level, u + du, v + dv).height;
+            return relief_point(made.shape->relief(), level, u + du, v + dv).height;
         };
         CHECK(here.slope_u ==
               doctest::Approx((height(kStep, 0.0) - height(-kStep, 0.0)) / (2.0 * kStep))
@@ -93,26 +93,29 @@ TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
 TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that are wanted") {
     const CookResult made = cook(noise(256, 256, 7));
     REQUIRE(made.shape != nullptr);
-    CHECK(finest_level(*made.shape).columns == 256);
-    CHECK(coarsest_level(*made.shape).columns == 8);
-    CHECK(relief_coarseness(*made.shape, 0.0, std::numeric_limits<double>::infinity()) == 0.0);
-    CHECK(relief_coarseness(*made.shape, 1.0 / 64.0, 1e12) == doctest::Approx(2.0));
-    CHECK(relief_coarseness(*made.shape, 1.0 / 4.0, 1e12) == doctest::Approx(6.0)); // there is none
+    CHECK(made.shape->relief().front().columns == 256);
+    CHECK(made.shape->relief().back().columns == 8);
+    CHECK(relief_coarseness(made.shape->relief(), 0.0, std::numeric_limits<double>::infinity()) ==
+          0.0);
+    CHECK(relief_coarseness(made.shape->relief(), 1.0 / 64.0, 1e12) == doctest::Approx(2.0));
+    CHECK(relief_coarseness(made.shape->relief(), 1.0 / 4.0, 1e12) ==
+          doctest::Approx(6.0)); // there is none
     double last = 0.0;
     for (double part = 1.0; part > 0.002; part *= 0.7) {
-        const double wanted = part * finest_level(*made.shape).most_curvature;
-        const double coarseness = relief_coarseness(*made.shape, 0.0, wanted);
+        const double wanted = part * made.shape->relief().front().most_curvature;
+        const double coarseness = relief_coarseness(made.shape->relief(), 0.0, wanted);
         CHECK(coarseness >= last);
         last = coarseness;
-        if (wanted < coarsest_level(*made.shape).most_curvature) {
+        if (wanted < made.shape->relief().back().most_curvature) {
             continue;
         }
         constexpr double kStep = 1e-4;
         double most = 0.0;
         for (int i = 0; i < 2000; ++i) {
             const double u = i / 2000.0;
-            const double bend = relief_point(*made.shape, coarseness, u + kStep, 0.3).slope_u -
-                                relief_point(*made.shape, coarseness, u - kStep, 0.3).slope_u;
+            const double bend =
+                relief_point(made.shape->relief(), coarseness, u + kStep, 0.3).slope_u -
+                relief_point(made.shape->relief(), coarseness, u - kStep, 0.3).slope_u;
             most = std::max(most, std::abs(bend) / (2.0 * kStep));
         }
         CAPTURE(part);

@@ -1,12 +1,10 @@
-#include "device/contact/shapes/relief_map.h"
+#include "device/contact/relief/relief_map.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
-
-#include "device/contact/shapes/shape_data.h"
 
 namespace spidar {
 
@@ -114,13 +112,13 @@ ReliefPoint point_of_level(const ReliefLevel &level, double u, double v) noexcep
 
 } // namespace
 
-std::vector<ReliefLevel> make_relief_levels(int columns, int rows, std::vector<float> heights) {
+ReliefLevels make_relief_levels(int columns, int rows, std::vector<float> heights) {
     ReliefLevel finest;
     finest.columns = columns;
     finest.rows = rows;
     finest.heights = std::move(heights);
     measure_curvature(finest);
-    std::vector<ReliefLevel> levels;
+    ReliefLevels levels;
     levels.push_back(std::move(finest));
     // Odd counts would move the heights of the coarser copy against the finer one's.
     while (levels.back().columns >= 2 * kFewest && levels.back().rows >= 2 * kFewest &&
@@ -130,8 +128,8 @@ std::vector<ReliefLevel> make_relief_levels(int columns, int rows, std::vector<f
     return levels;
 }
 
-ReliefPoint relief_point(const CookedShape &map, double coarseness, double u, double v) noexcept {
-    const std::vector<ReliefLevel> &levels = map.data().relief;
+ReliefPoint relief_point(const ReliefLevels &levels, double coarseness, double u,
+                         double v) noexcept {
     const double last = static_cast<double>(levels.size() - 1);
     const double level = std::clamp(coarseness, 0.0, last);
     const auto finer = static_cast<std::size_t>(level);
@@ -146,16 +144,7 @@ ReliefPoint relief_point(const CookedShape &map, double coarseness, double u, do
     return point;
 }
 
-const ReliefLevel &finest_level(const CookedShape &map) noexcept {
-    return map.data().relief.front();
-}
-
-const ReliefLevel &coarsest_level(const CookedShape &map) noexcept {
-    return map.data().relief.back();
-}
-
-double relief_coarseness(const CookedShape &map, double spacing, double curvature) noexcept {
-    const std::vector<ReliefLevel> &levels = map.data().relief;
+double relief_coarseness(const ReliefLevels &levels, double spacing, double curvature) noexcept {
     double coarseness = std::max(0.0, std::log2(std::max(spacing, 1e-9) * levels[0].columns));
     for (std::size_t k = 0; k < levels.size() && levels[k].most_curvature > curvature; ++k) {
         // Blended with the next level, the curvature is at most the blend of both.
