@@ -116,7 +116,7 @@ void BodyPushes::push(const TouchReport &report, const TouchedBodies &bodies, co
         const auto known = sums_.find(part.id);
         const Sum before = known != sums_.end() ? known->second : Sum();
         const TouchedBody *const body = bodies.find(part.id);
-        if (body == nullptr || !body->is_pushed || !(terms.time_scale > 0.0) ||
+        if (body == nullptr || !body->is_pushed || body->is_gone() || !(terms.time_scale > 0.0) ||
             server->body_get_mode(body->rid) < PhysicsServer3D::BODY_MODE_RIGID) {
             continue;
         }

@@ -122,3 +122,21 @@ func test_passing_an_edge_at_a_distance_touches_nothing() -> void:
 	print("INFO passing an edge at 18 mm: %d touches, %.3f N" % [touches, most])
 	check_equal(touches, 0, "nothing is touched")
 	check_near(most, 0.0, 1e-6, "no force is asked for")
+
+
+func test_a_body_that_is_freed_while_it_is_pressed_is_forgotten() -> void:
+	await set_up(Vector3.ZERO)
+	var body: RigidBody3D = add_free_box(Vector3(0.2, 0.03, 0.2), 0.5)
+	await physics_frames(10)
+	await move_to(Vector3(0.0, FLOOR_Y + 0.03 + PAD_RADIUS - 0.01, 0.0), 0.0, 60)
+	check((await mean_felt(5))[1] > 0.5, "pressed")
+	var catcher: RefCounted = null
+	if ClassDB.class_exists(&"Logger"):
+		catcher = load("res://message_catcher.gd").new()
+		OS.call(&"add_logger", catcher)
+	body.free()
+	await physics_frames(40)
+	check_near((await mean_felt(5))[1], 0.0, 0.3, "nothing is left of it")
+	if catcher != null:
+		OS.call(&"remove_logger", catcher)
+		check_equal(catcher.get("messages"), PackedStringArray(), "no error of the engine")

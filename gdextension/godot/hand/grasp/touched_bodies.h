@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/rid.hpp>
 
 #include "godot/hand/scene/surroundings.h"
@@ -19,6 +20,10 @@ struct TouchedBody {
     Placement at; // of the shape when last published; device frame
     std::int64_t tick = 0;
 
+    // Whether the node of the body was freed; the server does not know its RID then.
+    [[nodiscard]] bool is_gone() const {
+        return collider != 0 && godot::ObjectDB::get_instance(collider) == nullptr;
+    }
     [[nodiscard]] std::uint64_t key() const noexcept {
         return static_cast<std::uint64_t>(rid.get_id());
     }
