@@ -68,7 +68,8 @@ class Walker:
                     log.flush()
 
     def close(self):
-        """Ends the game; what it printed beside its states."""
+        """Ends the game; what it printed beside its states. Nothing stays pressed for the next one."""
+        self.xdotool("mouseup", LEFT, "mouseup", RIGHT, "keyup", "shift")
         self.game.terminate()
         self.game.wait(timeout=20)
         self.reader.join(5)
@@ -240,6 +241,7 @@ class Walker:
             self.click([0.5 * self.size[0], 10])  # beside every button
             if self.next_state(5)["inputs"] >= count + 3:
                 break
+        self.actions = {kind: 0 for kind in self.actions}
         self.next_state(5)
 
     def wait_for_game(self):
