@@ -17,7 +17,7 @@ struct CookedShape::Data {
     double skin_m = 0.0;
     TriangleTree tree;                     // mesh only
     std::vector<std::uint8_t> sharp_edges; // mesh only: NearTriangle::sharp_edges
-    ReliefLevels relief;       // relief only: finest first
+    ReliefLevels relief;                   // relief only: finest first
     // Mesh only: neighbor across each edge, or kNone.
     std::vector<std::array<std::uint32_t, 3>> neighbours;
 };

@@ -104,7 +104,8 @@ TEST_CASE("traits: what catches again creaks, as often as its way to the next sl
     constexpr double kSpeed_m_s = 0.05;
     const std::vector<Vec3> forces = rig.slide(Vec3(kSpeed_m_s, 0.0, 0.0), 2000);
     const double way_m = 0.6 * 2.0 / kStiffness_n_m;
-    const double period_s = way_m / kSpeed_m_s + 0.003 + 0.005; // the hold's end and the slip itself
+    const double period_s =
+        way_m / kSpeed_m_s + 0.003 + 0.005; // the hold's end and the slip itself
     CHECK(frequency_of(forces, 0) == doctest::Approx(1.0 / period_s).epsilon(0.08));
 }
 
