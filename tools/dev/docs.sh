@@ -48,6 +48,7 @@ stage_docs() {
     counted python3 tools/docs/check_pages.py
     counted python3 tools/docs/check_blocks.py "$GODOT"
     counted python3 tools/docs/check_help.py "$GODOT" --strict
+    counted python3 tools/docs/settings_page.py "$GODOT" --check
     counted python3 tests/docs/run_docs_tests.py "$GODOT"
 }
 

@@ -231,7 +231,9 @@ def main():
         return 0
     with open(PAGE, encoding="utf-8") as file:
         current = file.read() == text
-    print("1 passed, 0 failed" if current else "0 passed, 1 failed: run python3 tools/docs/settings_page.py GODOT")
+    if not current:
+            print("docs/reference/settings.md is stale: run python3 tools/docs/settings_page.py GODOT")
+        print("1 passed, 0 failed" if current else "0 passed, 1 failed")
     return 0 if current else 1
 
 
