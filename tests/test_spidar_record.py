@@ -62,7 +62,7 @@ def check_another_build(tool, whole, path):
     with open(path, "wb") as file:
         file.write(whole[:head] + chunk + zlib.crc32(chunk).to_bytes(4, "little") + whole[17 + size + 4:])
     done = run(tool, "info", path)
-    check(done.returncode == 0 and "plays as poses" in done.stdout, f"info of another build: {done.stdout[:300]}")
+    check(done.returncode == 0 and "replays the poses only" in done.stdout, f"info of another build: {done.stdout[:300]}")
     done = run(tool, "verify", path)
     check(done.returncode == 1 and "another build" in done.stderr, f"verify of another build: {done.stderr}")
     done = run(tool, "csv", path)
@@ -100,7 +100,7 @@ def main(folder):
             check(done.returncode == 1, f"{command} of a cut file ends with 1")
             check("is cut off at byte" in done.stderr, f"and says so: {done.stderr}")
         done = run(tool, "info", os.path.join(place, "absent.rec"))
-        check(done.returncode == 1 and "no such file" in done.stderr, f"no file: {done.stderr}")
+        check(done.returncode == 1 and "does not exist" in done.stderr, f"no file: {done.stderr}")
         for arguments in ([], ["info"], ["play", path]):
             check(run(tool, *arguments).returncode == 2, f"usage: {arguments}")
     print(f"{checks - len(failures)} passed, {len(failures)} failed")

@@ -65,7 +65,7 @@ def set_mask(editor, boards, pictures, check):
     if pictures:
         editor.whole_picture(pictures, "serial_parameters_question")
     editor.click("Write to flash/Write")
-    editor.wait("the answer", lambda report: "read back and equal" in message(report))
+    editor.wait("the answer", lambda report: "was read back and is equal" in message(report))
     now = boards.tell()
     check(now["flash_writes"] == 1 and now["masks"] == [255], f"written once: mask {now['masks']}")
     editor.click("ReadBoards")

@@ -86,7 +86,7 @@ TEST_CASE("board flash: what makes no sense, what is in use, and another board i
     FlashChange change{bus.link(), before[0], BoardParameter::quadrature_mask, 256};
     CHECK(validate(change, before).find("8 motors") != std::string::npos);
     change.value = 255;
-    CHECK(validate(change, before).find("holds that already") != std::string::npos);
+    CHECK(validate(change, before).find("already holds this value") != std::string::npos);
     change.parameter = BoardParameter::pwm_period;
     CHECK(validate(change, before).find("only the board's id") != std::string::npos);
     change = {bus.link(), before[0], BoardParameter::board_id, 8};

@@ -159,7 +159,7 @@ TEST_CASE("serial transport: what keeps a port from being opened is told with it
         BoardBus bus(bus_of({{0, kB3mInfo, 0}}), link_of_this_test());
         SerialTransport transport(settings_for(bus.link()));
         CHECK(transport.open() == Status::protocol_mismatch);
-        CHECK(transport.problem().find("String 4") != std::string::npos);
+        CHECK(transport.problem().find("String 5") != std::string::npos);
     }
     SUBCASE("a table that does not fit") {
         BoardBus bus(one_b5m(), link_of_this_test());
@@ -168,7 +168,7 @@ TEST_CASE("serial transport: what keeps a port from being opened is told with it
         settings.motors.fill({1, 0, 1, 1}); // all strings on one motor
         SerialTransport transport(settings);
         CHECK(transport.open() == Status::invalid_settings);
-        CHECK(transport.problem().find("pulls string 0 already") != std::string::npos);
+        CHECK(transport.problem().find("pulls string 1 already") != std::string::npos);
     }
 }
 

@@ -397,7 +397,7 @@ std::string play(const std::string &file, Totals &totals) {
     }
     ++totals.played;
     totals.cycles += source.report().cycles;
-    totals.unsound += source.damage().find("forged") != std::string::npos ? 1 : 0;
+    totals.unsound += source.damage().find("no servo step can have") != std::string::npos ? 1 : 0;
     return {};
 }
 

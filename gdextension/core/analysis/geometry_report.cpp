@@ -124,10 +124,11 @@ void complain_about_places(const FrameGeometry &frame, const GripGeometry &grip,
             const bool ties = glm::distance(attachment_lever(grip, rest, i),
                                             attachment_lever(grip, rest, j)) < kSamePlace_m;
             if (motors) {
-                complaints.push_back("Motors " + number(i) + " and " + number(j) +
-                                     (ties ? " and their joints are in one place: one string "
-                                             "twice; move one of them."
-                                           : " are in one place; move one of them."));
+                complaints.push_back(
+                    "Motors " + number(i) + " and " + number(j) +
+                    (ties ? " and their joints are in one place, so the two strings pull "
+                            "alike; move one of them."
+                          : " are in one place; move one of them."));
             }
         }
     }
@@ -147,7 +148,8 @@ void complain_about_exchange(const FrameGeometry &frame, const GripGeometry &gri
             if (statics.closed && statics.margin > best) {
                 best = statics.margin;
                 remedy = "With motors " + number(i) + " and " + number(j) +
-                         " exchanged the strings would hold the grip: they may be mirrored.";
+                         " exchanged, the strings would hold the grip; check whether the two are "
+                         "exchanged.";
             }
         }
     }
@@ -161,9 +163,9 @@ std::string unopposed_sentence(const PaperWrench &unopposed) {
     for (std::size_t k = 1; k < unopposed.size(); ++k) {
         most = std::fabs(unopposed[k]) > std::fabs(unopposed[most]) ? k : most;
     }
-    return "At rest the strings cannot hold the grip: all pull one way in or do nothing about " +
+    return "At rest the strings cannot hold the grip: no string opposes " +
            std::string(kMotions[most]) + " (sign " + (unopposed[most] > 0.0 ? "+" : "-") +
-           "); move motors or joints so that some pull against it.";
+           "); move motors or joints so that some string does.";
 }
 
 } // namespace
@@ -202,9 +204,9 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
     complain_about_places(frame, grip, report.complaints);
     if (report.at_rest.rank < report.degrees_of_freedom) {
         report.complaints.push_back(
-            "At rest the strings reach only " + std::to_string(report.at_rest.rank) + " of the " +
+            "At rest the strings control only " + std::to_string(report.at_rest.rank) + " of the " +
             std::to_string(report.degrees_of_freedom) +
-            " degrees of freedom; tie them to points, or lead them from motors, that differ more.");
+            " degrees of freedom; move the motors or the joints farther apart.");
     } else if (!report.at_rest.closed) {
         report.complaints.push_back(unopposed_sentence(report.at_rest.unopposed));
         complain_about_exchange(frame, grip, report.complaints);
@@ -234,7 +236,7 @@ GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &g
         report.complaints.push_back(
             "The strings hold the grip in only " +
             std::to_string(std::lround(100.0 * report.closure_share)) +
-            " % of the poses around the centre; check the positions of motors and joints.");
+            " % of the poses around the center; check the positions of motors and joints.");
     }
 
     TensionSettings settings;

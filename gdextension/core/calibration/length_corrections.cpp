@@ -57,7 +57,7 @@ std::string validate(const LengthCorrections &corrections) {
     if (!within(corrections.pulley_radius_m, 0.0, kMaxPulley_m)) {
         return range_sentence(
             "pulley_radius_m", corrections.pulley_radius_m, "m",
-            "give the radius of the exit pulleys in metres, up to 0.05, or 0 for eyelets.");
+            "give the radius of the exit pulleys in meters, up to 0.05, or 0 for eyelets.");
     }
     const double axis = glm::length(corrections.swivel_axis);
     if (!within(axis, 1.0 - kUnitTolerance, 1.0 + kUnitTolerance)) {
@@ -68,24 +68,26 @@ std::string validate(const LengthCorrections &corrections) {
         const double curvature = corrections.winding_curvature_1_m[i];
         if (!within(curvature, -kMaxCurvature_1_m, kMaxCurvature_1_m)) {
             return range_sentence(element_name("winding_curvature_1_m", i), curvature, "1/m",
-                                  "give a value within 0.7 1/m, 0 when it is not known.");
+                                  "give -0.7 to 0.7 1/m, or 0 if it is not known.");
         }
         const double stiffness = corrections.axial_stiffness_n[i];
         if (!within(stiffness, 0.0, kMaxStiffness_n)) {
             return range_sentence(
                 element_name("axial_stiffness_n", i), stiffness, "N",
-                "give the string's EA in newtons (a 0.3 mm braid: about 3000 N), 0 "
-                "when it is not known.");
+                "give the string's EA in newtons (a 0.3 mm braid: about 3000 N), or 0 "
+                "if it is not known.");
         }
         const double hidden = corrections.hidden_length_m[i];
         if (!within(hidden, 0.0, kMaxFrameExtent_m)) {
-            return range_sentence(element_name("hidden_length_m", i), hidden, "m",
-                                  "give the string between drum and exit in metres, 0 for none.");
+            return range_sentence(
+                element_name("hidden_length_m", i), hidden, "m",
+                "give the length of the string between drum and exit in meters, or 0.");
         }
         const double tension = corrections.calibration_tension_n[i];
         if (!within(tension, 0.0, kMaxTension_n)) {
-            return range_sentence(element_name("calibration_tension_n", i), tension, "N",
-                                  "give the tension held while the lengths were calibrated.");
+            return range_sentence(
+                element_name("calibration_tension_n", i), tension, "N",
+                "give the tension in newtons at which the lengths were calibrated.");
         }
     }
     return {};

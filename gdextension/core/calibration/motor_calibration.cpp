@@ -86,7 +86,7 @@ std::string validate(const MotorCalibration &calibration) {
     for (std::size_t i = 0; i < kStringCount; ++i) {
         if (!in_range(calibration.effective_radius_m[i], kMaxRadius_m)) {
             return range_message("effective_radius_m", i, calibration.effective_radius_m[i], "m",
-                                 kMaxRadius_m, "the winding radius in metres,");
+                                 kMaxRadius_m, "the winding radius in meters,");
         }
         if (!in_range(calibration.torque_constant_nm_a[i], kMaxTorqueConstant_nm_a)) {
             return range_message("torque_constant_nm_a", i, calibration.torque_constant_nm_a[i],

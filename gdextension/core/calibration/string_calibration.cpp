@@ -57,13 +57,14 @@ std::string validate(const StringCalibration &calibration) {
         if (!(std::fabs(offset) <= kMaxOffset_m)) {
             return range_sentence(
                 element_name("offset_m", i), offset, "m",
-                "give the finite string length at the zero count, or calibrate at home again.");
+                "give the string length at the zero count, a finite number, or calibrate at home "
+                "again.");
         }
         const double scale = calibration.scale_m_per_count[i];
         const double size = std::fabs(scale);
         if (!(size >= kMinScale_m) || !(size <= kMaxScale_m)) {
             return range_sentence(element_name("scale_m_per_count", i), scale, "m/count",
-                                  "give the string length a count, " +
+                                  "give the string length per count, " +
                                       with_unit(kMinScale_m, "m/count") + " to " +
                                       with_unit(kMaxScale_m, "m/count") +
                                       " (paper: " + with_unit(kPaperMetresPerCount, "m/count") +

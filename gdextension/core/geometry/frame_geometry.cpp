@@ -127,7 +127,7 @@ std::string validate(const FrameGeometry &frame) {
                     element_name("motors_m", i) + "." + kAxes[static_cast<std::size_t>(axis)],
                     value, "m",
                     "give a finite position within " + with_unit(kMaxFrameExtent_m, "m") +
-                        " of the frame's centre (metres, not millimetres).");
+                        " of the frame's center (meters, not millimeters).");
             }
         }
     }
@@ -138,13 +138,13 @@ std::string validate(const FrameGeometry &frame) {
     }
     const double thin = thickness(frame);
     if (!(thin >= kMinRelativeThickness * extent)) {
-        return "motors_m lies in a slab " + with_unit(thin, "m") +
+        return "motors_m lie in a slab " + with_unit(thin, "m") +
                " thick; spread the motors over three dimensions, at least " +
                with_unit(kMinRelativeThickness * extent, "m") + " in each.";
     }
     if (!(frame.pulley_radius_m >= 0.0 && frame.pulley_radius_m <= kMaxPulleyRadius_m)) {
         return range_sentence("pulley_radius_m", frame.pulley_radius_m, "m",
-                              "give the radius of the exit pulleys in metres, up to " +
+                              "give the radius of the exit pulleys in meters, up to " +
                                   with_unit(kMaxPulleyRadius_m, "m") + ", or 0 for eyelets.");
     }
     if (!is_unit(frame.pulley_axis)) {

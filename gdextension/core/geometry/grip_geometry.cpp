@@ -159,7 +159,7 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
             if (!joint_fits(grip, frame, i)) {
                 return element_name("joints_m", i) + " lies " +
                        with_unit(glm::length(grip.joints_m[i]), "m") +
-                       " from the grip's centre; give a point of the grip in metres, nearer than "
+                       " from the grip's center; give a point of the grip in meters, nearer than "
                        "half the frame.";
             }
             continue;
@@ -174,12 +174,12 @@ std::string validate(const GripGeometry &grip, const FrameGeometry &frame) {
         }
     }
     if (grip.kind == GripKind::rigid && !joints_span(grip.joints_m)) {
-        return "joints_m lie on one line; tie the strings to at least three points that are not in "
-               "line, or the turn about that line stays open.";
+        return "joints_m lie on one line; tie the strings to at least three points that are not on "
+               "one line, or no string holds the rotation about that line.";
     }
     if (!is_usable(grip, frame)) {
         return "pole_half_length_m is " + with_unit(d, "m") +
-               ", longer than the frame has room for; give the half length in metres, smaller than "
+               ", longer than the frame has room for; give the half length in meters, smaller than "
                "half the frame.";
     }
     return {};

@@ -69,15 +69,15 @@ std::string validate(const GraspSettings &settings) {
     if (!(settings.leave_rad <= settings.enter_rad)) {
         return angle_message(
             "leave_rad", settings.leave_rad,
-            "it must not exceed enter_rad: a grasp is left below where it begins.");
+            "set it to enter_rad or less: a grasp ends at a smaller angle than it begins.");
     }
     if (!(settings.over_closed_leave_rad <= settings.over_closed_rad)) {
         return angle_message("over_closed_leave_rad", settings.over_closed_leave_rad,
-                             "it must not exceed over_closed_rad.");
+                             "set it to over_closed_rad or less.");
     }
     if (!(settings.enter_rad < settings.over_closed_leave_rad)) {
         return angle_message("enter_rad", settings.enter_rad,
-                             "it must be below over_closed_leave_rad, or nothing is ever grasped.");
+                             "set it below over_closed_leave_rad, or nothing is ever grasped.");
     }
     if (!(settings.dwell_s >= 0.0) || !(settings.dwell_s <= kMaxDwell_s)) {
         return range_sentence("dwell_s", settings.dwell_s, "s",

@@ -83,7 +83,7 @@ Fault find_fault(const TensionSettings &s) noexcept {
     }
     if (!(s.reference_tension_n >= s.min_tension_n && s.reference_tension_n <= s.max_tension_n)) {
         return {"reference_tension_n", s.reference_tension_n, "N",
-                "put it between min_tension_n and max_tension_n."};
+                "set it between min_tension_n and max_tension_n."};
     }
     if ((s.dof_mask & kAllDofs) == 0 || s.dof_mask > kAllDofs) {
         return {"dof_mask", static_cast<double>(s.dof_mask), "",

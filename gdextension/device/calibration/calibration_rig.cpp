@@ -276,7 +276,7 @@ bool CalibrationRig::Impl::start_writer() noexcept {
         return true;
     }
     writer.reset();
-    problem = "The system has no thread left.";
+    problem = "The system cannot start another thread; close other programs.";
     state.store(RigState::failed, std::memory_order_release);
     return false;
 }

@@ -27,18 +27,18 @@ StringArray all_at(double tension_n) noexcept {
 const char *describe(TaskVerdict verdict) noexcept {
     switch (verdict) {
     case TaskVerdict::running:
-        return "Under way.";
+        return "The task is running.";
     case TaskVerdict::done:
-        return "Done.";
+        return "The task is done.";
     case TaskVerdict::no_movement:
-        return "No string moved: is the motor's supply on, its string on the drum, and the grip "
-               "held loosely?";
+        return "No string moved: check that the motor's supply is on, that its string is on the "
+               "drum, and that the grip is held loosely.";
     case TaskVerdict::wrong_string:
-        return "Another string's encoder moved most: motor and encoder cables are exchanged, or "
-               "the strings are.";
+        return "The encoder of another string moved most, so two motor cables, two encoder cables "
+               "or two strings are exchanged. Correct them and start the task again.";
     case TaskVerdict::wrong_sign:
-        return "The encoder counts the wrong way: the string winds the other way round. Its scale "
-               "becomes negative.";
+        return "The encoder counts in the other direction, because the string is wound the other "
+               "way. Its scale becomes negative.";
     case TaskVerdict::not_lifted:
         return "The weight did not move: check its value, that it hangs freely on this string, and "
                "the motor's supply.";
@@ -46,14 +46,14 @@ const char *describe(TaskVerdict verdict) noexcept {
         return "A string moved faster than 2 m/s, so the motors were switched off. Hold the grip "
                "and try again.";
     case TaskVerdict::stopped:
-        return "Stopped; the motors are off.";
+        return "The task was stopped; the motors are off.";
     case TaskVerdict::not_ready:
-        return "The device cannot pull now.";
+        return "The device cannot pull now; check its state, then start the task again.";
     case TaskVerdict::too_warm:
         return "A motor is too warm, so the motors were switched off. Let it cool for half a "
                "minute and try again.";
     }
-    return "Unknown verdict.";
+    return "The verdict is unknown.";
 }
 
 StringArray CalibrationTasks::step(const TaskOrder &order, const TaskInput &input) noexcept {

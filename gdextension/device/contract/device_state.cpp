@@ -17,7 +17,7 @@ const char *describe(DeviceState state) noexcept {
     case DeviceState::fault:
         return "Fault: the motors are off until clear_fault() and arm().";
     case DeviceState::taut:
-        return "Taut: the zero is being taken; move the grip to check it.";
+        return "Taut: the zero is being set; move the grip to check it.";
     case DeviceState::calibrated:
         return "Calibrated: the zero is known, the strings are held taut.";
     }

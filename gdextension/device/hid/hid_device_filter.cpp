@@ -57,8 +57,8 @@ Status find_devices(HidBus &bus, const HidDeviceFilter &filter, std::vector<HidD
 
 std::string validate(const HidDeviceFilter &filter) {
     if (filter.product.empty() && filter.serial.empty()) {
-        return "device_product = \"\": give the beginning of the device's product string, or its "
-               "serial number; vendor and product numbers alone are shared by many boards.";
+        return "device_product = \"\": give the beginning of the device's product string, or set "
+               "device_serial; many boards share one vendor and product number.";
     }
     return {};
 }

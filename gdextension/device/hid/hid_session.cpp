@@ -46,9 +46,10 @@ Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &l
         return Status::protocol_mismatch;
     }
     if (opened.capabilities.protocol_version != kHidProtocolVersion) {
-        problem = name_of(device) + " speaks protocol version " +
-                  std::to_string(opened.capabilities.protocol_version) + ", this add-on version " +
-                  std::to_string(kHidProtocolVersion) + "; update the older one.";
+        problem = name_of(device) + " uses protocol version " +
+                  std::to_string(opened.capabilities.protocol_version) +
+                  ", and this add-on uses version " + std::to_string(kHidProtocolVersion) +
+                  "; update the older one.";
         return Status::protocol_mismatch;
     }
     if (opened.capabilities.motor_count != kStringCount) {
@@ -60,7 +61,10 @@ Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &l
     if (opened.control->send_feature(wanted) < 0 ||
         !read_feature(*opened.control, HidReportId::limits, kLimitsSize, opened.limits) ||
         opened.limits.max_tension_mn > limits.max_tension_mn) {
-        problem = name_of(device) + " did not take the tension limits; it stays closed.";
+        problem =
+            name_of(device) +
+            " did not accept the tension limits, so it stays closed; check its firmware against "
+            "docs/reference/hid_protocol.md.";
         return Status::protocol_mismatch;
     }
     session = std::move(opened);

@@ -127,8 +127,8 @@ Status HidTransport::Impl::connect(const HidDeviceFilter &filter, std::string &w
     std::vector<HidDeviceInfo> found;
     Status status = find_devices(*bus, filter, found);
     if (!usable(status)) {
-        why = std::string(describe(status)) + " Looked for product \"" + filter.product + "\"" +
-              (filter.serial.empty() ? "" : ", serial \"" + filter.serial + "\"") + ".";
+        why = std::string(describe(status)) + " The settings name product \"" + filter.product +
+              (filter.serial.empty() ? "\"." : "\", serial \"" + filter.serial + "\".");
         return status;
     }
     HidSession fresh;

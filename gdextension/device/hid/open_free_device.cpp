@@ -22,7 +22,8 @@ std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bu
             status = Status::device_in_use;
             problem = "Device \"" + device.product + "\" (serial \"" + device.serial +
                       "\") belongs to \"" + DeviceClaim::owner_of(name) +
-                      "\": free it there, or set device_serial to another device's.";
+                      "\": free it there, or set device_serial to the serial number "
+                      "of another device.";
             continue;
         }
         settings.filter.serial = device.serial;

@@ -20,7 +20,7 @@ public:
     [[nodiscard]] std::string start(const std::string &path, const ServoSettings &settings,
                                     bool in_time, const std::deque<NumberedTouch> &touches) {
         if (recording()) {
-            return "A recording runs already. Stop it before the next one starts.";
+            return "A recording is already running. Stop it before the next one starts.";
         }
         const std::uint64_t done = cycles_.load(std::memory_order_acquire);
         std::erase_if(owned_, [done, in_time](const Owned &owned) {

@@ -70,7 +70,7 @@ std::string Recorder::open(const std::string &path) {
             thread_ = std::thread([this] { write_in_time(); });
         } catch (const std::system_error &) {
             close();
-            return "No recording: the system has no thread left for it.";
+            return "The recording did not start, because the system cannot start another thread.";
         }
     }
     return problem;

@@ -154,7 +154,7 @@ std::string to_text(const RecordingInfo &info) {
 
 std::string read_text(std::string_view text, RecordingInfo &info) {
     if (text.substr(0, kTitle.size()) != kTitle) {
-        return "This is no recording of spidar_g.";
+        return "This is not a recording of spidar_g; choose another file.";
     }
     bool known_format = false;
     while (!text.empty()) {
@@ -177,7 +177,7 @@ std::string read_text(std::string_view text, RecordingInfo &info) {
             known_format = true;
         } else if (!read_field(name, value, info)) {
             return "The head of the recording holds \"" + std::string(entry) +
-                   "\", which cannot be. The file is damaged.";
+                   "\", which is not valid. The file is damaged.";
         }
     }
     return known_format ? std::string()
@@ -190,20 +190,23 @@ std::string why_no_replay(const RecordingInfo &info) {
         return "The recording was made by another build of spidar_g (version " + info.version +
                ", build " + hex(info.build) + "; this is " + build_version() + ", build " +
                hex(build_identity()) +
-               "): it plays as poses, not to the bit. Replay it with the build that made it.";
+               "), so it replays the poses only and does not repeat the results bit by bit. Replay "
+               "it with the build that made it.";
     }
     if (info.command_schema != schema_of(HapticCommand{}) ||
         info.command_words != count_fields(HapticCommand{}) ||
         info.touch_words != count_touch_words() || info.state_bytes != sizeof(ServoStep)) {
-        return "The recording holds another form of commands or memory than this build has: it "
-               "plays as poses, not to the bit. Replay it with the build that made it.";
+        return "The recording holds commands or memory in another form than this build, so it "
+               "replays the poses only and does not repeat the results bit by bit. Replay it with "
+               "the build that made it.";
     }
     const SimdLevel level = info.settings.tension.simd;
     if (!supports(level)) {
         return "The recording was made at vector level " + std::to_string(static_cast<int>(level)) +
                " (" + describe(level) +
-               "), which this processor or this version of spidar_g lacks: it plays as poses, not "
-               "to the bit. Replay it where that level is supported.";
+               "), which this processor or this version of spidar_g does not support, so it "
+               "replays the poses only and does not repeat the results bit by bit. Replay it where "
+               "that level is supported.";
     }
     return {};
 }

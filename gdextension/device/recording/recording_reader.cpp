@@ -18,7 +18,7 @@ std::string RecordingReader::open(const std::string &path) {
         std::error_code problem;
         const bool exists = std::filesystem::exists(place, problem);
         return "The recording \"" + path + "\" cannot be opened: " +
-               (exists ? "no permission to read it." : "there is no such file.");
+               (exists ? "there is no permission to read it." : "the file does not exist.");
     }
     return open(std::move(file), path);
 }
@@ -32,12 +32,14 @@ std::string RecordingReader::open(std::unique_ptr<std::istream> stream, const st
     std::array<std::uint8_t, kRecordingMagic.size()> magic{};
     file_->read(reinterpret_cast<char *>(magic.data()), magic.size());
     if (!*file_ || magic != kRecordingMagic) {
-        return "\"" + name + "\" is no recording of spidar_g: its first bytes are others.";
+        return "\"" + name +
+               "\" is not a recording of spidar_g: its first bytes differ. Choose another file.";
     }
     place_ = magic.size();
     ChunkKind kind{};
     if (!read_chunk(kind) || kind != ChunkKind::info) {
-        return "The recording \"" + name + "\" is damaged in its head: nothing of it can be read.";
+        return "The recording \"" + name +
+               "\" is damaged in its head, so nothing of it can be read.";
     }
     const std::string text(chunk_.begin(), chunk_.end());
     std::string problem = read_text(text, info_);
@@ -52,7 +54,7 @@ std::string RecordingReader::open(std::unique_ptr<std::istream> stream, const st
 void RecordingReader::give_up(const std::string &what) {
     damage_ = "The recording " + what + " at byte " + std::to_string(place_) + " of " +
               std::to_string(file_bytes_) + "; the " + std::to_string(cycles_) +
-              " cycles before it are whole.";
+              " cycles before it are intact.";
     cycles_left_ = ByteReader();
     reads_left_ = ByteReader();
 }
@@ -174,7 +176,7 @@ bool RecordingReader::next(GameRead &read) {
     const std::uint64_t word = reads_left_.varint();
     const std::uint64_t sets = reads_left_.varint();
     if (!reads_left_.good()) {
-        give_up("holds a read of the game that is none");
+        give_up("holds a read of the game that is not valid");
         return false;
     }
     last_read_.tick += word >> 1U;

@@ -22,7 +22,7 @@ std::string RecordingWriter::open(const std::string &path, const RecordingInfo &
     file_ = std::ofstream(place, std::ios::binary | std::ios::trunc);
     if (!file_) {
         return "The recording \"" + path +
-               "\" cannot be made: " + std::generic_category().message(errno) +
+               "\" cannot be created: " + std::generic_category().message(errno) +
                ". Choose a file in a folder that exists and that you may write to.";
     }
     encoder_ = CycleEncoder();
@@ -40,7 +40,8 @@ std::string RecordingWriter::open(const std::string &path, const RecordingInfo &
     chunk(ChunkKind::info, {reinterpret_cast<const std::uint8_t *>(text.data()), text.size()});
     flush();
     return good_ ? std::string()
-                 : "The recording \"" + path + "\" cannot be written: is the disk full?";
+                 : "The recording \"" + path +
+                       "\" cannot be written; check whether the disk is full.";
 }
 
 void RecordingWriter::chunk(ChunkKind kind, std::span<const std::uint8_t> contents) {

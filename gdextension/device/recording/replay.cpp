@@ -172,8 +172,8 @@ std::string Replay::damage() const {
         return {};
     }
     return unsound_.load(std::memory_order_relaxed)
-               ? "The recording holds a memory that no servo step can have had: it was damaged or "
-                 "forged, and is not replayed from there on."
+               ? "The recording holds a memory state that no servo step can have. It is damaged or "
+                 "was changed, so it is not replayed beyond this place."
                : reader_.damage();
 }
 

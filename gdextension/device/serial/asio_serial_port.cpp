@@ -200,14 +200,16 @@ Status status_of(const asio::error_code &error) {
 std::string remedy(Status status) {
     switch (status) {
     case Status::no_device:
-        return "There is no such port; plug the device in, or choose one that is listed.";
+        return "This port does not exist; plug the device in, or choose a port that is listed.";
     case Status::no_permission:
-        return "This user may not open it; install addons/spidar_g/udev/70-spidar-g.rules and plug "
-               "the device in again, or add the user to the group that owns the port (dialout).";
+        return "This user has no permission to open the port; install "
+               "addons/spidar_g/udev/70-spidar-g.rules and plug the device in again, or add the "
+               "user to the group that owns the port (dialout).";
     case Status::device_in_use:
-        return "Another program has it open; close that (a terminal, ModemManager, another game).";
+        return "Another program has the port open; close that program (a terminal, ModemManager, "
+               "another game).";
     default:
-        return "It does not open as a serial port of this speed.";
+        return "The port does not open as a serial port of this speed; choose another port.";
     }
 }
 

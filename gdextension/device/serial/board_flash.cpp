@@ -59,7 +59,7 @@ Status read_all(const std::string &port, std::uint32_t baud, const std::atomic<b
         BoardFlash flash;
         if (!read_flash_of(*session.reader, board, flash)) {
             problem = name_of(board) + " at " + port +
-                      " does not tell its parameters; check the cable and read again.";
+                      " does not report its parameters; check the cable and read again.";
             return Status::protocol_mismatch;
         }
         boards.push_back(flash);
@@ -74,7 +74,7 @@ bool claim_port(const std::string &port, DeviceClaim &claim, std::string &proble
         return true;
     }
     problem = "Port " + port + " belongs to \"" + DeviceClaim::owner_of(name) +
-              "\", whose motors may be armed: close the device there first.";
+              "\", which may have armed its motors: close the device there first.";
     return false;
 }
 
@@ -122,24 +122,25 @@ std::string validate(const FlashChange &change, const std::vector<BoardFlash> &a
     const std::size_t motors = change.board.board.motors();
     if (!is_id(change) && change.parameter != BoardParameter::quadrature_mask) {
         return "parameter = " + std::to_string(static_cast<int>(change.parameter)) +
-               ": only the board's id (3) and the quadrature mask (7) are written.";
+               ": only the board's id (3) and the quadrature mask (7) can be written.";
     }
     if (!is_id(change) && change.value >= 1U << motors) {
         return value + "a quadrature mask has one bit for each of the board's " +
-               std::to_string(motors) + " motors; " + std::to_string((1U << motors) - 1U) +
-               " is all of them.";
+               std::to_string(motors) + " motors; give at most " +
+               std::to_string((1U << motors) - 1U) + ", which is all of them.";
     }
     if (is_id(change) && change.value >= kMostBoards) {
         return value + "give an id from 0 to 7.";
     }
     if (change.value == value_before(change)) {
-        return value + name_of(change.board.board) + " holds that already.";
+        return value + name_of(change.board.board) + " already holds this value.";
     }
     for (const BoardFlash &other : all) {
         const bool itself = other.board.id == change.board.board.id;
         if (is_id(change) && !itself &&
             (other.board.id == change.value || other.stored_id == change.value)) {
-            return value + "another board of this bus has that id; two of one id answer at once.";
+            return value + "another board of this bus has this id, and boards with equal ids "
+                           "answer at the same time; give an id that is free.";
         }
     }
     return {};
@@ -173,29 +174,31 @@ Status write_board_flash(const FlashChange &change, std::uint32_t baud,
     }
     const bool as_read = std::any_of(
         now.begin(), now.end(), [&](const BoardFlash &one) { return same(one, change.board); });
-    problem = as_read ? validate(change, now)
-                      : exact_name(change) +
-                            " is not as it was read, or another board: read the boards again.";
+    problem =
+        as_read ? validate(change, now)
+                : exact_name(change) +
+                      " has changed since it was read, or is another board: read the boards again.";
     if (!problem.empty()) {
         problem += " Nothing was written.";
         return Status::invalid_settings;
     }
     if (!send_change(*session.reader, change)) {
-        problem = exact_name(change) + ": the port did not take the command; read the boards "
-                                       "again to see what they hold.";
+        problem = exact_name(change) + ": the port did not accept the command; read the "
+                                       "boards again to see what they hold.";
         return Status::protocol_mismatch;
     }
     std::this_thread::sleep_for(kFlashTime);
     if (!read_back(*session.reader, change, after)) {
-        problem = exact_name(change) + " does not tell what it holds now; switch it off and on, "
-                                       "and read the boards again.";
+        problem = exact_name(change) + " does not report what it holds now; switch it off "
+                                       "and on, and read the boards again.";
         return Status::protocol_mismatch;
     }
     FlashChange read = change;
     read.board = after;
     if (value_before(read) != change.value) {
         problem = exact_name(change) + " holds " + value_text(change, value_before(read)) +
-                  " and not the " + value_text(change, change.value) + " that was written.";
+                  " and not the " + value_text(change, change.value) +
+                  " that was written; read the boards again and repeat the write.";
         return Status::protocol_mismatch;
     }
     return Status::ok;

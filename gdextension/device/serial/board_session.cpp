@@ -99,16 +99,19 @@ bool question(SerialPort &port, BoardSession &session, std::string &problem) {
     for (BoardLayout &board : session.boards) {
         std::uint32_t mask = 0;
         if (!measure_reply(port, board)) {
-            problem = name_of(board) + " does not answer to CURRENT; check the wiring of the bus.";
+            problem = name_of(board) +
+                      " does not answer the command CURRENT; check the wiring of the bus.";
             return false;
         }
         if (!read_parameter(port, board, BoardParameter::quadrature_mask, mask)) {
-            session.remarks += name_of(board) + " does not tell how its encoders are read. ";
+            session.remarks += name_of(board) + " does not report how its encoders are read. ";
         }
         const std::uint32_t all = (1U << board.info.motors) - 1U;
         if ((mask & all) != all) {
-            session.remarks += name_of(board) + " reads not all of its motors by their quadrature "
-                                                "encoders, which a SPIDAR needs. ";
+            session.remarks += name_of(board) +
+                               " does not read the quadrature encoders of all of its "
+                               "motors, which a SPIDAR needs; set its quadrature "
+                               "mask. ";
         }
         session.quadrature_masks.push_back(mask);
     }
@@ -173,7 +176,8 @@ Status open_session(const std::string &path, std::uint32_t baud, const std::atom
     opened.writer = port->another();
     opened.reader = std::move(port);
     if (!opened.writer) {
-        problem = "Port " + path + ": the system gives no second handle on it.";
+        problem = "Port " + path +
+                  ": the system does not open the port a second time; open the device again.";
         return Status::open_failed;
     }
     session = std::move(opened);

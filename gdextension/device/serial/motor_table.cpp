@@ -21,7 +21,7 @@ SerialMotorTable motors_in_order(std::span<const BoardLayout> boards,
 std::string validate(const SerialMotorTable &motors, std::span<const BoardLayout> boards) {
     for (std::size_t i = 0; i < motors.size(); ++i) {
         const SerialMotor &one = motors[i];
-        const std::string name = "String " + std::to_string(i) + ": board " +
+        const std::string name = "String " + std::to_string(i + 1) + ": board " +
                                  std::to_string(one.board_id) + ", motor " +
                                  std::to_string(one.motor);
         const bool exists =
@@ -30,16 +30,17 @@ std::string validate(const SerialMotorTable &motors, std::span<const BoardLayout
                        static_cast<std::size_t>(one.motor) < board.motors();
             });
         if (!exists) {
-            return name + " is not on the bus; correct the table of motors, or the boards' ids.";
+            return name +
+                   " is not on the bus; correct the table of motors or the ids of the boards.";
         }
         for (std::size_t other = 0; other < i; ++other) {
             if (motors[other].board_id == one.board_id && motors[other].motor == one.motor) {
-                return name + " pulls string " + std::to_string(other) +
-                       " already; give each string a motor of its own.";
+                return name + " pulls string " + std::to_string(other + 1) +
+                       " already; give each string its own motor.";
             }
         }
         if (std::abs(one.count_sign) != 1 || std::abs(one.current_sign) != 1) {
-            return name + ": its signs must be 1 or -1.";
+            return name + " has a sign that is not 1 or -1; set both signs to 1 or -1.";
         }
     }
     return {};

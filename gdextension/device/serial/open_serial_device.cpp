@@ -26,7 +26,7 @@ std::unique_ptr<SerialTransport> open_unless(const std::atomic<bool> &give_up,
     if (!claim.take(name, owner)) {
         status = Status::device_in_use;
         problem = "Port " + settings.port + " belongs to \"" + DeviceClaim::owner_of(name) +
-                  "\": free it there, or set serial_port to another one.";
+                  "\": free it there, or set serial_port to another port.";
         return nullptr;
     }
     auto transport = std::make_unique<SerialTransport>(settings);

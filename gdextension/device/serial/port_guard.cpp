@@ -118,12 +118,11 @@ std::string PortGuard::start(const std::string &program, int port, BoardBytes of
     const std::string start_from = startable(program, copy);
     if (start_from.empty()) {
         return "The guard " + program +
-               " is missing: without it nothing switches the motors off "
-               "when the game dies, so they stay off. It belongs beside "
-               "the add-on's library.";
+               " is missing. Without it nothing switches the motors off if the game crashes, so "
+               "they stay off. Put the file beside the add-on's library.";
     }
     if (port < 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        return "The guard cannot be given the port on this system: the motors stay off.";
+        return "The guard cannot be given the port on this system, so the motors stay off.";
     }
     process_ = spawn(start_from, hexadecimal(off), port, ends[1]);
     close(ends[1]);
@@ -133,7 +132,7 @@ std::string PortGuard::start(const std::string &program, int port, BoardBytes of
     if (process_ < 0 || poll(&answer, 1, kStart_ms) != 1 ||
         recv(socket_, &byte, 1, MSG_DONTWAIT) != 1) {
         end();
-        return "The guard " + program + " does not start: the motors stay off.";
+        return "The guard " + program + " does not start, so the motors stay off.";
     }
     answered_ns_ = monotonic_ns();
     tripped_ = false;
@@ -194,8 +193,8 @@ std::string guard_beside_library() {
 #else
 
 std::string PortGuard::start(const std::string & /*program*/, int /*port*/, BoardBytes /*off*/) {
-    return "There is no guard for this system yet, and without one nothing switches the motors off "
-           "when the game dies: they stay off.";
+    return "There is no guard for this system yet. Without a guard nothing switches the motors off "
+           "if the game crashes, so they stay off.";
 }
 void PortGuard::end() noexcept {}
 void PortGuard::beat(std::int64_t /*now_ns*/) noexcept {}

@@ -104,8 +104,9 @@ Status choose_serial_port(const std::string &wanted, std::string &path, std::str
     if (found == 1) {
         return Status::ok;
     }
-    problem = found == 0 ? "No serial port of a USB bridge is plugged in."
-                         : "Several serial ports are plugged in (" + names + "): choose one.";
+    problem = found == 0
+                  ? "No USB serial port is plugged in; plug in the motor boards or name the port."
+                  : "Several serial ports are plugged in (" + names + "); choose one.";
     return found == 0 ? Status::no_device : Status::invalid_settings;
 }
 
@@ -128,11 +129,11 @@ BridgeLatency shorten_latency(const std::string &path, int descriptor, std::stri
     if (now_ms <= kShort_ms) {
         return BridgeLatency::short_one;
     }
-    problem = "The USB bridge at " + path + " keeps what it received for " +
-              std::to_string(now_ms) +
-              " ms, which is too long for forces, and this user may not change it. Install "
-              "addons/spidar_g/udev/70-spidar-g.rules and plug it in again, or write 1 to " +
-              file + " as root.";
+    problem =
+        "The USB bridge at " + path + " holds received data back for " + std::to_string(now_ms) +
+        " ms, which is too long for forces, and this user has no permission to change it. Install "
+        "addons/spidar_g/udev/70-spidar-g.rules and plug it in again, or write 1 to " +
+        file + " as root.";
     return BridgeLatency::long_one;
 }
 

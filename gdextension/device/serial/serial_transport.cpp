@@ -172,7 +172,9 @@ Status SerialTransport::open_unless(const std::atomic<bool> &give_up) noexcept {
         if (m.first_waits) {
             return status;
         }
-        m.problem = "Port " + path + ": the boards answer, but not with counts that agree.";
+        m.problem = "Port " + path +
+                    ": the boards answer, but their counts do not agree; check the cable and open "
+                    "the device again.";
         close();
         return Status::protocol_mismatch;
     } catch (const std::exception &) { // no memory, no thread

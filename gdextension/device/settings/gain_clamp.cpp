@@ -25,7 +25,7 @@ constexpr GainName kGains[] = {
     {"friction", "", ""},
     {"velocity", "m/s or rad/s", ""},
     {"strength", "N or N m", ""},
-    {"wrench", "of what was asked", "max_force, max_moment, max_grasp_torque"},
+    {"wrench", "times the request", "max_force, max_moment, max_grasp_torque"},
 };
 static_assert(std::size(kGains) == static_cast<std::size_t>(GainClamp::Gain::wrench) + 1);
 
@@ -41,22 +41,22 @@ std::string describe(const GainClamp &clamp, const RenderSettings &settings, dou
     }
     const GainName &gain = kGains[static_cast<std::size_t>(clamp.gain)];
     char text[320];
-    const int written = std::snprintf(
-        text, sizeof text,
-        "%s %d: %s %g brought down to %g %s: ", kRequests[static_cast<std::size_t>(clamp.request)],
-        static_cast<int>(clamp.index), gain.name, clamp.asked, clamp.given, gain.unit);
+    const int written = std::snprintf(text, sizeof text, "%s %d: %s was clamped from %g to %g %s: ",
+                                      kRequests[static_cast<std::size_t>(clamp.request)],
+                                      static_cast<int>(clamp.index), gain.name, clamp.asked,
+                                      clamp.given, gain.unit);
     std::string sentence(text, static_cast<std::size_t>(written));
     if (clamp.from_latency) {
         std::snprintf(
             text, sizeof text,
-            "the most that %g ms of latency at %g Hz keep stable in every simulated hand. "
-            "Ask for less, or lower the device's latency.",
+            "the limit that keeps every simulated hand stable at a latency of %g ms and a rate of "
+            "%g Hz. Request less, or lower the device's latency.",
             1e3 * settings.latency_s, rate_hz);
     } else if (gain.setting[0] != '\0') {
-        std::snprintf(text, sizeof text, "the limit of the settings. Ask for less, or raise %s.",
+        std::snprintf(text, sizeof text, "the limit of the settings. Request less, or raise %s.",
                       gain.setting);
     } else {
-        std::snprintf(text, sizeof text, "no hand can use more. Ask for less.");
+        std::snprintf(text, sizeof text, "the fixed limit of the add-on. Request less.");
     }
     return sentence + text;
 }

@@ -61,8 +61,8 @@ std::string validate_fingers(const FingerSettings &fingers) {
     };
     std::string problem = first_out_of_range(ranges);
     if (problem.empty() && fingers.sensor_closed == fingers.sensor_open) {
-        problem = "fingers.sensor_closed is sensor_open: give two values that the sensor tells "
-                  "apart.";
+        problem = "fingers.sensor_closed equals fingers.sensor_open; give two different readings "
+                  "of the sensor.";
     }
     return problem;
 }
@@ -70,7 +70,7 @@ std::string validate_fingers(const FingerSettings &fingers) {
 // Checks conditions between parts.
 std::string validate_together(const ServoSettings &settings) {
     if (settings.grip.kind == GripKind::rigid && (settings.tension.dof_mask & kNoGrasp) == 0) {
-        return "tension.dof_mask is 64 (grasp alone), which a rigid grip has not; give 1 to 63, "
+        return "tension.dof_mask is 64 (grasp alone), but a rigid grip has no grasp; give 1 to 63, "
                "bit k for DOF k of the wrench.";
     }
     const StringArray strongest_n = max_tensions(settings.motors);
@@ -81,7 +81,7 @@ std::string validate_together(const ServoSettings &settings) {
         char text[256];
         std::snprintf(
             text, sizeof text,
-            "motors: the weakest motor pulls %g N at its max_current_a, not more than the "
+            "motors: the weakest motor pulls %g N at its max_current_a, which is not more than the "
             "pretension of %g N; raise max_current_a or lower reference_tension_n.",
             weakest_n, pretension_n);
         return text;

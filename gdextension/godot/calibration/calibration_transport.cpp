@@ -53,7 +53,7 @@ std::unique_ptr<Transport> open_for_calibration(const CalibrationTarget &target,
     }
     if (!opened.claim.take(target.simulated_name, kOwner)) {
         problem = "The device belongs to \"" + DeviceClaim::owner_of(target.simulated_name) +
-                  "\" now: free it there, or choose another device_name.";
+                  "\": free it there, or choose another device_name.";
         return nullptr;
     }
     problem.clear();

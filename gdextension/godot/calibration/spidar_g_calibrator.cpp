@@ -31,8 +31,9 @@ SpidarGCalibrator::~SpidarGCalibrator() = default;
 bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
                              const godot::Ref<SpidarGCalibration> &calibration, bool stepped) {
     if (rig_ && rig_->state() != RigState::closed && rig_->state() != RigState::failed) {
-        return reject("open: the device is open already, or still closing: close() it and wait for "
-                      "DEVICE_CLOSED.");
+        return reject(
+            "open: the device is already open or still closing: call close() and wait for "
+            "DEVICE_CLOSED.");
     }
     if (board_job_) {
         return reject("open: the boards' parameters are being read or written: wait until "
@@ -44,8 +45,8 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
     }
     if (stepped && !target_.try_simulated) {
         return reject(
-            "open: stepped with transport = Device or Serial: only a simulated device can "
-            "live in simulated time.");
+            "open: stepped = true with transport = Device or Serial: only a simulated device can "
+            "run in simulated time.");
     }
     target_.try_hid = target_.try_hid && !stepped;
     opened_ = std::make_shared<spidar::CalibrationOpened>();
@@ -68,7 +69,7 @@ bool SpidarGCalibrator::open(const godot::Ref<SpidarGConfig> &config,
         rig_->start_stepped();
         rig_->advance(1.0 / settings.rate_hz); // the first reading
     } else if (!rig_->start_threaded()) {
-        return reject("open: the system has no thread left. " + rig_->problem());
+        return reject("open: the system cannot start another thread. " + rig_->problem());
     }
     const bool polled = poll();
     return polled || !stepped; // a failure to open is reported by a later poll()
@@ -183,8 +184,9 @@ void SpidarGCalibrator::forget_lost_counts() {
         sheet_.clear_lengths(string);
     }
     clear_poses();
-    refuse("poll: the boards were lost for a moment and their counts begin anew: zero, lengths and "
-           "poses are forgotten. Read the zero again.");
+    refuse(
+        "poll: the connection to the boards was lost for a moment, so their counts restarted. The "
+        "zero, the lengths and the poses were discarded. Read the zero again.");
 }
 
 void SpidarGCalibrator::give() {
@@ -194,12 +196,12 @@ void SpidarGCalibrator::give() {
 
 bool SpidarGCalibrator::advance(double seconds) {
     if (!is_open()) {
-        return reject("advance: no device is open.");
+        return reject("advance: no device is open: call open() first.");
     }
     constexpr double kSlice_s = 0.1; // each slice sends an order, so that the rig counts as watched
     if (!(seconds > 0.0 && seconds <= 60.0)) {
         return reject("advance: seconds = " + std::to_string(seconds) +
-                      " s: give more than 0 and up to 60.");
+                      " s: give more than 0 s and up to 60 s.");
     }
     for (double left = seconds; left > 1e-9; left -= kSlice_s) {
         give();
@@ -277,14 +279,14 @@ bool SpidarGCalibrator::reject(const std::string &message) {
 
 bool SpidarGCalibrator::start_task(Task task, int string, double weight_n) {
     if (!is_open()) {
-        return reject("start_task: no device is open.");
+        return reject("start_task: no device is open: call open() first.");
     }
     const bool of_a_string = task == TASK_WIRING || task == TASK_WEIGHING;
     if (task < TASK_IDLE || task > TASK_WEIGHING ||
         (of_a_string && (string < 0 || string >= spidar::kStringCount))) {
         return reject("start_task: task = " + std::to_string(static_cast<int>(task)) +
                       ", string = " + std::to_string(string) +
-                      ": give one of Task and a string from 0 to 7.");
+                      ": give one of Task and a string index from 0 to 7.");
     }
     if (task == TASK_WEIGHING &&
         !(weight_n >= spidar::kLeastWeight_n && weight_n <= spidar::kMostWeight_n)) {

@@ -13,12 +13,13 @@ using godot::D_METHOD;
 bool SpidarGCalibrator::start_board_job(std::unique_ptr<BoardJob> job) {
     using spidar::RigState;
     if (board_job_) {
-        return reject("The boards are being read or written already: wait until is_using_boards() "
+        return reject("The boards are already being read or written: wait until is_using_boards() "
                       "is false.");
     }
     if (rig_ && rig_->state() != RigState::closed && rig_->state() != RigState::failed) {
-        return reject("The boards' parameters are read and written only while their motors cannot "
-                      "be armed: close() the device and wait for DEVICE_CLOSED.");
+        return reject(
+            "The boards' parameters can be read and written only while their motors cannot "
+            "be armed: call close() and wait for DEVICE_CLOSED.");
     }
     board_job_ = std::move(job);
     is_proposed_ = false;
@@ -34,7 +35,7 @@ bool SpidarGCalibrator::start_board_job(std::unique_ptr<BoardJob> job) {
         board_job_->thread = std::thread(work);
     } catch (const std::system_error &error) {
         board_job_.reset();
-        return reject(std::string("The system has no thread left. ") + error.what());
+        return reject(std::string("The system cannot start another thread. ") + error.what());
     }
     problem_.clear();
     return true;
@@ -42,8 +43,9 @@ bool SpidarGCalibrator::start_board_job(std::unique_ptr<BoardJob> job) {
 
 bool SpidarGCalibrator::read_boards(const godot::Ref<SpidarGConfig> &config) {
     if (config.is_null() || config->get_transport() != SpidarGConfig::TRANSPORT_SERIAL) {
-        return reject("read_boards: config.transport is not Serial: only serial motor boards have "
-                      "such parameters.");
+        return reject(
+            "read_boards: config.transport is not Serial, but only serial motor boards have "
+            "such parameters: set it to Serial.");
     }
     auto job = std::make_unique<BoardJob>();
     std::string problem;
@@ -72,7 +74,7 @@ void SpidarGCalibrator::finish_board_job() {
         board_result_["board"] = spidar::to_godot(spidar::exact_name(job->change));
         board_result_["text"] = spidar::to_godot(
             good ? spidar::exact_name(job->change) + ": " + spidar::describe(job->change) +
-                       ", read back and equal. Switch the boards off and on."
+                       ". The value was read back and is equal. Switch the boards off and on."
                  : job->problem);
         board_result_["value_before"] = static_cast<int>(spidar::value_before(job->change));
         board_result_["value_wanted"] = static_cast<int>(job->change.value);
@@ -109,7 +111,7 @@ godot::Dictionary SpidarGCalibrator::propose_board_parameter(int board_id, Board
     is_proposed_ = false;
     std::string problem =
         "board_id = " + std::to_string(board_id) +
-        ": no such board was read: call read_boards() and choose one of get_boards().";
+        ": no board with this id was read: call read_boards() and choose one of get_boards().";
     for (const spidar::BoardFlash &one : boards_) {
         if (one.board.id == board_id) {
             proposal_ = {boards_port_, one, static_cast<spidar::BoardParameter>(parameter),
@@ -142,7 +144,7 @@ bool SpidarGCalibrator::write_board_parameter(const godot::String &board) {
         is_proposed_ = false;
         return reject("write_board_parameter: board = \"" + std::string(board.utf8().get_data()) +
                       "\" is not the board of the proposal, \"" + name +
-                      "\". Nothing was written: propose again.");
+                      "\". Nothing was written: call propose_board_parameter() again.");
     }
     auto job = std::make_unique<BoardJob>();
     job->writes = true;

@@ -29,11 +29,12 @@ godot::PackedFloat64Array part_of(const Values &values, std::size_t first) {
 
 bool SpidarGCalibrator::may_measure(const char *method, int string) {
     if (!is_open() || news_.readings == 0) {
-        return reject(std::string(method) + ": no device is open, or it has said nothing yet.");
+        return reject(std::string(method) +
+                      ": no device is open, or it has not sent a reading yet.");
     }
     if (!is_string(string)) {
         return reject(std::string(method) + ": string = " + std::to_string(string) +
-                      ": give 0 to 7.");
+                      ": give a string index from 0 to 7.");
     }
     if (!spidar::usable(news_.status) && news_.status != spidar::Status::read_timeout) {
         return reject(std::string(method) + ": " + spidar::describe(news_.status));
@@ -174,7 +175,7 @@ bool SpidarGCalibrator::compute() {
         return reject("compute: nothing was measured yet: open a device first.");
     }
     if (job_) {
-        return reject("compute: the last computation still runs.");
+        return reject("compute: the last computation is still running: wait for its result.");
     }
     job_ = std::make_unique<Job>();
     job_->sheet = sheet_;
@@ -189,7 +190,8 @@ bool SpidarGCalibrator::compute() {
         job_->thread = std::thread(work);
     } catch (const std::system_error &error) {
         job_.reset();
-        return reject(std::string("compute: the system has no thread left. ") + error.what());
+        return reject(std::string("compute: the system cannot start another thread. ") +
+                      error.what());
     }
     problem_.clear();
     return true;

@@ -157,7 +157,7 @@ std::string RequestOwners::describe_wrenches(double now_s) const {
             continue;
         }
         std::array<char, 96> values{};
-        std::snprintf(values.data(), values.size(), " asks for %.2f N, %.3f N m, grasp %.3f N m",
+        std::snprintf(values.data(), values.size(), " requests %.2f N, %.3f N m, grasp %.3f N m",
                       glm::length(owner.wrench.force_n), glm::length(owner.wrench.moment_nm),
                       owner.wrench.grasp_torque_nm);
         text += text.empty() ? "" : "; ";

@@ -127,7 +127,7 @@ void SpidarG::set_drive_mode(DriveMode mode) {
 void SpidarG::set_workspace_scale(double scale) {
     if (!(scale >= kLeastWorkspaceScale && scale <= kMostWorkspaceScale)) {
         refuse("workspace_scale = " + std::to_string(scale) +
-               " scene m per device m: give 0.001 to 1000; the old value stays.");
+               " (scene meters per device meter): give 0.001 to 1000; the old value stays.");
         return;
     }
     workspace_scale_ = scale;
@@ -144,7 +144,7 @@ std::string SpidarG::name_for_messages() const {
 
 void SpidarG::open_device() {
     const bool again = std::exchange(trying_again_, false);
-    close_device("The device is opened anew.");
+    close_device("The device is reopened.");
     if (!may_run()) {
         return; // a listener to the closing signals has changed its mind
     }
@@ -338,7 +338,8 @@ void SpidarG::physics_tick() {
 
 int SpidarG::advance_cycles(int cycles) {
     if (!loop_ || drive_mode_ != DRIVE_STEPPED) {
-        reject("advance_cycles needs an open device with drive_mode DRIVE_STEPPED.");
+        reject("advance_cycles: no device is open with drive_mode = DRIVE_STEPPED: set drive_mode "
+               "and open one first.");
         return 0;
     }
     if (cycles < 0 || cycles > kMostCycles) {
@@ -391,9 +392,8 @@ spidar::WorldFrame SpidarG::world() const {
         world_told_ = false;
     } else if (!world_told_) {
         world_told_ = true;
-        refuse(
-            "the node's transform is flat or not finite: the last good one stands. Give the node "
-            "and its parents finite positions and no scale of zero.");
+        refuse("the node's transform is flat or not finite, so the last good transform is kept. "
+               "Give the node and its parents finite positions and no scale of zero.");
     }
     last_world_.scale = workspace_scale_;
     return last_world_;

@@ -56,7 +56,7 @@ void SpidarG::bind_setup() {
         PropertyInfo(Variant::INT, "drive_mode", godot::PROPERTY_HINT_ENUM, "Threaded,Stepped"),
         "set_drive_mode", "get_drive_mode");
     ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "workspace_scale", godot::PROPERTY_HINT_RANGE,
-                              "0.1,100,0.01,or_greater"),
+                              "0.1,100,0.001,or_less,or_greater"),
                  "set_workspace_scale", "get_workspace_scale");
 
     ClassDB::bind_method(D_METHOD("arm"), &SpidarG::arm);

@@ -56,9 +56,8 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
     if ((choice == Choice::TRANSPORT_DEVICE || serial) && drive_mode_ == DRIVE_STEPPED) {
         status = Status::invalid_settings;
         problem = "SpidarGConfig.transport = " + std::string(serial ? "Serial" : "Device") +
-                  " with drive_mode = Stepped: only a simulated "
-                  "device can live "
-                  "in simulated time. Set drive_mode to Threaded.";
+                  " with drive_mode = Stepped: only a simulated device can run in simulated time. "
+                  "Set drive_mode to Threaded.";
         return nullptr;
     }
     if (serial) {
@@ -78,7 +77,7 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
                                                      plant_.metres_per_count));
             tell_choice("transport = " +
                         std::string(choice == Choice::TRANSPORT_DEVICE ? "Device" : "Automatic") +
-                        ", and it is the first that matches and is free.");
+                        ", and this device is the first that matches and is free.");
             return transport;
         }
         if (status == Status::invalid_settings) {
@@ -101,13 +100,13 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
 
 std::string SpidarG::why_simulated() const {
     if (!fallback_.empty()) {
-        return fallback_ + " A device that is plugged in now is taken within a second.";
+        return fallback_ + " If a device is plugged in now, it is opened within a second.";
     }
     if (config_or_default().get_transport() == SpidarGConfig::TRANSPORT_SIMULATED) {
         return "SpidarGConfig.transport = Simulated.";
     }
     return drive_mode_ == DRIVE_STEPPED
-               ? "drive_mode = Stepped: only a simulated device lives in simulated time."
+               ? "drive_mode = Stepped: only a simulated device can run in simulated time."
                : "The project setting spidar_g/device/use_hardware is off.";
 }
 
@@ -179,8 +178,9 @@ void SpidarG::use_strings(const spidar::CountArray &home_counts, double metres_p
 
 bool SpidarG::zero_device() {
     if (hid_ == nullptr) {
-        return reject("zero_device: the open device is not a real one; the simulated one always "
-                      "knows its zero.");
+        return reject(
+            "zero_device: the open device is not a USB device. A simulated device always knows "
+            "its zero; for motor boards call zero_at_home().");
     }
     const spidar::StringArray home_m =
         spidar::string_lengths(settings_.frame, settings_.grip, spidar::rest_pose(settings_.grip));
@@ -192,8 +192,9 @@ bool SpidarG::zero_device() {
     }
     const Status status = hid_->zero(home);
     if (!spidar::usable(status)) {
-        return reject("zero_device: the device refused. It must be plugged in and its motors off: "
-                      "call disarm() first.");
+        return reject(
+            "zero_device: the device did not accept the command. It must be plugged in and its "
+            "motors must be off: call disarm() first.");
     }
     return true;
 }
@@ -270,7 +271,7 @@ bool SpidarG::set_simulated_buttons(int mask) {
     }
     if (mask < 0 || mask > 255) {
         return reject("set_simulated_buttons: mask = " + std::to_string(mask) +
-                      ": give 0 to 255, one bit a button.");
+                      ": give 0 to 255, one bit per button.");
     }
     simulated_->set_buttons(static_cast<std::uint8_t>(mask));
     return true;

@@ -24,7 +24,8 @@ std::string read_gains(const char *method, const char *field,
                        const godot::PackedFloat64Array &values, spidar::DofGains &gains) {
     if (values.size() != spidar::kDofCount) {
         return std::string(method) + ": " + field + " has " + std::to_string(values.size()) +
-               " numbers: give 7, for x, y, z (per m), turns about x, y, z and grasp (per rad).";
+               " numbers: give 7, for x, y, z (per m), rotations about x, y, z and grasp (per "
+               "rad).";
     }
     for (std::int64_t i = 0; i < values.size(); ++i) {
         const double value = values.ptr()[i];
@@ -50,20 +51,20 @@ std::string effect_problem(const Effect &effect, int dof_mask) {
                ": give a sum of SpidarG.DofMask, 1 to 127.";
     }
     if (!(effect.duration_s >= 0.0 && effect.duration_s <= spidar::kMaxWrenchDuration_s)) {
-        return "duration_s = " + std::to_string(effect.duration_s) + " s: give 0 to 60.";
+        return "duration_s = " + std::to_string(effect.duration_s) + " s: give 0 to 60 s.";
     }
     if (effect.kind == EffectKind::vibration &&
         !(effect.frequency_hz >= spidar::kMinVibration_hz &&
           effect.frequency_hz <= spidar::kMaxVibration_hz)) {
-        return "frequency_hz = " + std::to_string(effect.frequency_hz) + " Hz: give 5 to 250.";
+        return "frequency_hz = " + std::to_string(effect.frequency_hz) + " Hz: give 5 to 250 Hz.";
     }
     for (const double gain : effect.gain) {
         const bool may_be_negative =
             effect.kind == EffectKind::constant || effect.kind == EffectKind::vibration;
         if (!std::isfinite(gain) || (gain < 0.0 && !may_be_negative)) {
             return "strength = " + std::to_string(gain) +
-                   " (N, N m, or per m, rad, m/s, rad/s): give finite numbers, 0 or more where "
-                   "they resist.";
+                   " (N, N m, or per m, rad, m/s, rad/s): give finite numbers, and 0 or more for "
+                   "effects that resist a motion.";
         }
     }
     if (effect.kind == EffectKind::detents) {
@@ -72,7 +73,7 @@ std::string effect_problem(const Effect &effect, int dof_mask) {
             if (used && !(effect.spacing[i] >= spidar::kMinDetentSpacing &&
                           std::isfinite(effect.spacing[i]))) {
                 return "spacing = " + std::to_string(effect.spacing[i]) +
-                       " m or rad of the device: give 0.001 or more.";
+                       " m or rad of the device: give a finite number, 0.001 or more.";
             }
         }
     }
@@ -140,7 +141,7 @@ bool SpidarG::set_coupling(const godot::Transform3D &target, double grasp_angle,
         return reject(
             "set_coupling: target, grasp_angle = " + std::to_string(grasp_angle) +
             " rad, velocities (m/s, rad/s): " + spidar::describe(status) +
-            " Give finite numbers and a basis that is a rotation; the last good coupling stands.");
+            " Give finite numbers and a basis that is a rotation; the last good coupling is kept.");
     }
     command_.coupling = coupling;
     ++command_.coupling_sequence;
@@ -162,8 +163,8 @@ bool SpidarG::take_effect(const char *method, Effect effect, int dof_mask) {
     effect.dof_mask = static_cast<std::uint8_t>(dof_mask & static_cast<int>(spidar::kAllDof));
     std::string problem = effect_problem(effect, dof_mask);
     if (problem.empty() && !spidar::usable(spidar::validate_effect(effect))) {
-        problem =
-            "center or grasp_angle (m, rad): give finite numbers and a basis that is a rotation.";
+        problem = "center or grasp_angle (m, rad) is not usable: give finite numbers and a basis "
+                  "that is a rotation.";
     }
     auto &effects = command_.effects;
     auto count = static_cast<std::size_t>(command_.effect_count);
@@ -180,8 +181,9 @@ bool SpidarG::take_effect(const char *method, Effect effect, int dof_mask) {
         }
     }
     if (problem.empty() && place == effects.size()) {
-        problem = "id = " + std::to_string(effect.id) +
-                  ": 6 effects act already: clear_effect() one, or use its id.";
+        problem =
+            "id = " + std::to_string(effect.id) +
+            ": 6 effects are active already: call clear_effect() for one of them, or use its id.";
     }
     if (!problem.empty()) {
         return reject(std::string(method) + ": " + problem);

@@ -22,17 +22,18 @@ namespace {
 
 bool SpidarG::start_recording(const String &path) {
     if (!loop_) {
-        return reject("start_recording: no device is open. Add the node to the running scene, "
-                      "enabled.");
+        return reject("start_recording: no device is open. Add the node to the running scene and "
+                      "set enabled to true.");
     }
     if (is_recording()) {
-        return reject("start_recording: a recording runs already: stop_recording() first.");
+        return reject(
+            "start_recording: a recording is already running: call stop_recording() first.");
     }
     const std::string place = system_path(path);
     if (!recording_place_.take(place, name_for_messages())) {
         return reject("start_recording: path = \"" + place + "\": the recording of node \"" +
                       spidar::RecordingPlace::owner_of(place) +
-                      "\" writes into this file. Give another path.");
+                      "\" uses this file. Give another path.");
     }
     const std::string problem = loop_->start_recording(place);
     if (!problem.empty()) {
@@ -69,15 +70,17 @@ godot::Dictionary SpidarG::get_recording_statistics() const {
 }
 
 void SpidarG::tell_recording_failed() {
-    const String text = named("the recording could not be written any further. Is the disk full? "
-                              "What was written before can be read.");
+    const String text =
+        named("the recording could not be written any further. Check whether the disk is full. "
+              "The part that was written before can be read.");
     godot::UtilityFunctions::push_error(text);
     emit_signal("recording_failed", text);
 }
 
 bool SpidarG::start_replay(const String &path) {
     if (!may_run()) {
-        return reject("start_replay: add the node to the running scene, enabled, first.");
+        return reject("start_replay: the node is not in the running scene or is not enabled: add "
+                      "it to the scene and set enabled to true.");
     }
     const std::string place = system_path(path);
     const std::string problem = spidar::Replay().load(place);
@@ -178,8 +181,9 @@ void SpidarG::watch_recordings() {
     std::string message = std::to_string(report.cycles) + " cycles replayed";
     const std::string &poses_only = replay_->why_poses_only();
     if (report.differing != 0) {
-        message += ", " + std::to_string(report.differing) + " with other results, from cycle " +
-                   std::to_string(report.first_differing) + " on";
+        message += ", " + std::to_string(report.differing) +
+                   " with different results, from cycle " + std::to_string(report.first_differing) +
+                   " on";
     }
     if (report.lost != 0) {
         message += ", " + std::to_string(report.lost) + " missing in the recording";

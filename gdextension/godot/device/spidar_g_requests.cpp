@@ -73,7 +73,8 @@ std::string read_plane(const double *values, std::int64_t index, ContactPlane &p
         return "set_contacts: plane " + std::to_string(index) + ", normal = (" +
                std::to_string(values[0]) + ", " + std::to_string(values[1]) + ", " +
                std::to_string(values[2]) + "): " + spidar::describe(status) +
-               " Give a unit normal; a grasp stop has normal.x 1 or -1, a turn stop an axis.";
+               " Give a unit normal; for a grasp stop normal.x is 1 or -1, for a turn stop the "
+               "normal is the axis of rotation.";
     }
     return {};
 }
@@ -93,7 +94,7 @@ bool SpidarG::request_wrench(const godot::Vector3 &force, const godot::Vector3 &
             "request_wrench: force = " + text(force) + " N, moment = " + text(moment) +
             " N m, grasp_torque = " + std::to_string(grasp_torque) +
             " N m, duration_s = " + std::to_string(duration_s) + " s: " + spidar::describe(status) +
-            " Give finite numbers and a duration from 0 to 60 s; the last good request stands.");
+            " Give finite numbers and a duration from 0 to 60 s; the last good request is kept.");
     }
     requests_.set_wrench(owner.utf8().get_data(), world().wrench_to_device(wrench), duration_s,
                          snapshot_.time_s);
@@ -154,8 +155,9 @@ ContactPlane SpidarG::seen_from_node(ContactPlane plane) const {
 bool SpidarG::set_contacts(const godot::PackedFloat64Array &contacts, const godot::String &owner) {
     const std::int64_t size = contacts.size();
     if (size % CONTACT_STRIDE != 0 || size > CONTACT_STRIDE * spidar::kMaxContacts) {
-        return reject("set_contacts: " + std::to_string(size) +
-                      " numbers: give SpidarG.CONTACT_STRIDE (12) a plane, at most 8 planes.");
+        return reject(
+            "set_contacts: " + std::to_string(size) +
+            " numbers: give SpidarG.CONTACT_STRIDE (12) numbers per plane, at most 8 planes.");
     }
     const spidar::WorldFrame frame = world();
     std::array<ContactPlane, spidar::kMaxContacts> planes{};

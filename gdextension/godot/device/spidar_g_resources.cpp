@@ -48,7 +48,7 @@ bool SpidarG::change_live(const std::string &problem) {
         return false;
     }
     if (!problem.empty()) {
-        refuse(problem + " The open device goes on with its last good settings.");
+        refuse(problem + " The open device keeps its last good settings.");
         return true;
     }
     if (resources_revision() != opened_revision_) {
@@ -82,8 +82,8 @@ void SpidarG::watch_latency() {
     std::array<char, 200> text{};
     std::snprintf(
         text.data(), text.size(),
-        "the link's latency is %.2f ms, and link_latency in the SpidarGConfig says %.2f ms. "
-        "Stiffness is kept within what that allows.",
+        "the measured latency of the link is %.2f ms, but link_latency of the SpidarGConfig is "
+        "%.2f ms. Stiffness is clamped to what the measured latency allows.",
         1e3 * measured_s, 1e3 * settings_.render.latency_s);
     UtilityFunctions::push_warning(named(text.data()));
     settings_.render.latency_s = measured_s;
@@ -129,17 +129,17 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
         warnings.push_back(spidar::to_godot(problem_));
     }
     if (config_.is_null() && default_config_->get_path().is_empty()) {
-        warnings.push_back(
-            String("No config: the paper's device (48 cm frame, 4 cm half poles) is assumed. Add a "
-                   "SpidarGConfig to describe yours, or name one for the whole project in the "
-                   "project setting spidar_g/device/default_config."));
+        warnings.push_back(String(
+            "No config: the paper's device (48 cm frame, 4 cm half poles) is assumed. Add a "
+            "SpidarGConfig to describe your device, or name one for the whole project in the "
+            "project setting spidar_g/device/default_config."));
     }
     if (config_or_default().get_max_force() > options_.largest_force_n) {
         warnings.push_back(spidar::to_godot(
             "SpidarGConfig.max_force = " + std::to_string(config_or_default().get_max_force()) +
-            " N is brought down to " + std::to_string(options_.largest_force_n) +
-            " N by the project setting spidar_g/safety/max_force: lower the one or raise the "
-            "other."));
+            " N is clamped to " + std::to_string(options_.largest_force_n) +
+            " N by the project setting spidar_g/safety/max_force: lower max_force or raise the "
+            "project setting."));
     }
     const std::string odd = transform_problem();
     if (!odd.empty()) {
@@ -151,17 +151,15 @@ godot::PackedStringArray SpidarG::_get_configuration_warnings() const {
 std::string SpidarG::transform_problem() const {
     const godot::Basis basis = (is_inside_tree() ? get_global_transform() : get_transform()).basis;
     if (basis.determinant() < 0.0) {
-        return "The node, or one of its parents, is mirrored (negative scale); a device is not, "
-               "and "
-               "its grip then moves and turns otherwise than the scene shows. Set every scale to "
-               "positive values.";
+        return "The node or one of its parents is mirrored (negative scale), but a device cannot "
+               "be mirrored: its grip then moves and turns differently from what the scene shows. "
+               "Set every scale to positive values.";
     }
     for (int axis = 0; axis < 3; ++axis) {
         const double length = static_cast<double>(basis.get_column(axis).length());
         if (!(std::abs(length - 1.0) <= kNodeScaleTolerance)) {
-            return "The node, or one of its parents, is scaled; a device is not. Set every scale "
-                   "to "
-                   "1 and use workspace_scale to enlarge the device's movements.";
+            return "The node or one of its parents is scaled, but a device cannot be scaled. Set "
+                   "every scale to 1 and use workspace_scale to enlarge the device's movements.";
         }
     }
     return {};

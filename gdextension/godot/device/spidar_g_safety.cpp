@@ -116,7 +116,7 @@ void SpidarG::_input(const godot::Ref<godot::InputEvent> &event) {
 
 bool SpidarG::zero_at_home() {
     if (!loop_) {
-        return reject("zero_at_home: no device is open. Open one first.");
+        return reject("zero_at_home: no device is open: open one first.");
     }
     if (panicked_.load() || (waits_for_arm_ && is_simulated())) {
         return reject(
@@ -124,8 +124,9 @@ bool SpidarG::zero_at_home() {
             "arm() first.");
     }
     if (!command_.forces_enabled) {
-        return reject("zero_at_home: forces_enabled = false: switch it on, for the strings have to "
-                      "be drawn taut with pretension.");
+        return reject(
+            "zero_at_home: forces_enabled = false: set it to true, because the strings must be "
+            "pulled taut with pretension.");
     }
     ++command_.zero_count;
     loop_->publish(command_);
@@ -213,12 +214,12 @@ std::string SpidarG::limited_request() const {
     }
     std::string owners = requests_.describe_wrenches(snapshot_.time_s);
     if (owners.empty()) {
-        owners = "Contacts, coupling and effects ask for more together";
+        owners = "The sum of contacts, coupling and effects exceeds a limit";
     }
     const spidar::SafetySettings &limits = settings_.safety;
     std::array<char, 160> text{};
     std::snprintf(text.data(), text.size(),
-                  ". All is kept within max_force = %.2f N, max_moment = %.3f N m, "
+                  ". The sum is clamped to max_force = %.2f N, max_moment = %.3f N m, "
                   "max_grasp_torque = %.3f N m of the SpidarGConfig.",
                   limits.max_force_n, limits.max_moment_nm, limits.max_grasp_torque_nm);
     return owners + text.data();

@@ -52,9 +52,9 @@ std::unique_ptr<spidar::Transport> SpidarG::serial_transport(Status &status, std
     }
     if (transport->highest_rate_hz() < settings_.rate_hz) {
         godot::UtilityFunctions::push_warning(
-            named("the wire lets its boards be asked " +
+            named("the boards can be read only " +
                   std::to_string(static_cast<int>(transport->highest_rate_hz())) +
-                  " times a second, fewer than SpidarGConfig.rate_hz."));
+                  " times a second, which is less than SpidarGConfig.rate_hz. Lower rate_hz."));
     }
     return transport;
 }

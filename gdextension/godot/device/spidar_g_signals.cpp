@@ -88,7 +88,7 @@ void SpidarG::emit_edges(const spidar::ServoSnapshot &before, const String &reas
 std::string SpidarG::fault_message() const {
     if (panicked_.load() && !loop_ && problem_.empty()) {
         return std::string(spidar::describe(Status::panic_stopped)) +
-               " The device opens stopped: clear_fault() and arm() lead back.";
+               " The device opens in this state: call clear_fault(), then arm().";
     }
     if (snapshot_.fault == Status::ok) {
         return problem_;

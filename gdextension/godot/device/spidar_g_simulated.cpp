@@ -21,7 +21,8 @@ std::unique_ptr<spidar::Transport> SpidarG::simulated_transport(spidar::Status &
     const std::string device_name = config_or_default().get_device_name().utf8().get_data();
     if (!claim_.take(device_name, name_for_messages())) {
         status = spidar::Status::device_in_use;
-        problem = "SpidarGConfig.device_name = \"" + device_name + "\": owned by node \"" +
+        problem = "SpidarGConfig.device_name = \"" + device_name +
+                  "\": the node that owns this device is \"" +
                   spidar::DeviceClaim::owner_of(device_name) +
                   "\". Free that node, or give this one another device_name.";
         return nullptr;
@@ -48,14 +49,14 @@ bool SpidarG::set_simulated_hand_target(const godot::Transform3D &target, double
     if (!spidar::all_finite(origin, turn, grasp_angle)) {
         return reject(
             "set_simulated_hand_target: target or grasp_angle = " + std::to_string(grasp_angle) +
-            " rad is not finite: give finite numbers; the hand stays where it was.");
+            " rad is not finite: give finite numbers; the hand keeps its target.");
     }
     const double away_m = glm::length(frame.point_to_device(origin));
     if (!(away_m <= kFarthestHand_m) || std::abs(grasp_angle) > kWidestGrasp_rad) {
-        return reject(
-            "set_simulated_hand_target: the target is " + std::to_string(away_m) +
-            " device m from the frame's center, grasp_angle = " + std::to_string(grasp_angle) +
-            " rad: give at most 10 m and -pi to pi; the hand stays where it was.");
+        return reject("set_simulated_hand_target: the target is " + std::to_string(away_m) +
+                      " m (of the device) from the frame's center, grasp_angle = " +
+                      std::to_string(grasp_angle) +
+                      " rad: give at most 10 m and -3.2 to 3.2 rad; the hand keeps its target.");
     }
     simulated_->set_hand_target(
         {frame.point_to_device(origin), glm::transpose(frame.rotation) * turn, grasp_angle});
@@ -102,7 +103,8 @@ godot::Dictionary SpidarG::get_simulated_truth() const {
 bool SpidarG::inject_simulated_fault(SimulatedFault fault, int string, double start_s,
                                      double duration_s) {
     if (simulated_ == nullptr) {
-        return reject("inject_simulated_fault: the open device is not a simulated one.");
+        return reject(
+            "inject_simulated_fault: the open device is not simulated: set transport = Simulated.");
     }
     const spidar::FaultInjection injection{static_cast<spidar::SimulatedFault>(fault), string,
                                            start_s, duration_s};
@@ -111,12 +113,12 @@ bool SpidarG::inject_simulated_fault(SimulatedFault fault, int string, double st
             "inject_simulated_fault: fault = " + std::to_string(static_cast<int>(fault)) +
             ", string = " + std::to_string(string) + ", start_s = " + std::to_string(start_s) +
             " s, duration_s = " + std::to_string(duration_s) +
-            " s: give one of SpidarG.SimulatedFault, a string from 0 to 7, a start of 0 s or later "
-            "and a finite duration.");
+            " s: give one of SpidarG.SimulatedFault, a string index from 0 to 7, a start of 0 s or "
+            "later and a finite duration.");
     }
     return simulated_->inject(injection) ||
            reject("inject_simulated_fault: " + std::to_string(spidar::kMaxFaults) +
-                  " faults wait or act already: clear_simulated_faults() first.");
+                  " faults are pending or active already: call clear_simulated_faults() first.");
 }
 
 void SpidarG::clear_simulated_faults() {

@@ -50,7 +50,7 @@ godot::Transform3D SpidarG::get_grip_transform() const {
 
 godot::Transform3D SpidarG::get_pole_transform(int pole) const {
     ERR_FAIL_COND_V_MSG(pole != 0 && pole != 1, godot::Transform3D(),
-                        "SpidarG.get_pole_transform: pole is 0 (r1) or 1 (r2).");
+                        "SpidarG.get_pole_transform: give 0 (r1) or 1 (r2) as the pole.");
     const spidar::GripState &grip = snapshot_.grip;
     const Vec3 along = glm::normalize(pole == 0 ? grip.pose.r1_m : grip.pose.r2_m);
     const Vec3 normal = grip.frame.rotation[2];
@@ -63,7 +63,7 @@ godot::Transform3D SpidarG::get_pole_transform(int pole) const {
 
 godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
     ERR_FAIL_COND_V_MSG(target < CONTACT_CENTER || target > CONTACT_TURN_STOP, godot::Vector3(),
-                        "SpidarG.get_pole_end: target is one of SpidarG.ContactTarget.");
+                        "SpidarG.get_pole_end: give one of SpidarG.ContactTarget as the target.");
     const spidar::GripPose &pose = snapshot_.grip.pose;
     Vec3 point = pose.position_m;
     switch (target) {
@@ -89,14 +89,14 @@ godot::Vector3 SpidarG::get_pole_end(ContactTarget target) const {
 
 godot::Vector3 SpidarG::get_string_start(int string) const {
     ERR_FAIL_COND_V_MSG(!is_string(string), godot::Vector3(),
-                        "SpidarG.get_string_start: string is 0 to 7.");
+                        "SpidarG.get_string_start: give a string index from 0 to 7.");
     return spidar::to_godot(
         world().point_to_world(settings_.frame.motors_m[static_cast<std::size_t>(string)]));
 }
 
 godot::Vector3 SpidarG::get_string_end(int string) const {
     ERR_FAIL_COND_V_MSG(!is_string(string), godot::Vector3(),
-                        "SpidarG.get_string_end: string is 0 to 7.");
+                        "SpidarG.get_string_end: give a string index from 0 to 7.");
     return spidar::to_godot(world().point_to_world(
         spidar::attachment_point(settings_.grip, snapshot_.grip.pose, string)));
 }
@@ -118,8 +118,9 @@ double SpidarG::get_jaw_gap() const {
 }
 
 double SpidarG::get_grasp_angle_for_gap(double gap_m) const {
-    ERR_FAIL_COND_V_MSG(!std::isfinite(gap_m), 0.0,
-                        "SpidarG.get_grasp_angle_for_gap: gap_m is a finite number in m.");
+    ERR_FAIL_COND_V_MSG(
+        !std::isfinite(gap_m), 0.0,
+        "SpidarG.get_grasp_angle_for_gap: give a finite number in meters as gap_m.");
     return config_or_default().grasp_angle_for_gap(gap_m);
 }
 

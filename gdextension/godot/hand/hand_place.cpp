@@ -18,14 +18,14 @@ namespace {
 using godot::Object;
 
 constexpr const char *kNoDevice =
-    "SpidarGHand does nothing here: make it a child of a SpidarG node.";
+    "A SpidarGHand works only as a child of a SpidarG node: make it a child of one.";
 constexpr const char *kSecondHand =
-    "A SPIDAR-G has one grip: of several SpidarGHand under one SpidarG only the first acts.";
+    "A SPIDAR-G has one grip, so only the first SpidarGHand under a SpidarG acts: remove this one.";
 constexpr const char *kEngine =
-    "Thin bodies slip through floors in this physics engine: set physics/3d/physics_engine to "
+    "Thin bodies pass through floors in this physics engine: set physics/3d/physics_engine to "
     "Jolt Physics (Project > Tools > SPIDAR-G: Apply Physics Settings).";
 constexpr const char *kThread =
-    "SpidarGHand does nothing in a thread group of its own, for only the main thread may look into "
+    "SpidarGHand does nothing in a separate thread group, because only the main thread may query "
     "the physics space: set process_thread_group of the hand and of its parents to Inherit or Main "
     "Thread.";
 

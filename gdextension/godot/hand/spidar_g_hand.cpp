@@ -36,7 +36,8 @@ double SpidarGHand::checked_number(const char *name, double value, double old, d
 
 void SpidarGHand::set_collision_mask(std::int64_t mask) {
     if (mask < 0 || mask > std::numeric_limits<std::uint32_t>::max()) {
-        refuse("collision_mask = " + std::to_string(mask) + ": give 32 bits; the old value stays.");
+        refuse("collision_mask = " + std::to_string(mask) +
+               ": give 0 to 4294967295 (32 bits); the old value stays.");
         return;
     }
     collision_mask_ = mask;

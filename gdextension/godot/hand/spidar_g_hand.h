@@ -35,7 +35,7 @@
 #include "godot/hand/surface_news.h"
 #include "godot/hand/touch_scenes.h"
 
-// A number with setter and getter. A value that makes no sense is refused with an error.
+// A number with setter and getter. A value outside of the range is refused with an error.
 #define SPIDAR_G_HAND_NUMBER(m_name, m_default, m_least, m_most, m_unit)                           \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \
@@ -64,7 +64,7 @@ class SpidarGHand : public godot::Node3D {
     GDCLASS(SpidarGHand, godot::Node3D)
     SPIDAR_G_CHECKED_CALLS
 
-    // Ranges for scripts; the inspector offers less.
+    // Accepted ranges. The sliders of the inspector span less; a larger value can be typed.
     SPIDAR_G_HAND_NUMBER(contact_margin, 0.04, 0.001, 1.0, "m");
     SPIDAR_G_HAND_NUMBER(contact_stiffness, 0.0, 0.0, 1.0e4, "N/m");
     SPIDAR_G_HAND_NUMBER(contact_damping, 2.0, 0.0, 100.0, "N s/m");

@@ -24,20 +24,20 @@ void SpidarGHand::bind_properties() {
         PropertyInfo(Variant::INT, "collision_mask", godot::PROPERTY_HINT_LAYERS_3D_PHYSICS),
         "set_collision_mask", "get_collision_mask");
     ADD_GROUP("Contact", "contact_");
-    BIND_NUMBER(contact_margin, "0.01,0.1,0.001,suffix:m");
-    BIND_NUMBER(contact_stiffness, "0,2000,1,suffix:N/m");
-    BIND_NUMBER(contact_damping, "0,5,0.1,suffix:N s/m");
-    BIND_NUMBER(contact_friction, "0,2,0.01");
+    BIND_NUMBER(contact_margin, "0.001,0.1,0.001,or_greater,suffix:m");
+    BIND_NUMBER(contact_stiffness, "0,2000,1,or_greater,suffix:N/m");
+    BIND_NUMBER(contact_damping, "0,5,0.1,or_greater,suffix:N s/m");
+    BIND_NUMBER(contact_friction, "0,2,0.01,or_greater");
     ADD_GROUP("Grasp", "");
-    BIND_NUMBER(pad_friction, "0,2,0.01");
-    BIND_NUMBER(hold_torque, "0,0.4,0.001,suffix:N m");
-    BIND_NUMBER(break_force, "0.5,50,0.1,suffix:N");
+    BIND_NUMBER(pad_friction, "0,2,0.01,or_greater");
+    BIND_NUMBER(hold_torque, "0,0.4,0.001,or_greater,suffix:N m");
+    BIND_NUMBER(break_force, "0,50,0.1,or_greater,suffix:N");
     ADD_GROUP("Feel", "");
     BIND_FLAG(render_contacts);
     BIND_FLAG(render_width);
     BIND_FLAG(render_weight);
     BIND_FLAG(render_inertia);
-    BIND_NUMBER(weight_scale, "0,2,0.01");
+    BIND_NUMBER(weight_scale, "0,2,0.01,or_greater");
     ADD_GROUP("Debug", "debug_");
     BIND_FLAG(debug_draw);
 }

@@ -194,7 +194,7 @@ void SpidarGHand::attach(RigidBody3D &body) {
         godot::UtilityFunctions::push_warning(
             "SpidarGHand: ", body.get_name(), " is tied by ", spidar::kMaxToolJoints + more,
             " joints, of which ", spidar::kMaxToolJoints,
-            " are felt: tie it by fewer, for instance by one Generic6DOFJoint3D.");
+            " are felt: use fewer joints, for instance one Generic6DOFJoint3D.");
     }
     held_stop_rad_ = proxy.grasp_rad;
     held_squeeze_nm_rad_ = pinch_.facts.squeeze_nm_rad;

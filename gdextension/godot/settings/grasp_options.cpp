@@ -25,7 +25,7 @@ std::string SpidarGConfig::grasp_problem() const {
     }
     if (grasp_button_ < kAnyButton || grasp_button_ > kMostButton) {
         return "SpidarGConfig.grasp_button = " + std::to_string(grasp_button_) +
-               ": choose a button of the device, 0 to 7, or -1 for any of them.";
+               ": choose a button of the device, 0 to 7, or -1 for any button.";
     }
     if (grasp_source_ == GRASP_ACTION && !has_grasp_action()) {
         return "SpidarGConfig.grasp_action = \"" + std::string(grasp_action_.utf8().get_data()) +
@@ -77,17 +77,18 @@ void SpidarGConfig::bind_grasp() {
 
     ADD_GROUP("Grasp", "");
     SPIDAR_G_BIND_FIELD(Self, real, grasp_enter_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
+                        "-90,90,0.1,radians_as_degrees");
     SPIDAR_G_BIND_FIELD(Self, real, grasp_leave_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
+                        "-90,90,0.1,radians_as_degrees");
     SPIDAR_G_BIND_FIELD(Self, real, over_closed_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
+                        "-90,90,0.1,radians_as_degrees");
     SPIDAR_G_BIND_FIELD(Self, real, over_closed_leave_angle, PROPERTY_HINT_RANGE,
-                        "0,90,0.1,radians_as_degrees");
-    SPIDAR_G_BIND_FIELD(Self, real, grasp_dwell, PROPERTY_HINT_RANGE, "0,0.5,0.001,suffix:s");
-    SPIDAR_G_BIND_FIELD(Self, real, jaw_open, PROPERTY_HINT_RANGE, "0.005,0.5,0.001,suffix:m");
+                        "-90,90,0.1,radians_as_degrees");
+    SPIDAR_G_BIND_FIELD(Self, real, grasp_dwell, PROPERTY_HINT_RANGE,
+                        "0,0.5,0.001,or_greater,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, jaw_open, PROPERTY_HINT_RANGE, "0.001,0.999,0.001,suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, jaw_closed_angle, PROPERTY_HINT_RANGE,
-                        "5,85,0.1,radians_as_degrees");
+                        "0.6,85.9,0.1,radians_as_degrees");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, grasp_source, godot::PROPERTY_HINT_ENUM,
                         "Automatic,Button,Action,Sensor");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, grasp_button, PROPERTY_HINT_RANGE, "-1,7,1");

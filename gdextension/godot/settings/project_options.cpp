@@ -59,8 +59,8 @@ godot::Ref<Kind> resource_of(const char *name) {
     if (resource.is_null()) {
         godot::UtilityFunctions::push_error(
             String("Project setting ") + String(name) + String(" = \"") + path +
-            String("\" is no ") + String(Kind::get_class_static()) +
-            String(": choose a resource of that kind, or clear it."));
+            String("\" is not a ") + String(Kind::get_class_static()) +
+            String(": choose a resource of that class, or clear the setting."));
     }
     return resource;
 }

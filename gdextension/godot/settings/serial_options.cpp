@@ -19,12 +19,12 @@ std::string SpidarGConfig::serial_problem() const {
     };
     if (!(serial_units_per_ampere_ >= 0.0 && std::isfinite(serial_units_per_ampere_))) {
         return told(
-            "serial_units_per_ampere = " + std::to_string(serial_units_per_ampere_),
-            "give how many of the board's units make an ampere, or 0 for those of the preset.");
+            "serial_units_per_ampere = " + std::to_string(serial_units_per_ampere_) + " units/A",
+            "give how many units of the board make one ampere, or 0 for the value of the preset.");
     }
     if (serial_most_units_ < 1 || serial_most_units_ > kMostUnits) {
-        return told("serial_most_units = " + std::to_string(serial_most_units_),
-                    "choose 1 to 4095; 1024 is all that a B5M gives.");
+        return told("serial_most_units = " + std::to_string(serial_most_units_) + " units",
+                    "choose 1 to 4095; 1024 is the maximum of a B5M.");
     }
     const std::int64_t numbers = serial_motors_.size();
     if (numbers == 0) {
@@ -41,8 +41,8 @@ std::string SpidarGConfig::serial_problem() const {
         if (serial_motors_[i] < 0 || serial_motors_[i] > kMostBoard || serial_motors_[i + 1] < 0 ||
             serial_motors_[i + 1] > kMostMotor || !is_sign(serial_motors_[i + 2]) ||
             !is_sign(serial_motors_[i + 3])) {
-            return told("serial_motors of string " + std::to_string(i / kNumbersPerMotor),
-                        "choose board 0 to 7, motor 0 to 7, and signs of 1 or -1.");
+            return told("serial_motors of string " + std::to_string(i / kNumbersPerMotor + 1),
+                        "choose a board from 0 to 7, a motor from 0 to 7, and signs of 1 or -1.");
         }
     }
     return {};

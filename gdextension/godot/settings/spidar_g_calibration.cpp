@@ -15,7 +15,7 @@ std::string copy_eight(const char *field, const Packed &from,
     }
     if (from.size() != spidar::kStringCount) {
         return std::string("SpidarGCalibration.") + field + " has " + std::to_string(from.size()) +
-               " values: give 8, one a string, or none for the ideal device.";
+               " values: give 8, one per string, or none for the ideal device.";
     }
     const auto *values = from.ptr();
     for (std::size_t i = 0; i < to.size(); ++i) {

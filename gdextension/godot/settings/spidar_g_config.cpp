@@ -34,7 +34,7 @@ std::string refuse_eight(const char *field, const godot::PackedFloat64Array &val
     }
     if (values.size() != spidar::kStringCount) {
         return std::string("SpidarGConfig.") + field + " has " + std::to_string(values.size()) +
-               " values: give 8, one a string, or none.";
+               " values: give 8, one per string, or none.";
     }
     for (int i = 0; i < spidar::kStringCount; ++i) {
         if (!(values[i] >= low && values[i] <= high)) {
@@ -54,7 +54,7 @@ std::string SpidarGConfig::own_problem() const {
         if (!(size > 0.0 && std::isfinite(size))) {
             const char *const fields[] = {"frame_size.x", "frame_size.y", "frame_size.z"};
             return complaint(fields[axis], size, "m",
-                             "give the frame's outer size along this axis, above zero.");
+                             "give the outer size of the frame along this axis, above 0.");
         }
     }
     if (transport_ < TRANSPORT_AUTOMATIC || transport_ > TRANSPORT_SERIAL) {
@@ -74,18 +74,18 @@ std::string SpidarGConfig::own_problem() const {
         return complaint("device_product_id", device_product_id_, "", "choose 0 (any) to 65535.");
     }
     if (preset_ < kPresetCustom || preset_ > spidar::kPresetCount) {
-        return complaint("preset", preset_, "(index)", "choose one of the list, 0 to 6.");
+        return complaint("preset", preset_, "(index)", "choose a preset from the list, 0 to 6.");
     }
     if (rate_hz_ < 100 || rate_hz_ > 4000) {
-        return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000.");
+        return complaint("rate_hz", rate_hz_, "Hz", "choose 100 to 4000 Hz.");
     }
     if (!(jaw_open_ > 0.0 && jaw_open_ < 1.0)) {
         return complaint("jaw_open", jaw_open_, "m",
-                         "choose the opening of the open jaws, 0 to 1.");
+                         "give the opening of the open jaws, above 0 m and below 1 m.");
     }
     if (!(jaw_closed_angle_ > 0.0 && jaw_closed_angle_ < 90.0 * spidar::kDegree_rad)) {
         return complaint("jaw_closed_angle", jaw_closed_angle_, "rad",
-                         "choose the angle of the closed jaws, above 0 and below pi/2.");
+                         "give the angle of the closed jaws, 0.01 to 1.5 rad.");
     }
     constexpr double kMostOffset_m = 0.1;
     constexpr double kMostGain = 0.3;
@@ -300,7 +300,7 @@ void SpidarGConfig::_bind_methods() {
                         "Custom,Paper,SpidarG6X3R,SpidarG6X3L,SpidarG6X5R,SpidarG6X5L,SpidarG6X4");
     SPIDAR_G_BIND_FIELD(Self, Variant::VECTOR3, frame_size, PROPERTY_HINT_NONE, "suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, pole_half_length, PROPERTY_HINT_RANGE,
-                        "0.005,0.2,0.0001,or_greater,suffix:m");
+                        "0.001,0.2,0.0001,or_greater,suffix:m");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, transport, godot::PROPERTY_HINT_ENUM,
                         "Automatic,Simulated,Device,Serial");
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, device_product, PROPERTY_HINT_NONE, "");
@@ -310,48 +310,59 @@ void SpidarGConfig::_bind_methods() {
     SPIDAR_G_BIND_FIELD(Self, Variant::STRING, serial_port, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, Variant::PACKED_INT32_ARRAY, serial_motors, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, real, serial_units_per_ampere, PROPERTY_HINT_RANGE,
-                        "1,10000,0.1,or_greater");
+                        "0,10000,0.1,or_greater,suffix:units/A");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, serial_most_units, PROPERTY_HINT_RANGE, "1,4095,1");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, button_device, PROPERTY_HINT_RANGE, "0,31,1");
     ADD_GROUP("Servo Loop", "");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, rate_hz, PROPERTY_HINT_RANGE, "100,4000,1,suffix:Hz");
-    SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "5,500,1,suffix:Hz");
+    SPIDAR_G_BIND_FIELD(Self, real, velocity_cutoff_hz, PROPERTY_HINT_RANGE, "1,1000,1,suffix:Hz");
     ADD_GROUP("Rendering", "");
-    SPIDAR_G_BIND_FIELD(Self, real, string_resonance_hz, PROPERTY_HINT_RANGE, "0,400,1,suffix:Hz");
+    SPIDAR_G_BIND_FIELD(Self, real, string_resonance_hz, PROPERTY_HINT_RANGE,
+                        "0,400,1,or_greater,suffix:Hz");
     SPIDAR_G_BIND_FIELD(Self, real, delay_compensation, PROPERTY_HINT_RANGE,
                         "0,0.02,0.0001,suffix:s");
     SPIDAR_G_BIND_FIELD(Self, real, link_latency, PROPERTY_HINT_RANGE, "0,0.05,0.0001,suffix:s");
-    SPIDAR_G_BIND_FIELD(Self, real, max_stiffness, PROPERTY_HINT_RANGE, "0,5000,1,suffix:N/m");
+    SPIDAR_G_BIND_FIELD(Self, real, max_stiffness, PROPERTY_HINT_RANGE,
+                        "0,5000,1,or_greater,suffix:N/m");
     SPIDAR_G_BIND_FIELD(Self, real, max_turn_stiffness, PROPERTY_HINT_RANGE,
-                        "0,10,0.01,suffix:N m/rad");
+                        "0,10,0.01,or_greater,suffix:N m/rad");
     SPIDAR_G_BIND_FIELD(Self, real, max_grasp_stiffness, PROPERTY_HINT_RANGE,
-                        "0,5,0.01,suffix:N m/rad");
+                        "0,5,0.01,or_greater,suffix:N m/rad");
     SPIDAR_G_BIND_FIELD(Self, real, compensated_mass, PROPERTY_HINT_RANGE, "0,1,0.001,suffix:kg");
     SPIDAR_G_BIND_FIELD(Self, real, compensated_friction, PROPERTY_HINT_RANGE,
                         "0,0.5,0.001,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, real, compensated_viscous, PROPERTY_HINT_RANGE,
                         "0,1,0.001,suffix:N s/m");
     ADD_GROUP("Tensions", "");
-    SPIDAR_G_BIND_FIELD(Self, real, tension_min, PROPERTY_HINT_RANGE, "0,5,0.01,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, tension_reference, PROPERTY_HINT_RANGE, "0,10,0.01,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, tension_max, PROPERTY_HINT_RANGE, "0.5,30,0.1,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, moment_weight, PROPERTY_HINT_RANGE, "0.1,200,0.1,suffix:1/m");
-    SPIDAR_G_BIND_FIELD(Self, real, ridge, PROPERTY_HINT_RANGE, "1e-12,0.1,1e-12,exp");
-    SPIDAR_G_BIND_FIELD(Self, real, reference_weight, PROPERTY_HINT_RANGE, "0,0.1,1e-7,exp");
-    SPIDAR_G_BIND_FIELD(Self, real, change_weight, PROPERTY_HINT_RANGE, "0,1,1e-7,exp");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_min, PROPERTY_HINT_RANGE,
+                        "0,5,0.01,or_greater,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_reference, PROPERTY_HINT_RANGE,
+                        "0,10,0.01,or_greater,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_max, PROPERTY_HINT_RANGE,
+                        "0,30,0.1,or_greater,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, moment_weight, PROPERTY_HINT_RANGE,
+                        "0,200,0.1,or_greater,suffix:1/m");
+    SPIDAR_G_BIND_FIELD(Self, real, ridge, PROPERTY_HINT_RANGE, "1e-12,0.1,1e-12,exp,or_greater");
+    SPIDAR_G_BIND_FIELD(Self, real, reference_weight, PROPERTY_HINT_RANGE,
+                        "0,0.1,1e-7,exp,or_greater");
+    SPIDAR_G_BIND_FIELD(Self, real, change_weight, PROPERTY_HINT_RANGE, "0,1,1e-7,exp,or_greater");
     ADD_GROUP("Safety", "");
-    SPIDAR_G_BIND_FIELD(Self, real, tension_slew, PROPERTY_HINT_RANGE, "0.05,10,0.05,suffix:N/ms");
-    SPIDAR_G_BIND_FIELD(Self, real, arming_time, PROPERTY_HINT_RANGE, "0.1,10,0.1,suffix:s");
-    SPIDAR_G_BIND_FIELD(Self, real, max_force, PROPERTY_HINT_RANGE, "0.1,40,0.1,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, max_moment, PROPERTY_HINT_RANGE, "0.01,2,0.01,suffix:N m");
+    SPIDAR_G_BIND_FIELD(Self, real, tension_slew, PROPERTY_HINT_RANGE,
+                        "0.001,10,0.001,or_greater,suffix:N/ms");
+    SPIDAR_G_BIND_FIELD(Self, real, arming_time, PROPERTY_HINT_RANGE,
+                        "0.001,10,0.001,or_greater,suffix:s");
+    SPIDAR_G_BIND_FIELD(Self, real, max_force, PROPERTY_HINT_RANGE, "0,40,0.1,or_greater,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, max_moment, PROPERTY_HINT_RANGE,
+                        "0,2,0.01,or_greater,suffix:N m");
     SPIDAR_G_BIND_FIELD(Self, real, max_grasp_torque, PROPERTY_HINT_RANGE,
-                        "0.01,2,0.01,suffix:N m");
+                        "0,2,0.01,or_greater,suffix:N m");
     bind_grasp();
     ADD_GROUP("Simulated Device", "simulated_");
     SPIDAR_G_BIND_FIELD(Self, Variant::BOOL, simulated_elastic, PROPERTY_HINT_NONE, "");
     SPIDAR_G_BIND_FIELD(Self, real, simulated_string_stiffness, PROPERTY_HINT_RANGE,
-                        "500,30000,100,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, simulated_friction, PROPERTY_HINT_RANGE, "0,0.5,0.01,suffix:N");
+                        "10,30000,10,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, simulated_friction, PROPERTY_HINT_RANGE,
+                        "0,0.5,0.01,or_greater,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, Variant::INT, simulated_hand_firmness, godot::PROPERTY_HINT_ENUM,
                         "Light,Normal,Firm");
     const Variant::Type reals = Variant::PACKED_FLOAT64_ARRAY;

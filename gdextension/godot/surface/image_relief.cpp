@@ -28,8 +28,8 @@ std::shared_ptr<const CookedShape> relief_of(const godot::Texture2D &texture,
     }
     const godot::Ref<godot::Image> image = given->duplicate();
     if (image->is_compressed() && image->decompress() != godot::OK) {
-        problem = "is compressed in a way that cannot be read: import it as Lossless. The surface "
-                  "has grooves or pits in its place.";
+        problem = "has a compression that cannot be read: import it as Lossless. The surface has "
+                  "grooves or pits instead.";
         return nullptr;
     }
     image->convert(godot::Image::FORMAT_RGBAF);
@@ -50,7 +50,7 @@ std::shared_ptr<const CookedShape> relief_of(const godot::Texture2D &texture,
         static_cast<std::size_t>(description.columns) * static_cast<std::size_t>(description.rows);
     if (static_cast<std::size_t>(bytes.size()) < count * kChannels * sizeof(float)) {
         problem = "has fewer bytes than pixels: give another image. The surface has grooves or "
-                  "pits in its place.";
+                  "pits instead.";
         return nullptr;
     }
     description.heights_m.resize(count);
@@ -65,8 +65,8 @@ std::shared_ptr<const CookedShape> relief_of(const godot::Texture2D &texture,
     }
     CookResult cooked = cook(std::move(description));
     if (cooked.shape == nullptr) {
-        problem = "cannot be a relief: " + cooked.sentence +
-                  " The surface has grooves or pits in its place.";
+        problem =
+            "cannot be a relief: " + cooked.sentence + " The surface has grooves or pits instead.";
     }
     return cooked.shape;
 }

@@ -21,7 +21,7 @@ void SpidarGMaterial::take(const char *name, double value, double least, double 
     } else if (const std::string problem =
                    spidar::range_sentence({name, value, unit, std::max(least, 0.0), most});
                !problem.empty()) {
-        refuse(problem + (least == kNotSaid ? " -1 leaves it to the physics material." : "") +
+        refuse(problem + (least == kNotSaid ? " With -1 the physics material applies." : "") +
                " The old value stays.");
         return;
     }
@@ -41,7 +41,7 @@ void SpidarGMaterial::set_stick_slip(bool wanted) {
 void SpidarGMaterial::set_texture_direction(const godot::Vector3 &direction) {
     if (!direction.is_finite()) {
         refuse("texture_direction is not finite: give a direction in the body's frame, or zero for "
-               "pits. It stays as it was.");
+               "pits. The old value stays.");
         return;
     }
     if (direction != texture_direction_) {
@@ -104,27 +104,33 @@ void SpidarGMaterial::_bind_methods() {
     using Self = SpidarGMaterial;
     constexpr auto real = godot::Variant::FLOAT;
     ADD_GROUP("Press", "");
-    SPIDAR_G_BIND_FIELD(Self, real, stiffness, godot::PROPERTY_HINT_RANGE, "0,2000,1,suffix:N/m");
-    SPIDAR_G_BIND_FIELD(Self, real, damping, godot::PROPERTY_HINT_RANGE, "0,5,0.1,suffix:N s/m");
+    SPIDAR_G_BIND_FIELD(Self, real, stiffness, godot::PROPERTY_HINT_RANGE,
+                        "0,2000,1,or_greater,suffix:N/m");
+    SPIDAR_G_BIND_FIELD(Self, real, damping, godot::PROPERTY_HINT_RANGE,
+                        "0,5,0.1,or_greater,suffix:N s/m");
     SPIDAR_G_BIND_FIELD(Self, real, squeeze_stiffness, godot::PROPERTY_HINT_RANGE,
-                        "0,0.4,0.01,suffix:N m/rad");
+                        "0,0.4,0.01,or_greater,suffix:N m/rad");
     ADD_GROUP("Slide", "");
-    SPIDAR_G_BIND_FIELD(Self, real, dynamic_friction, godot::PROPERTY_HINT_RANGE, "-1,2,0.01");
-    SPIDAR_G_BIND_FIELD(Self, real, static_friction, godot::PROPERTY_HINT_RANGE, "-1,2,0.01");
+    SPIDAR_G_BIND_FIELD(Self, real, dynamic_friction, godot::PROPERTY_HINT_RANGE,
+                        "-1,2,0.01,or_greater");
+    SPIDAR_G_BIND_FIELD(Self, real, static_friction, godot::PROPERTY_HINT_RANGE,
+                        "-1,2,0.01,or_greater");
     spidar::bind_checked<&Self::set_stick_slip, "", "set_stick_slip", "stick_slip">();
     godot::ClassDB::bind_method(godot::D_METHOD("is_stick_slip"), &Self::is_stick_slip);
     ADD_PROPERTY(godot::PropertyInfo(godot::Variant::BOOL, "stick_slip"), "set_stick_slip",
                  "is_stick_slip");
     ADD_GROUP("Pull", "");
-    SPIDAR_G_BIND_FIELD(Self, real, adhesion, godot::PROPERTY_HINT_RANGE, "0,5,0.05,suffix:N");
-    SPIDAR_G_BIND_FIELD(Self, real, magnet_force, godot::PROPERTY_HINT_RANGE, "0,5,0.05,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, adhesion, godot::PROPERTY_HINT_RANGE,
+                        "0,5,0.05,or_greater,suffix:N");
+    SPIDAR_G_BIND_FIELD(Self, real, magnet_force, godot::PROPERTY_HINT_RANGE,
+                        "0,5,0.05,or_greater,suffix:N");
     SPIDAR_G_BIND_FIELD(Self, real, magnet_range, godot::PROPERTY_HINT_RANGE,
-                        "0,0.1,0.001,suffix:m");
+                        "0,0.1,0.001,or_greater,suffix:m");
     ADD_GROUP("Texture", "texture_");
     SPIDAR_G_BIND_FIELD(Self, real, texture_wavelength, godot::PROPERTY_HINT_RANGE,
-                        "0,0.05,0.0001,suffix:m");
+                        "0,0.05,0.0001,or_greater,suffix:m");
     SPIDAR_G_BIND_FIELD(Self, real, texture_depth, godot::PROPERTY_HINT_RANGE,
-                        "0,0.002,0.00001,suffix:m");
+                        "0,0.002,0.00001,or_greater,suffix:m");
     spidar::bind_checked<&Self::set_texture_image, "", "set_texture_image", "texture_image">();
     godot::ClassDB::bind_method(godot::D_METHOD("get_texture_image"), &Self::get_texture_image);
     ADD_PROPERTY(godot::PropertyInfo(godot::Variant::OBJECT, "texture_image",

@@ -58,7 +58,7 @@ godot::PackedStringArray SpidarGSurface::_get_configuration_warnings() const {
                            "StaticBody3D, RigidBody3D or another body.");
     } else if (is_inside_tree() && of(body->get_instance_id()) != this) {
         warnings.push_back(
-            "The body has another SpidarGSurface already, which counts: remove one.");
+            "The body already has another SpidarGSurface, which is the one in use: remove one.");
     }
     if (material_.is_null()) {
         warnings.push_back(

@@ -64,7 +64,9 @@ PaperWrench paper_wrench(const godot::Vector3 &force, const godot::Vector3 &mome
 bool is_finite(const char *method, const PaperWrench &wrench) {
     const bool good = spidar::all_finite(wrench);
     if (!good) {
-        complain(method, "force (N), moment (N m) and grasp_torque (N m) must be finite.");
+        complain(
+            method,
+            "force (N), moment (N m) or grasp_torque (N m) is not finite: give finite numbers.");
     }
     return good;
 }
@@ -133,8 +135,9 @@ SpidarGWorkspace::place(const char *method, const Transform3D &pose, double gras
     const Vec3 position = spidar::to_core(pose.origin);
     const spidar::Mat3 turn = spidar::to_core(pose.basis);
     if (!spidar::all_finite(position) || !is_rotation(turn)) {
-        complain(method, "the pose of the grip (m) must be finite and its basis a pure rotation; "
-                         "use Basis.orthonormalized().");
+        complain(method,
+                 "the pose of the grip (m) is not finite or its basis is not a pure rotation: "
+                 "give finite numbers and use Basis.orthonormalized().");
         return std::nullopt;
     }
     if (!(std::abs(grasp_angle) <= 90.0 * spidar::kDegree_rad)) {
@@ -171,7 +174,7 @@ PackedFloat64Array SpidarGWorkspace::get_closure_margins(const PackedVector3Arra
         pose.position_m = spidar::to_core(positions[i]);
         if (!spidar::all_finite(pose.position_m)) {
             complain("get_closure_margins",
-                     "position " + std::to_string(i) + " (m) must be finite.");
+                     "position " + std::to_string(i) + " (m) is not finite: give finite numbers.");
             return {};
         }
         margins[i] =
@@ -195,8 +198,8 @@ PackedFloat64Array SpidarGWorkspace::capacity(const char *method, std::size_t fi
         const double length = glm::length(direction);
         if (!(length > kLeastDirection) || !spidar::all_finite(direction)) {
             complain(method, "direction " + std::to_string(i) +
-                                 " has no length or is not finite; its length does not matter, "
-                                 "but give some.");
+                                 " is zero or not finite: give a finite vector of any length "
+                                 "above 0.");
             return {};
         }
         PaperWrench wrench{};

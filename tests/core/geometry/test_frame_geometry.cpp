@@ -51,7 +51,7 @@ TEST_CASE("frame: validate names field, value, unit and remedy") {
 
     const FrameGeometry millimetres = make_box_frame(Vec3(240.0));
     CHECK(mentions(validate(millimetres), "motors_m[0] (string 1).x is 240 m"));
-    CHECK(mentions(validate(millimetres), "not millimetres"));
+    CHECK(mentions(validate(millimetres), "not millimeters"));
     CHECK_FALSE(is_usable(millimetres));
 
     const FrameGeometry point{};
@@ -59,6 +59,6 @@ TEST_CASE("frame: validate names field, value, unit and remedy") {
     CHECK_FALSE(is_usable(point));
 
     const FrameGeometry flat = make_box_frame(Vec3(0.24, 0.24, 0.0));
-    CHECK(mentions(validate(flat), "motors_m lies in a slab 0 m thick; spread"));
+    CHECK(mentions(validate(flat), "motors_m lie in a slab 0 m thick; spread"));
     CHECK_FALSE(is_usable(flat));
 }

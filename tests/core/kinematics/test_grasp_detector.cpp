@@ -78,7 +78,8 @@ TEST_CASE("grasp: validate names field, value, unit and remedy") {
     CHECK(validate(GraspSettings{}).empty());
     GraspSettings bad;
     bad.leave_rad = 30.0 * kDegree_rad;
-    CHECK(validate(bad).find("leave_rad is 0.523598776 rad (30 degrees); it must not exceed") == 0);
+    CHECK(validate(bad).find("leave_rad is 0.523598776 rad (30 degrees); set it to enter_rad") ==
+          0);
     bad = GraspSettings{};
     bad.dwell_s = 30.0;
     CHECK(validate(bad).find("dwell_s is 30 s; give") == 0);

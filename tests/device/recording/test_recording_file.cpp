@@ -167,8 +167,8 @@ TEST_CASE("recording: bytes after the end, random bytes and other files are told
     CHECK_FALSE(longer.closed);
     CHECK(longer.damage.find("after its end") != std::string::npos);
     CHECK(longer.digests.size() == 20);
-    CHECK(read("").problem.find("no recording") != std::string::npos);
-    CHECK(read("RIFF....WAVE").problem.find("no recording") != std::string::npos);
+    CHECK(read("").problem.find("not a recording") != std::string::npos);
+    CHECK(read("RIFF....WAVE").problem.find("not a recording") != std::string::npos);
     std::mt19937_64 random(9);
     for (int i = 0; i < 300; ++i) {
         std::string noise = whole.substr(0, 8);
@@ -312,7 +312,7 @@ TEST_CASE("recording: the head gives the settings back, to the bit, in any local
     CHECK(back.settings.tension.simd == info.settings.tension.simd);
     // Fields of a later version are passed over; what cannot be is refused.
     CHECK(read_text(text + "settings.safety.invented.0=0x1p+0\n", back) == "");
-    CHECK(read_text(text + "command_words=-3\n", back).find("cannot be") != std::string::npos);
+    CHECK(read_text(text + "command_words=-3\n", back).find("is not valid") != std::string::npos);
     CHECK(read_text("spidar_g recording\nformat=1\n", back) == "");
     CHECK(read_text("spidar_g recording\nformat=4\n", back).find("format 4") != std::string::npos);
     CHECK(read_text("spidar_g recording\nformat=0\n", back).find("format 0") != std::string::npos);

@@ -27,17 +27,17 @@ TEST_CASE("serial motors: in order, they go through the boards") {
     CHECK(places[3] == 0);
     CHECK(places[7] == 1);
     const BoardLayout one[] = {kFirst};
-    CHECK(validate(motors_in_order(one, {}), one).find("String 4") == 0);
+    CHECK(validate(motors_in_order(one, {}), one).find("String 5") == 0);
 }
 
 TEST_CASE("serial motors: a table that cannot be is told") {
     SerialMotorTable table = motors_in_order(kBoth, {});
     table[5].motor = 4;
-    CHECK(validate(table, kBoth).find("String 5: board 6, motor 4 is not on the bus") == 0);
+    CHECK(validate(table, kBoth).find("String 6: board 6, motor 4 is not on the bus") == 0);
     table[5].motor = -1;
     CHECK(!validate(table, kBoth).empty());
     table[5] = table[1];
-    CHECK(validate(table, kBoth).find("pulls string 1 already") != std::string::npos);
+    CHECK(validate(table, kBoth).find("pulls string 2 already") != std::string::npos);
     table = motors_in_order(kBoth, {});
     table[7].current_sign = 0;
     CHECK(validate(table, kBoth).find("signs") != std::string::npos);

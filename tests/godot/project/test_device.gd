@@ -115,7 +115,7 @@ func test_settings_that_no_device_can_have_are_refused() -> void:
 	check_equal(config.get_problem(), "", "a motor for each string")
 	motors[2] = 0
 	config.serial_motors = motors
-	check(config.get_problem().contains("string 0"), config.get_problem())
+	check(config.get_problem().contains("string 1"), config.get_problem())
 	config.serial_motors = PackedInt32Array()
 	config.serial_most_units = 5000
 	check(config.get_problem().contains("serial_most_units"), config.get_problem())

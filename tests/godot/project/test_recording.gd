@@ -116,7 +116,7 @@ func test_bad_paths_and_states_are_refused() -> void:
 	check(not device.start_replay("user://noise.rec"), "another file")
 	check_equal(rejected.size(), 5, "each refusal is told")
 	for i: int in rejected.size():
-		var words: String = ["no device", "running scene", "folder", "no such file", "no recording"][i]
+		var words: String = ["no device", "running scene", "folder", "does not exist", "not a recording"][i]
 		check(rejected[i].contains(words), "\"%s\" in: %s" % [words, rejected[i]])
 	check(is_open(device), "the device stays open")
 	device.stop_recording() # neither runs: nothing happens

@@ -49,8 +49,8 @@ std::string validate(const SelfCalibrationSettings &settings) {
                               "give 1 or more; 5 is usual.");
     }
     if ((settings.fit_winding || settings.fit_sizes) && !settings.fit_gains) {
-        return "fit_gains is false; winding and sizes can be told from the gains only when these "
-               "are fitted too: set it.";
+        return "fit_gains is false, but winding and sizes can be separated from the gains only if "
+               "the gains are fitted too; set fit_gains.";
     }
     return {};
 }
@@ -77,9 +77,9 @@ std::string describe(const WeakCombination &combination) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::fabs(combination.coefficients[a]) > std::fabs(combination.coefficients[b]);
     });
-    std::string text = "left open to " +
+    std::string text = "known only to " +
                        std::to_string(static_cast<int>(std::lround(100 * combination.left_open))) +
-                       " % of what was assumed:";
+                       " % of the assumed error:";
     for (std::size_t k = 0; k < kNamedParts; ++k) {
         const double part = combination.coefficients[order[k]];
         if (k == 0 || std::fabs(part) >= kNamedShare) {

@@ -108,7 +108,7 @@ struct SelfCalibrationResult {
 [[nodiscard]] std::string validate(const SelfCalibrationSettings &settings);
 // Returns "offset of string 3", "gain of string 1" or "frame size along z".
 [[nodiscard]] std::string unknown_name(std::size_t unknown);
-// Returns "left open to 45 % of what was assumed: + offset of string 1 - gain of string 1 ...",
+// Returns "known only to 45 % of the assumed error: + offset of string 1 - gain of string 1 ...",
 // with the largest parts only.
 [[nodiscard]] std::string describe(const WeakCombination &combination);
 

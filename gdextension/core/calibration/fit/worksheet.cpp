@@ -44,9 +44,9 @@ std::string CalibrationWorksheet::add_zero(const CountArray &counts) {
         if (!(found.spread_m[i] <= kMostHomeSpread_m)) {
             problem = "String " + std::to_string(i + 1) + " was " +
                       with_unit(found.spread_m[i], "m") +
-                      " (standard deviation) away from its other readings at home, limit " +
+                      " (standard deviation) away from its other readings at home; the limit is " +
                       with_unit(kMostHomeSpread_m, "m") +
-                      ": put the grip into its stand, strings taut, and read again.";
+                      ". Put the grip into its stand, keep the strings taut, and read again.";
         }
     }
     if (!problem.empty()) {
@@ -77,8 +77,8 @@ std::string CalibrationWorksheet::add_length(std::size_t string, std::int32_t co
         pairs.pop_back();
         return "With length_m " + with_unit(length_m, "m") + " the scale of string " +
                std::to_string(string + 1) + " would be " + percent(error) +
-               " off the nominal one, limit " + percent(kMostScaleError) +
-               ": check the ruler's reading and that it is this string; the reading was left out.";
+               " off the nominal scale; the limit is " + percent(kMostScaleError) +
+               ". Check the ruler's reading and that it is this string; the reading was ignored.";
     }
     return {};
 }
@@ -99,8 +99,9 @@ std::string CalibrationWorksheet::add_weight(std::size_t string, const WeightRea
     const double gain = reading.weight_n / mean;
     if (!(mean > 0.0) || !(std::fabs(gain - 1.0) <= kMostGainError)) {
         return "weight_n " + with_unit(reading.weight_n, "N") + " was balanced by a commanded " +
-               with_unit(mean, "N") + ", more than " + percent(kMostGainError) +
-               " apart: check the weight (1 kg is 9.81 N) and that it hangs on this string.";
+               with_unit(mean, "N") + ", and the two differ by more than " +
+               percent(kMostGainError) +
+               ". Check the weight (1 kg is 9.81 N) and that it hangs on this string.";
     }
     weights_[string].push_back(reading);
     return {};
@@ -228,23 +229,23 @@ std::string CalibrationWorksheet::refusal(const SelfCalibrationResult &result) {
     }
     if (!(result.parity_rms_m <= kMostParity_m)) {
         return "After the fit the eight lengths still contradict each other by " +
-               with_unit(result.parity_rms_m, "m") + " rms, limit " +
+               with_unit(result.parity_rms_m, "m") + " rms; the limit is " +
                with_unit(kMostParity_m, "m") +
-               ": check the wiring, the preset and the frame's size, and that no string slips.";
+               ". Check the wiring, the preset and the frame's size, and that no string slips.";
     }
     if (!(result.grip_error_rms_m <= kMostGripError_m)) {
-        return "From these poses the grip would be known to " +
-               with_unit(result.grip_error_rms_m, "m") + " only, limit " +
+        return "From these poses the position of the grip would be known only to " +
+               with_unit(result.grip_error_rms_m, "m") + "; the limit is " +
                with_unit(kMostGripError_m, "m") +
-               ": move it through more of the workspace, and turn, open and close it.";
+               ". Move the grip through more of the workspace, and turn, open and close it.";
     }
     const int left_out =
         result.rejected_outliers + result.rejected_singular + result.rejected_unsolved;
     if (result.used < left_out) {
         return "Only " + std::to_string(result.used) + " of " +
                std::to_string(result.used + left_out) +
-               " poses fit together: zero at the home pose first, then move slower and keep "
-               "within the frame.";
+               " poses agree with each other. Zero at the home pose first, then move the grip more "
+               "slowly and keep it within the frame.";
     }
     return {};
 }

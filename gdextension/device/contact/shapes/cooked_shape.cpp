@@ -34,14 +34,15 @@ Refusal wrong(std::string sentence) {
 }
 
 Refusal not_finite(const char *field) {
-    return {Status::not_finite, std::string(field) + " is NaN or infinite."};
+    return {Status::not_finite, std::string(field) + " is NaN or infinite; give a finite number."};
 }
 
 Refusal check_size(double value, const char *field) {
     if (!std::isfinite(value)) {
         return not_finite(field);
     }
-    return value > 0.0 ? Refusal{} : wrong(std::string(field) + " must be above 0.");
+    return value > 0.0 ? Refusal{}
+                       : wrong(std::string(field) + " is not above 0; give a number above 0.");
 }
 
 bool refused(const Refusal &refusal) {
@@ -141,11 +142,11 @@ Refusal cook_mesh(CookedShape::Data &data, int &dropped) {
     }
     const auto outside = [&shape](std::uint32_t index) { return index >= shape.points_m.size(); };
     if (std::any_of(shape.indices.begin(), shape.indices.end(), outside)) {
-        return wrong("An index of the mesh is no place in points_m.");
+        return wrong("An index of the mesh is outside of points_m.");
     }
     dropped = weld(shape);
     if (shape.indices.empty()) {
-        return wrong("Every triangle of the mesh is without area.");
+        return wrong("Every triangle of the mesh has zero area.");
     }
     data.neighbours = find_neighbours(shape.indices);
     data.sharp_edges = find_sharp_edges(TriangleSource(data));
@@ -198,7 +199,7 @@ Refusal cook_half_space(CookedShape::Data &data) {
     }
     const double length = glm::length(wall.normal);
     if (!(length > 0.0) || !std::isfinite(length)) {
-        return wrong("normal of a half space has no length, or too much.");
+        return wrong("The normal of a half space is zero or too long; give a unit vector.");
     }
     // A normal that was normalized before stays unchanged, bit for bit.
     constexpr double kRoundings = 1e-14;
@@ -226,7 +227,7 @@ Refusal cook_relief(CookedShape::Data &data) {
             return not_finite("A height of heights_m");
         }
         if (height < 0.0F || height > 1.0F) {
-            return wrong("A height of a relief must be from 0 to 1.");
+            return wrong("A height of a relief is outside 0 to 1; give heights from 0 to 1.");
         }
     }
     data.relief = make_relief_levels(map.columns, map.rows, map.heights_m);
@@ -252,7 +253,7 @@ Refusal cook_kind(CookedShape::Data &data, int &dropped) {
     case ShapeKind::relief:
         return cook_relief(data);
     }
-    return wrong("This kind of shape is not known.");
+    return wrong("This kind of shape is unknown.");
 }
 
 template <class T>
@@ -315,7 +316,7 @@ CookResult cook(ShapeDescription description) {
     }
     if (result.dropped_triangles > 0) {
         result.sentence = std::to_string(result.dropped_triangles) +
-                          " triangles without area were left out of the mesh.";
+                          " triangles with zero area were removed from the mesh.";
     }
     result.shape = std::make_shared<const CookedShape>(std::move(data));
     return result;

@@ -53,8 +53,8 @@ ToolResult make_pad(double radius_m, double half_thickness_m, double skin_m) {
         return refuse("A pad needs a radius, a half thickness and a skin above 0.");
     }
     if (skin_m > half_thickness_m || skin_m >= radius_m) {
-        return refuse("The skin of a pad is thicker than the pad; make skin_m at most "
-                      "half_thickness_m, and less than radius_m.");
+        return refuse("The skin of a pad is thicker than the pad; set skin_m to at most "
+                      "half_thickness_m and below radius_m.");
     }
     auto data = std::make_unique<ToolShape::Data>();
     data->description = {ToolKind::pad, radius_m, half_thickness_m, skin_m, {}};
@@ -82,7 +82,7 @@ ToolResult make_tool(const CookedShape &shape, double skin_m) {
         return refuse("A tool needs a skin above 0.");
     }
     if (!shape.convex() || shape.kind() == ShapeKind::half_space) {
-        return refuse("A mesh, a height map or a half space is no tool; give its convex hull.");
+        return refuse("A mesh, a height map or a half space cannot be a tool; give a convex hull.");
     }
     const CookedShape::Data &from = shape.data();
     auto data = std::make_unique<ToolShape::Data>();
@@ -109,8 +109,7 @@ ToolResult make_tool(const CookedShape &shape, double skin_m) {
     case CoreKind::points:
         data->skin_m = skin_m;
         if (!shrink_hull(from.core, data->skin_m, data->core)) {
-            return refuse(
-                "The hull is too thin or too uneven for a skin; give a box in its place.");
+            return refuse("The hull is too thin or too uneven for a skin; use a box instead.");
         }
         break;
     }
@@ -134,7 +133,7 @@ ToolResult make_tool(const ToolDescription &description) {
         return result;
     }
     }
-    return refuse("This kind of tool is not known.");
+    return refuse("This kind of tool is unknown.");
 }
 
 } // namespace spidar

@@ -43,24 +43,27 @@ std::string problem_of(const Pinch &pinch, const RigidBody3D &body, const GraspJ
     const double carried_n = 2.0 * friction * finger_force_n;
     const double weight_n = terms.weight_scale * body.get_mass() * gravity_on(body);
     if (body.is_freeze_enabled()) {
-        return "the body is frozen: set freeze to false to let it be lifted";
+        return "the body is frozen: set freeze to false so that it can be lifted";
     }
     if (PhysicsServer3D::get_singleton()->body_get_mode(body.get_rid()) <
         PhysicsServer3D::BODY_MODE_RIGID) {
-        return "the body is disabled: let its process_mode run to let it be lifted";
+        return "the body is disabled: set its process_mode so that it runs and can be lifted";
     }
     if (pinch.opposition_deg < kMinOpposition_deg) {
-        return text("its faces are %.0f degrees apart, at least %.0f are needed: turn the grip",
-                    pinch.opposition_deg, kMinOpposition_deg);
+        return text(
+            "its faces are %.0f degrees apart, but at least %.0f degrees are needed: turn the grip",
+            pinch.opposition_deg, kMinOpposition_deg);
     }
     if (finger_force_n < terms.min_force_n) {
-        return text("the squeeze is %.2f N, at least %.2f N is needed: close further",
-                    finger_force_n, terms.min_force_n);
+        return text(
+            "the squeeze is %.2f N, but at least %.2f N is needed (hold_torque): close further",
+            finger_force_n, terms.min_force_n);
     }
     if (carried_n < weight_n) {
-        return text("a squeeze of %.2f N carries %.2f N at friction %.2f, the body weighs %.2f N: "
-                    "close further",
-                    finger_force_n, carried_n, friction, weight_n);
+        return text(
+            "a squeeze of %.2f N carries %.2f N at friction %.2f, but the body weighs %.2f N: "
+            "close further, raise the friction or lower weight_scale",
+            finger_force_n, carried_n, friction, weight_n);
     }
     return {};
 }

@@ -73,8 +73,8 @@ double BodyFactsReader::from_metadata(const Object &object, OldName &old) {
         messages_.push_back("the metadata " +
                             std::string(godot::String(old.name).utf8().get_data()) + " of \"" +
                             name +
-                            "\" will not be read by the next version. Give the body a "
-                            "SpidarGSurface whose SpidarGMaterial has " +
+                            "\" is deprecated: the next version does not read it. Give the "
+                            "body a SpidarGSurface whose SpidarGMaterial has " +
                             old.property + " = " + with_unit(number, "") + ".");
     }
     return number;

@@ -40,13 +40,14 @@ bool same_scale(const Vec3 &a, const Vec3 &b) noexcept {
 std::string refusal(const ShapeData &data) {
     switch (data.numbers.type) {
     case PhysicsServer3D::SHAPE_SEPARATION_RAY:
-        return "a separation ray has no surface and is not felt.";
+        return "a separation ray has no surface; use another shape.";
     case PhysicsServer3D::SHAPE_SOFT_BODY:
-        return "a soft body is not felt.";
+        return "it belongs to a soft body; use a rigid body.";
     case PhysicsServer3D::SHAPE_CUSTOM:
-        return "a shape of a custom kind is not felt.";
+        return "its type is custom; use a shape of Godot.";
     default:
-        return data.readable ? "" : "the physics server does not tell its data.";
+        return data.readable ? ""
+                             : "the physics server does not report its data; set the shape again.";
     }
 }
 

@@ -235,7 +235,7 @@ void Surroundings::add_candidate(NearBody &body, std::size_t index, std::uint8_t
             told_sheared_.end()) {
             told_sheared_.push_back(shape.id);
             tell(body.name() + ": shape " + std::to_string(index) +
-                 " is not felt: it is sheared, or it has no size along an axis.");
+                 " is not felt: it is sheared or has no size along an axis; change its scale.");
         }
         ++counts_.refused;
         return;

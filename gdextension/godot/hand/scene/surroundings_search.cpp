@@ -121,7 +121,8 @@ void Surroundings::meet(const godot::RID &rid, std::uint64_t object, const godot
         soft_.emplace_back(rid, object);
         const auto *node = Object::cast_to<godot::Node>(ObjectDB::get_instance(object));
         const godot::String name = node != nullptr ? godot::String(node->get_name()) : "A body";
-        tell(std::string(name.utf8().get_data()) + " is not felt: it is a soft body.");
+        tell(std::string(name.utf8().get_data()) +
+             " is not felt, because it is a soft body: use a rigid body.");
     }
 }
 

@@ -190,5 +190,6 @@ TEST_CASE("worksheet: a motion that is too small is refused, however well it fit
     CAPTURE(found.grip_error_rms_m);
     REQUIRE(usable(found.status));
     CHECK(found.parity_rms_m < kMostParity_m);
-    CHECK(CalibrationWorksheet::refusal(found).find("move it through more") != std::string::npos);
+    CHECK(CalibrationWorksheet::refusal(found).find("Move the grip through more") !=
+          std::string::npos);
 }

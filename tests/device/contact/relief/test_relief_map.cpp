@@ -129,7 +129,8 @@ TEST_CASE("relief: a description without sense is refused with what is wrong") {
     CHECK(cook(described(8, 8, std::vector<float>(63))).status == Status::invalid_shape);
     std::vector<float> heights(64, 0.5F);
     heights[9] = 1.5F;
-    CHECK(cook(described(8, 8, heights)).sentence == "A height of a relief must be from 0 to 1.");
+    CHECK(cook(described(8, 8, heights)).sentence ==
+          "A height of a relief is outside 0 to 1; give heights from 0 to 1.");
     heights[9] = std::numeric_limits<float>::quiet_NaN();
     CHECK(cook(described(8, 8, heights)).status == Status::not_finite);
 }

@@ -295,7 +295,7 @@ TEST_CASE("cooking: what a shape or a tool was made of gives the same one, to th
     CHECK(points > 1000);
     ToolDescription wrong;
     wrong.kind = static_cast<ToolKind>(9);
-    CHECK(make_tool(wrong).sentence.find("not known") != std::string::npos);
+    CHECK(make_tool(wrong).sentence.find("unknown") != std::string::npos);
     wrong.kind = ToolKind::shape;
     CHECK(make_tool(wrong).sentence.find("half_extents_m") != std::string::npos);
 }
