@@ -166,7 +166,7 @@ void SpidarGHand::try_grasp() {
         return;
     }
     // The fingers push at the poles' ends: force = torque / pole half length.
-    const double lever_m = spidar_->get_effective_config()->get_pole_half_length();
+    const double lever_m = spidar_->get_effective_config()->get_effective_pole_half_length();
     auto *const body = cast_to<RigidBody3D>(godot::ObjectDB::get_instance(pinch_.collider));
     const auto verdict =
         judge_.judge(pinch_, body, {pad_friction_, hold_torque_ / lever_m, weight_scale_},

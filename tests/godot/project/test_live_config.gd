@@ -81,7 +81,7 @@ func test_the_help_of_a_setting_says_when_it_opens_the_device_anew() -> void:
 	var path: String = ProjectSettings.globalize_path("res://") + "../../../gdextension/doc_classes/SpidarGConfig.xml"
 	var members: PackedStringArray = FileAccess.get_file_as_string(path).split("<member name=\"")
 	for member: String in members.slice(1):
-		help[member.get_slice("\"", 0)] = member.get_slice("</member>", 0).contains("Changing it opens the device anew.")
+		help[member.get_slice("\"", 0)] = member.get_slice("</member>", 0).contains("A change reopens the device")
 	var lone: SpidarG = ideal_device()
 	lone.config.device_name = "live config"
 	add(lone)

@@ -15,26 +15,33 @@ func test_a_soft_surface_gives_way_by_its_stiffness() -> void:
 		var felt: Vector3 = mean_of(await _glide(Vector3.ZERO, 400, game_cycles))
 		var depth: float = FLOOR_Y + PAD_RADIUS - device.get_grip_transform().origin.y
 		check(depth > 0.001, "pressed in by %.1f mm" % (1e3 * depth))
-		check_near(felt.y, 2.0 * 200.0 * depth, 0.05 * felt.y, "two pads, 200 N/m each, %d cycles a tick" % game_cycles)
+		check_near(felt.y, 200.0 * depth, 0.05 * felt.y, "200 N/m under both pads, %d cycles a tick" % game_cycles)
 		_free_all()
 		await physics_frames(2)
 
 
 func test_damping_is_felt_while_the_hand_presses() -> void:
 	for game_cycles: int in GAME_CYCLES:
-		var pressed: Array[float] = []
-		for damping: float in [0.0, 4.0]:
+		var found: Array[float] = []
+		for damping: float in [0.0, 0.8]:
 			var material := SpidarGMaterial.new()
-			material.stiffness = 150.0
+			material.stiffness = 200.0
 			material.damping = damping
 			await _set_up_floor(material)
 			await _rest()
-			var felt: PackedVector3Array = await _glide(Vector3(0.0, -0.02, 0.0), 200, game_cycles)
-			var still: PackedVector3Array = await _glide(Vector3.ZERO, 400, game_cycles)
-			pressed.append(felt[-1].y - still[-1].y)
+			var still: Vector3 = mean_of(await _glide(Vector3.ZERO, 400, game_cycles))
+			var n_m: float = still.y / (FLOOR_Y + PAD_RADIUS - device.get_grip_transform().origin.y)
+			# Slow enough to be steady, and for a while, so that the encoders' steps do not count.
+			var beyond: float = 0.0
+			var speed: float = 0.0
+			for _i: int in 300:
+				var felt: Vector3 = (await _glide(Vector3(0.0, -0.03, 0.0), 1, game_cycles))[0]
+				beyond += felt.y - n_m * (FLOOR_Y + PAD_RADIUS - device.get_grip_transform().origin.y)
+				speed -= device.get_linear_velocity().y
+			found.append(beyond / speed)
 			_free_all()
 			await physics_frames(2)
-		check(pressed[1] > pressed[0] + 0.02, "more while it moves: %.3f N, %.3f N without" % [pressed[1], pressed[0]])
+		check_near(found[1] - found[0], 0.8, 0.12, "N s/m more: %.2f and %.2f, %d cycles a tick" % [found[0], found[1], game_cycles])
 
 
 func test_static_friction_at_each_rate() -> void:
@@ -60,12 +67,12 @@ func test_stick_slip_at_each_rate() -> void:
 		material.stick_slip = true
 		await _set_up_floor(material)
 		var cycles: PackedVector3Array = (await _slide(Vector3(0.04, 0.0, 0.0), 2000, game_cycles)).slice(500)
-		rates.append(peak_hz(cycles, 0, 10.0))
+		rates.append(_slips_hz(cycles))
 		_free_all()
 		await physics_frames(2)
-	print("INFO stick-slip at 144, 60, 30 ticks: %s Hz" % [rates])
+	print("INFO stick-slip at 60, 144, 30 ticks: %s Hz" % [rates])
 	for hz: float in rates:
-		check_near(hz, rates[1], 0.05 * rates[1], "as at 60 ticks")
+		check_near(hz, rates[0], 0.1 * rates[0], "as at 60 ticks")
 
 
 func test_adhesion_at_each_rate() -> void:
@@ -127,7 +134,6 @@ func test_an_image_that_is_ready_later_or_unusable() -> void:
 	await _rest()
 	check(force_of(await mean_felt(10)).y > 0.3, "felt without it")
 	image.set_image(_ridges(64, 4).get_image())
-	image.emit_changed()
 	check_equal(changes[0], 2, "and one when the image came")
 	await physics_frames(10)
 	check(force_of(await mean_felt(10)).y > 0.3, "felt with it")
@@ -163,6 +169,18 @@ func test_a_change_while_the_hand_rests_comes_without_a_jolt() -> void:
 		check(_most_step(felt) < usual + MOST_STEP_N, "the hand's stiffness: steps of %.3f N, %.3f N before" % [_most_step(felt), usual])
 		_free_all()
 		await physics_frames(2)
+
+
+## How often the drag falls through half of what it holds.
+static func _slips_hz(felt: PackedVector3Array) -> float:
+	var falls: PackedInt32Array = []
+	var held: bool = false
+	for i: int in felt.size():
+		var ratio: float = -felt[i].x / felt[i].y
+		if held and ratio < 0.4:
+			falls.append(i)
+		held = ratio > 0.6 or (held and ratio >= 0.4)
+	return 1000.0 * (falls.size() - 1) / (falls[-1] - falls[0]) if falls.size() > 1 else 0.0
 
 
 static func _most_step(felt: PackedVector3Array) -> float:

@@ -179,6 +179,10 @@ private:
     // rubs, of the same tool part if there is one.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
+    // Returns the mean stretch of the friction springs of the last cycle on the surface of this
+    // contact, weighted by push; own_m when there was none.
+    [[nodiscard]] double stretch_together_m(const ProxyContact &contact,
+                                            double own_m) const noexcept;
     [[nodiscard]] double softness_together(const Rows &rows, int scene_part) const noexcept;
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
     // Updates slips_s and strained_s of the contact from `last`, the contact one cycle before (may

@@ -64,6 +64,21 @@ bool ToolProxy::pair_pushes(const ProxyContact &contact) const noexcept {
     return false;
 }
 
+// The contacts of a surface hold together: two fingers would otherwise walk, one step each.
+double ToolProxy::stretch_together_m(const ProxyContact &contact, double own_m) const noexcept {
+    double sum_nm = 0.0;
+    double push_n = 0.0;
+    for (int i = 0; i < before_count_; ++i) {
+        const ProxyContact &other = before_[static_cast<std::size_t>(i)];
+        if (other.scene_id == contact.scene_id && other.push_n > 0.0 &&
+            glm::dot(other.normal, contact.normal) >= kSameSurface) {
+            sum_nm += other.push_n * glm::length(other.stretch_m);
+            push_n += other.push_n;
+        }
+    }
+    return push_n > 0.0 ? sum_nm / push_n : own_m;
+}
+
 double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other,
                                const ProxyContact *last, double stretch_m, double m_per_coefficient,
                                double slides_m_s, double dt_s) const noexcept {
@@ -80,9 +95,12 @@ double ToolProxy::friction_now(ProxyContact &contact, const ScenePart &other,
         if (contact.slips_s > kSlip_s && stands) {
             contact.slips_s = -1.0;
         }
-    } else if (stretch_m > most_friction(other) * m_per_coefficient) {
+    } else if (stretch_together_m(contact, stretch_m) > most_friction(other) * m_per_coefficient) {
         contact.strained_s = (last != nullptr ? last->strained_s : 0.0) + dt_s;
-        contact.slips_s = contact.strained_s > kBreaks_s ? 0.0 : -1.0;
+        if (contact.strained_s > kBreaks_s) {
+            contact.slips_s = 0.0;
+            contact.strained_s = 0.0;
+        }
     }
     const double kept =
         contact.slips_s < 0.0 ? 1.0 : std::max(0.0, 1.0 - contact.slips_s / kSlip_s);
@@ -149,7 +167,9 @@ void ToolProxy::rub(const Tool &tool, const ContactScene &scene, const ToolPose 
                                                     glm::length(slides_m_s), dt_s);
             const double most_m = coefficient * all_n / all_n_m;
             contact.held_s = std::min((last != nullptr ? last->held_s : kHolds_s) + dt_s, kHolds_s);
-            if (size_m > most_m) {
+            // A static friction that holds lets the spring stretch on, and limits its force.
+            const bool holds = contact.slips_s < 0.0 && most_friction(other) > other.friction;
+            if (size_m > most_m && !holds) {
                 contact.held_s = 0.0;
                 stretch_m *= most_m / size_m;
             }

@@ -277,7 +277,8 @@ ShapeKind CookedShape::kind() const noexcept {
 }
 
 bool CookedShape::convex() const noexcept {
-    return kind() != ShapeKind::mesh && kind() != ShapeKind::height_map;
+    return kind() != ShapeKind::mesh && kind() != ShapeKind::height_map &&
+           kind() != ShapeKind::relief;
 }
 
 const ShapeDescription &CookedShape::description() const noexcept {
@@ -298,7 +299,11 @@ Vec3 CookedShape::upper_m() const noexcept {
 
 std::size_t CookedShape::bytes() const noexcept {
     const ShapeDescription &shape = data_->description;
-    return sizeof(Data) + bytes_of(shape.points_m) + bytes_of(shape.indices) +
+    std::size_t relief_bytes = 0;
+    for (const ReliefLevel &level : data_->relief) {
+        relief_bytes += bytes_of(level.heights);
+    }
+    return sizeof(Data) + relief_bytes + bytes_of(shape.points_m) + bytes_of(shape.indices) +
            bytes_of(shape.heights_m) + bytes_of(data_->core.points) + bytes_of(data_->core.faces) +
            bytes_of(data_->core.face_points) + bytes_of(data_->neighbours) +
            bytes_of(data_->sharp_edges) + bytes_of(data_->tree.nodes) + bytes_of(data_->tree.order);

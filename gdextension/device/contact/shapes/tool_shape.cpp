@@ -82,7 +82,8 @@ ToolResult make_tool(const CookedShape &shape, double skin_m) {
         return refuse("A tool needs a skin above 0.");
     }
     if (!shape.convex() || shape.kind() == ShapeKind::half_space) {
-        return refuse("A mesh, a height map or a half space cannot be a tool; give a convex hull.");
+        return refuse(
+            "A mesh, a height map, a half space or a relief cannot be a tool; give a convex hull.");
     }
     const CookedShape::Data &from = shape.data();
     auto data = std::make_unique<ToolShape::Data>();

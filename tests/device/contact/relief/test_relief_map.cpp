@@ -10,6 +10,7 @@
 
 #include "device/contact/relief/relief_map.h"
 #include "device/contact/shapes/cooked_shape.h"
+#include "device/contact/shapes/tool_shape.h"
 
 using namespace spidar;
 
@@ -121,6 +122,14 @@ TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that 
         CAPTURE(part);
         CHECK(most <= wanted);
     }
+}
+
+TEST_CASE("relief: it is no solid, and no tool") {
+    const CookResult made = cook(waves(16, 16, 2, 0));
+    REQUIRE(made.shape != nullptr);
+    CHECK_FALSE(made.shape->convex());
+    CHECK(made.shape->bytes() > 2 * 16 * 16 * sizeof(float)); // the heights, and their copy
+    CHECK_FALSE(usable(make_tool(*made.shape, 0.001).status));
 }
 
 TEST_CASE("relief: a description without sense is refused with what is wrong") {
