@@ -7,14 +7,15 @@ namespace spidar {
 
 enum class Status : std::int32_t {
     ok = 0,
-    // 1 to 8: usable, with a remark.
-    ambiguous_pose = 1,    // another pose fits as well; memory or the upright prior chose
+    // 1 to 8: the result is usable; the code names a weakness.
+    ambiguous_pose = 1,    // another pose fits as well; the last or the upright pose was taken
     near_singular = 2,     // the lengths barely determine one direction
     held_last_pose = 3,    // the sample was refused; the last good pose stands
     wrench_limited = 4,    // strings at a bound: the achieved wrench differs from the request
-    weakly_observed = 7,   // calibration: the motion leaves some combination of unknowns open
+    weakly_observed = 7,   // calibration: some combination of unknowns is hardly determined
     grasp_unavailable = 8, // a grasp torque was requested of a rigid grip
-    // -1 to -12: bad input; the state is unchanged.
+    // -1 to -12: the input gives no result. The function that returns the code says what it does
+    // instead.
     not_finite = -1,          // NaN or infinity in an input
     invalid_geometry = -2,    // frame or grip impossible (zero, negative, not finite)
     invalid_calibration = -3, // string or motor calibration out of range

@@ -18,8 +18,8 @@ struct StringPath {
 // radius_m = 0: an eyelet at inlet_m, from which the string runs straight. Otherwise the string
 // reaches inlet_m along `axis` (unit vector), outwards from the frame's center. It runs over the
 // outer side of a pulley that swivels about `axis` towards the attachment, and leaves along the
-// tangent. The length then grows by exactly direction . (movement of the attachment). An attachment
-// within the pulley has no tangent: the straight line is returned.
+// tangent. The derivative of the length with respect to the attachment is exactly `direction`. An
+// attachment within the pulley has no tangent: the straight line is returned.
 [[nodiscard]] StringPath string_path(const Vec3 &inlet_m, double radius_m, const Vec3 &axis,
                                      const Vec3 &attachment_m) noexcept;
 

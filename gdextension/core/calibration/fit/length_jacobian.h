@@ -27,8 +27,9 @@ public:
     [[nodiscard]] double smallest_singular() const noexcept { return smallest_; }
     // Parity residual: nu . (measured - computed lengths) (unit: m).
     [[nodiscard]] double parity_m(const StringArray &measured_m) const noexcept;
-    // The motion that best explains a change of lengths: x y z of the grip center, then two tangent
-    // displacements of each pole's end (unit: m). Zero where J is singular.
+    // Returns the motion whose length changes are nearest to these in the least-squares sense: x y
+    // z of the grip center, then two tangent displacements of each pole's end (unit: m). Zero where
+    // J is singular.
     [[nodiscard]] PoseStep motion(const StringArray &length_change_m) const noexcept;
 
 private:
