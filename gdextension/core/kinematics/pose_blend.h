@@ -1,4 +1,5 @@
-// Moves the shown pose to another answer without a jump, in equal steps, as the hand moves on.
+// Moves the shown pose to another pose that was found, without a jump and in equal steps, while the
+// hand moves on.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -8,8 +9,8 @@ namespace spidar {
 
 class PoseBlend {
 public:
-    // Largest movement of the farthest point per tick, unless the blend would take more than
-    // kLongest_ticks.
+    // Largest movement of the fastest point per tick, besides the hand's motion. A blend that would
+    // take more than kLongest_ticks moves faster.
     static constexpr double kStep_m = 0.8e-3;
     static constexpr int kLongest_ticks = 130;
 

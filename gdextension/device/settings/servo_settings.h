@@ -36,13 +36,15 @@ struct SafetySettings {
     double game_timeout_s = 0.5;         // no heartbeat of the game for this long: disarmed
     double continuous_tension_n = 3.5;   // tension that a motor bears continuously
     double thermal_time_s = 12.0;        // thermal time constant of a motor's winding
-    double string_error_fade_m = 0.002;  // change of the parity error that fades the wrench
-    double string_error_fault_m = 0.006; // same for 50 ms: motors off
+    double string_error_fade_m = 0.002;  // rise of the parity error that fades the wrench
+    double string_error_fault_m = 0.006; // parity error above this for 50 ms: motors off
     double workspace_margin_m = 0.01;    // soft wall this far inside the reach; 0: none
-    double hand_presence_s = 5.0;        // arming a real device needs motion within this
+    // Motion that arming a real device needs within this time; 0: none.
+    double hand_presence_s = 5.0;
 };
 
-// Sources that close a rigid grip's fingers (device/tracking/fingers.h). The strongest counts.
+// Sources that close a rigid grip's fingers (device/tracking/fingers.h). The one that closes them
+// most counts.
 struct FingerSettings {
     std::uint8_t button_mask = 0x01; // device buttons that close: bit i is button i
     bool by_game = true;             // use HapticCommand::grasp_share
@@ -55,7 +57,8 @@ struct FingerSettings {
 struct ServoSettings {
     double rate_hz = 1000.0;          // 100 to 4000
     double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
-    // Threaded: interval between attempts to open a device (unit: s). 0: start fails instead.
+    // Threaded loop: interval between attempts to open a device (unit: s). With 0 the start fails
+    // if the device does not open.
     double reopen_interval_s = 0.0;
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;

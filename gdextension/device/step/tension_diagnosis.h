@@ -12,7 +12,8 @@ namespace spidar {
 // pull, so that currents are never clamped after the solver.
 [[nodiscard]] TensionSettings solver_settings(const ServoSettings &settings) noexcept;
 
-// Scales everything alike during the ramps of arming and fading. Motors off: zeros, status ok.
+// During the ramps of arming and fading, request and tensions are compared at full scale, and the
+// report is scaled by the ramp. With the motors off all values are zero and the status is ok.
 [[nodiscard]] TensionReport tension_report(const ServoSettings &settings,
                                            const ServoSnapshot &snapshot) noexcept;
 

@@ -42,13 +42,15 @@ struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
     double largest_error_n = 0.0; // max |W (A tau - q)|
-    int iterations = 0;           // number of factorizations
+    int iterations = 0;           // of the solver that found the answer
     Status status = Status::ok;
 };
 
-// Returns the exact optimum of `problem`, for any weights, lost rank and zero multipliers. warm
-// (may be null): a guess of the active set, which changes only the time. For input that is not
-// finite: status not_finite and tensions = lower bounds clamped to [0, upper]. Never NaN.
+// Returns the exact optimum of `problem`, also with zero weights, lost rank or zero multipliers.
+// warm (may be null): a guess of the active set, which changes only the time. Status not_finite for
+// input that is not finite, invalid_settings for a proximal weight that is not positive or a lower
+// bound above the upper one: the tensions are then the lower bounds, clamped to [0, upper], and
+// never NaN.
 [[nodiscard]] TensionSolution solve_exactly(const TensionProblem &problem,
                                             const ActiveSet *warm) noexcept;
 
