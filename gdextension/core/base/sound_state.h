@@ -9,7 +9,8 @@
 
 namespace spidar {
 
-// True when every flag holds 0 or 1. Reads bytes: reading another value as bool is undefined.
+// True when every flag holds 0 or 1. The bytes are read, since reading a bool with another value is
+// undefined behavior.
 template <typename... Flags>
 [[nodiscard]] bool are_flags(const Flags &...flags) noexcept {
     const auto is_flag = [](const bool &flag) {

@@ -10,7 +10,7 @@ enum class Status : std::int32_t {
     // 1 to 8: the result is usable; the code names a weakness.
     ambiguous_pose = 1,    // another pose fits as well; the last or the upright pose was taken
     near_singular = 2,     // the lengths barely determine one direction
-    held_last_pose = 3,    // the sample was refused; the last good pose stands
+    held_last_pose = 3,    // the sample was refused; the last good pose is used
     wrench_limited = 4,    // strings at a bound: the achieved wrench differs from the request
     weakly_observed = 7,   // calibration: some combination of unknowns is hardly determined
     grasp_unavailable = 8, // a grasp torque was requested of a rigid grip

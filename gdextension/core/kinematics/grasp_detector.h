@@ -1,5 +1,5 @@
-// Tells from the grasp angle whether the grip is open, grasped or over-closed. Hysteresis and a
-// dwell time reject noise.
+// Determines from the grasp angle whether the grip is open, grasped or over-closed. Hysteresis and
+// a dwell time reject noise.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct GraspSettings {
     double leave_rad = 15.0 * kDegree_rad;
     double over_closed_rad = 55.0 * kDegree_rad;
     double over_closed_leave_rad = 50.0 * kDegree_rad;
-    double dwell_s = 0.030; // a new phase counts after this time
+    // Time for which the angle must belong to a new phase before the phase changes.
+    double dwell_s = 0.030;
 };
 
 class GraspDetector {

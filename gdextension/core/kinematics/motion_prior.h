@@ -23,12 +23,15 @@ public:
     // Largest weight (a residual of 3.3 mm): a larger residual is a fault, and a larger weight
     // would hold the pose back.
     static constexpr double kMostWeight = 10.0;
-    // Share per tick by which the residual level rises: 20 ticks.
+    // Share of the difference by which the residual level rises in a tick: a time constant of 20
+    // ticks.
     static constexpr double kRise = 0.05;
-    // Share per tick by which the residual level falls: 1000 ticks. It is slow because the one
-    // redundant length shows no errors while its own error passes through zero.
+    // Share of the difference by which the residual level falls in a tick: a time constant of 1000
+    // ticks. It is slow because the one redundant length shows no errors while its own error passes
+    // through zero.
     static constexpr double kFall = 0.001;
-    // Share of the newest movement in the mean movement: 20 ticks, in which a hand keeps its speed.
+    // Share of the newest movement in the mean movement: a time constant of 20 ticks, in which a
+    // hand keeps its speed.
     static constexpr double kNewest = 0.05;
 
     void restart() noexcept { *this = MotionPrior(); }

@@ -35,7 +35,8 @@ struct DevicePreset {
     FrameGeometry frame;
     GripGeometry grip;
     double metres_per_count = 0.0;
-    double min_tension_n = 0.0; // with max_tension_n: range of its usual driver
+    // The range of tensions of the device's usual driver.
+    double min_tension_n = 0.0;
     double max_tension_n = 0.0;
     BoardWiring boards;
 };

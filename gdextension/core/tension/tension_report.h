@@ -11,8 +11,8 @@ namespace spidar {
 struct TensionReport {
     PaperWrench achieved{}; // A tau
     PaperWrench error{};    // A tau - q
-    // `limits`, `ridge` and `reference` are computed as if request and pose stood still. Error left
-    // by bounds, broken strings and lost rank, without any regularizing term.
+    // Error by bounds, broken strings and lost rank, without any regularizing term. `limits`,
+    // `ridge` and `reference` are the errors that remain if request and pose stand still.
     PaperWrench limits{};
     PaperWrench ridge{};     // error that the ridge adds to `limits`
     PaperWrench reference{}; // error that the pull to the reference tension adds

@@ -38,7 +38,7 @@ struct TensionSettings {
     double weight_moment_per_m = 25.0; // 1/d
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // makes the optimum unique
-    double reference_weight = 1e-3;    // pull towards tau_ref
+    double reference_weight = 1e-3;    // pull toward tau_ref
     double change_weight = 0.2;        // damps jumps from tick to tick
     // If bit k is set, the tensions follow DOF k of the wrench (order: fx fy fz mx my mz g). A DOF
     // whose bit is 0 has weight 0: the solver gives it any value that reduces the error in the

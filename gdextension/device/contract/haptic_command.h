@@ -47,11 +47,13 @@ using DofGains = SevenDof<struct DofGainsMeaning>;
 
 // A unilateral constraint of the target point x: pushes x along +normal while dot(normal, x) <
 // offset. Between updates the plane moves by its velocity, and by the turn and the acceleration
-// that the last updates show. grasp_stop: keeps normal.x * grasp_angle >= offset (rad), with
-// normal.x = +1 or -1. Stiffness is in N m/rad, damping in N m s/rad. Example: closing stops at the
-// angle w with normal.x = -1, offset = -w. turn_stop: keeps dot(normal, turn) >= offset (rad).
-// `turn` is the rotation vector of the grip's orientation in the device frame, zero at rest. Its
-// rate is dot(normal, velocity) in rad/s; other units as for grasp_stop.
+// that the last updates show.
+// grasp_stop: keeps normal.x * grasp_angle >= offset (rad), with normal.x = +1 or -1. Stiffness is
+// in N m/rad, damping in N m s/rad. Example: closing stops at the angle w with normal.x = -1,
+// offset = -w.
+// turn_stop: keeps dot(normal, turn) >= offset (rad). `turn` is the rotation vector of the grip's
+// orientation in the device frame, zero at rest. The rate of the stop is dot(normal, velocity) in
+// rad/s; other units as for grasp_stop.
 struct ContactPlane {
     Vec3 normal{0.0, 1.0, 0.0}; // unit vector
     double offset_m = 0.0;      // m; rad for stops

@@ -50,7 +50,8 @@ struct TouchReport {
     double grasp_rad = 0.0;
     // Wrench of contacts and load on the hand, before limits.
     Wrench wrench;
-    // Grasp torque of the stop at which the jaws are closed or wide open.
+    // Grasp torque by which the jaws, closed on each other or on the held body, resist closing
+    // further. 0 while they are open.
     double stop_push_nm = 0.0;
     DofGains stiffness{}; // as used in this cycle
     int part_count = 0;

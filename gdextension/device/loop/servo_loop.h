@@ -57,7 +57,7 @@ public:
 
     // Stepped only: advances simulated time by numerator/denominator seconds in whole servo cycles
     // and carries the remainder exactly (1/60 s at 1 kHz gives 16 or 17 cycles). Returns the number
-    // of cycles due, which are fewer in a replay that ends.
+    // of cycles in this time, even if a replay ends before.
     int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
 
     // Stepped only: runs whole cycles until the newest is `tick` or the replay ends.

@@ -19,7 +19,7 @@ namespace spidar {
 struct SafetySettings {
     double arming_time_s = 1.0;         // forces rise from 0 to full over this time
     double tension_slew_n_per_ms = 1.0; // largest change of a string's tension
-    double max_force_n = 8.0;           // of the request; a larger one keeps its direction
+    double max_force_n = 8.0;           // of the request; a larger one is scaled down
     double max_moment_nm = 0.4;
     double max_grasp_torque_nm = 0.4;
     double max_count_speed_m_s = 5.0;    // a faster string is a bad sample

@@ -17,7 +17,7 @@ class ServoStep;
 struct CycleGiven {
     CycleInput input;
     HapticCommand command;
-    // The command may differ from the last cycle's.
+    // True if the command may differ from that of the last cycle.
     bool command_is_new = false;
 };
 

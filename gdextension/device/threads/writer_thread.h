@@ -42,8 +42,8 @@ public:
     void forbid() noexcept;
     void allow() noexcept { forbidden_.store(false, std::memory_order_release); }
 
-    // Returns the status of the last write of a posted command that failed since the last call, or
-    // ok if none failed.
+    // Returns ok if no write of a posted command has failed since the last call. Otherwise returns
+    // the status of the last one that failed.
     Status take_result() noexcept;
     // Time for which the current write has been waiting (unit: ns); 0 when there is none.
     [[nodiscard]] std::int64_t blocked_ns(std::int64_t now_ns) const noexcept;

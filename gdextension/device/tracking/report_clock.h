@@ -3,9 +3,9 @@
 // neither the velocity nor the present pose.
 //
 // A report arrives some time after it was made. The shortest delay counts as zero, since the
-// prediction of the renderer covers it as part of the link's latency. By how much a delay is longer
-// is the age of the report. The two clocks run at different rates: the drift is the growth of the
-// shortest delay from one interval of kStretch_s to the next.
+// prediction of the renderer covers it as part of the link's latency. The age of a report is its
+// delay minus the shortest one. The two clocks run at different rates: the drift is the growth of
+// the shortest delay from one interval of kStretch_s to the next.
 #pragma once
 
 #include <cstdint>
@@ -70,7 +70,8 @@ private:
     double stretch_s_ = 0.0;
     double least_s_ = 0.0;
     double least_at_s_ = 0.0;
-    // Smallest lag of the previous interval on today's scale, and its time before this interval.
+    // Smallest lag of the previous interval, extrapolated by the drift to its end, and how long
+    // before that end it was measured.
     bool has_before_ = false;
     double before_s_ = 0.0;
     double before_ago_s_ = 0.0;

@@ -5,9 +5,9 @@
 //
 // The fit runs in stages, outward from where the counts were zeroed: the offsets over the poses
 // nearest to the zero; offsets and gains over more poses and then over all; then, over all poses,
-// the sizes and last the windings too. Each stage takes Gauss-Newton steps and leaves out outliers
-// and near-singular poses. Priors keep a combination of unknowns that the poses do not determine
-// near its start, and the result names it. Allocates: not for the servo loop.
+// also the sizes, and last also the windings. Each stage takes Gauss-Newton steps and leaves out
+// outliers and near-singular poses. Priors keep a combination of unknowns that the poses do not
+// determine near its start, and the result names it. Allocates: not for the servo loop.
 #pragma once
 
 #include <array>

@@ -51,7 +51,7 @@ struct WeightFit {
 
 // How much of the workspace the kept poses cover.
 struct Coverage {
-    int poses = 0;
+    int poses = 0; // kept poses that could be solved
     Vec3 travel_m{0.0};
     double turn_rad = 0.0; // largest rotation from upright
     double grasp_rad = 0.0;

@@ -50,7 +50,7 @@ struct RootHeights {
 struct MisfitForecast {
     // Expected misfit (unit: m).
     double misfit_m = 0.0;
-    // Misfit per error of the lengths, up to a constant factor; grows towards the z faces.
+    // Misfit per error of the lengths, up to a constant factor; grows toward the z faces.
     double gain = 1.0;
 };
 [[nodiscard]] MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_length_m,

@@ -306,7 +306,7 @@ factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
 
 // Returns the step for `errors` at `pose` with the factorization of a nearby pose. Repeated steps
 // converge to the same pose as with the own factorization of each pose. prior: as in factorise().
-// expected: the pose that the prior pulls towards.
+// expected: the pose that the prior pulls toward.
 [[nodiscard, gnu::always_inline]] inline CrossedStep
 solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors, const CrossedPose &pose,
              double prior = 0.0, const CrossedPose &expected = CrossedPose()) noexcept {

@@ -13,7 +13,8 @@
 
 namespace spidar {
 
-//   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2    subject to lower <= tau <= upper
+//   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2
+//       subject to lower <= tau <= upper
 struct TensionProblem {
     WrenchMatrix matrix;
     PaperWrench wrench{};   // q, in the paper's order and with g
