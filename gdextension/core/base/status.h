@@ -23,7 +23,7 @@ enum class Status : std::int32_t {
     impossible_lengths = -5,  // no pose has these string lengths
     outside_frame = -6,       // the pose would lie at or beyond a z face of the frame
     rank_deficient = -7,   // the lengths do not determine the pose (e.g. Rz +-90 deg at psi 90 deg)
-    not_converged = -8,    // iteration bound reached; the last good value stands
+    not_converged = -8,    // iteration bound reached; the last good value is kept
     count_jump = -9,       // an encoder moved faster than a string can
     invalid_request = -10, // wrench or contact data is malformed
     too_few_samples = -11, // calibration: not enough usable measurements
@@ -31,7 +31,7 @@ enum class Status : std::int32_t {
     // -20 to -35: errors of the device or of the servo loop.
     not_open = -20,
     open_failed = -21,
-    device_in_use = -22, // another node of this process owns the device
+    device_in_use = -22, // another node or another program has the device
     read_timeout = -23,
     read_failed = -24,
     write_failed = -25,

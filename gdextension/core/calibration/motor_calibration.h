@@ -32,7 +32,7 @@ struct MotorScale {
 // Returns currents (unit: A) from 0 to max_current_a. A NaN or negative tension gives 0 A.
 [[nodiscard]] StringArray currents_from_tensions(const MotorCalibration &calibration,
                                                  const StringArray &tensions_n) noexcept;
-// Same conversion with precomputed factors.
+// The conversion with factors that motor_scale() computed before.
 [[nodiscard]] StringArray currents_from_tensions(const MotorScale &scale,
                                                  const StringArray &tensions_n) noexcept;
 // Returns the tension of each motor at its max_current_a (unit: N).

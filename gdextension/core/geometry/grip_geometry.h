@@ -1,4 +1,5 @@
-// The grip: two crossing poles hinged at P0 with one string per pole end, or one rigid body.
+// The grip: two crossing poles hinged at P0, each with strings at both ends (in the paper two at
+// each end), or one rigid body.
 #pragma once
 
 #include <cstddef>

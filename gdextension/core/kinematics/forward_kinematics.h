@@ -32,10 +32,10 @@ inline constexpr double kNearSingularPivot = 1e-4;
 // Warm ticks between two searches for a rival, which is another pose that may fit the same lengths
 // better: 8 ms at 1 kHz, a few mm of hand motion.
 inline constexpr int kRivalPeriod = 8;
-// Same period without a closed form and for the general steps, where a search costs more. These
-// searches run only while the residual exceeds kWarmResidualGate_m.
+// kRivalPeriod for grips without a closed form or with the general steps, where a search costs
+// more. It then runs only while the residual exceeds kWarmResidualGate_m.
 inline constexpr int kSlowRivalPeriod = 14;
-// Number of those searches in a row that must prefer a rival before it is taken.
+// kRivalLooks for the same grips as kSlowRivalPeriod.
 inline constexpr int kSlowRivalLooks = 5;
 // Number of searches in a row, from the closed form, that must prefer a rival before it is taken:
 // 56 ms at 1 kHz.
@@ -146,9 +146,10 @@ private:
     MotionPrior prior_;
     PoseBlend blend_;
     bool still_ = false; // the last tick moved the pose by less than kStill_m
-    // No tick has run since the pose was set or found.
+    // True until the first tick after the pose was set or the memory was reset.
     bool fresh_ = true;
-    // Conditioning by the lengths alone, at the last search for rivals.
+    // Conditioning by the lengths alone: of the last tick or, for lengths with errors, of the last
+    // tick that searched for rivals.
     double conditioning_ = 0.0;
     // Searches in a row that preferred a rival.
     int better_looks_ = 0;

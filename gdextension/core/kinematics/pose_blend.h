@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool is_sound() const noexcept { return left_ >= 0 && left_ <= kLongest_ticks; }
 
 private:
-    // ticks until shown and found pose agree
+    // Number of ticks until the shown pose reaches the found one.
     int left_ = 0;
     GripPose shown_{};
     GripPose found_{}; // the found pose of the previous tick

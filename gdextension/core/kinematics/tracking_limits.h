@@ -44,8 +44,8 @@ inline constexpr double kForgetStep_m = 0.05;
 inline constexpr double kRankDeficientPivot = 1e-12;
 // A warm tick ends when its error is below this plus kTrackingShare of the residual.
 inline constexpr double kTrackingFloor_m = 1e-12;
-// A higher order of extrapolation is used when its squared error was below this share of the lower
-// order's.
+// A higher order of extrapolation is used if its squared error in the last tick was below this
+// share of that of the next lower order.
 inline constexpr double kForeseenShare = 0.25;
 
 inline CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {

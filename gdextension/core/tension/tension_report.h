@@ -1,5 +1,5 @@
-// Which part of a request some tensions achieve, and the causes of the rest. Diagnosis on request,
-// four solves: not for the servo step.
+// Which wrench some tensions achieve of a requested wrench, and the causes of the error. Takes up
+// to three solves: for diagnosis, not for the servo step.
 #pragma once
 
 #include "core/tension/tension_solver.h"
@@ -31,7 +31,8 @@ struct TensionReport {
     [[nodiscard]] PaperWrench bias() const noexcept;
 };
 
-// Smallest weighted error that counts (N at the pole ends): a tenth of what a fingertip feels.
+// Smallest weighted error that sets wrench_limited (N at the pole ends): a tenth of what a
+// fingertip feels.
 inline constexpr double kNoticeableLimit_n = 1e-3;
 
 // tensions_n: the tensions that were sent for `wrench` at the pose of `matrix`. A DOF outside the

@@ -38,8 +38,8 @@ struct TensionSettings {
     double weight_moment_per_m = 25.0; // 1/d
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // makes the optimum unique
-    double reference_weight = 1e-3;    // pull toward tau_ref
-    double change_weight = 0.2;        // damps jumps from tick to tick
+    double reference_weight = 1e-3;    // weight of the distance from tau_ref
+    double change_weight = 0.2;        // weight of the change since the last tick
     // If bit k is set, the tensions follow DOF k of the wrench (order: fx fy fz mx my mz g). A DOF
     // whose bit is 0 has weight 0: the solver gives it any value that reduces the error in the
     // others.
@@ -108,11 +108,11 @@ private:
     TensionResult last_result_{};
     TensionSolution fast_{};           // scratch memory, not cleared for each solve
     std::uint8_t working_mask_ = 0xFF; // strings that are not broken
-    // last_active_ can start the next solve.
+    // True if last_active_ can start the next solve.
     bool warm_ = false;
-    // last_tensions_n_ is known: the change term counts.
+    // True if last_tensions_n_ is known, so that the change term applies.
     bool has_last_ = false;
-    // The last update left last_tensions_n_ and last_active_ unchanged.
+    // True if the last update left last_tensions_n_ and last_active_ unchanged.
     bool settled_ = false;
 };
 

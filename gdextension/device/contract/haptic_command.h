@@ -94,9 +94,9 @@ enum class EffectKind : std::uint8_t {
     detents = 4,
 };
 inline constexpr int kEffectKindCount = 5;
-// Largest vibration force (unit: N): a string should buzz, not hammer.
+// Largest vibration force along each axis (unit: N).
 inline constexpr double kMaxVibration_n = 2.0;
-// Largest vibration moment and grasp torque (unit: N m).
+// Largest vibration moment about each axis, and largest grasp torque (unit: N m).
 inline constexpr double kMaxVibration_nm = 0.05;
 inline constexpr double kMinVibration_hz = 5.0;
 // Larger frequencies are refused. A frequency above a quarter of the servo rate is lowered to it.

@@ -109,7 +109,7 @@ struct ServoSnapshot {
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0;   // arming ramp, 0..1
+    double force_scale = 0.0;   // ramp of arming and fading, 0..1
     double tension_scale = 0.0; // part of force_scale that scales all tensions, also the pretension
     double safety_scale = 1.0;  // share of the wrench that the safety monitors allow, 0..1
     double thermal_share = 0.0; // used part of the warmest motor's budget; 1: spent

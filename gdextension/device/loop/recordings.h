@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    // The last element is the running recording.
+    // While a recording runs, the last element of owned_ is its recorder.
     struct Owned {
         std::unique_ptr<Recorder> recorder;
         std::uint64_t free_at_cycle = UINT64_MAX; // the loop no longer uses it from this cycle on

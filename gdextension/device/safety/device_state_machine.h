@@ -45,9 +45,9 @@ public:
     // The device answers: CLOSED becomes CONNECTED, unless the device was lost. Returns true when
     // the device was stopped while closed: it opens in FAULT.
     bool open(bool zero_known) noexcept;
-    // Applies motor_rule.h. why, string (0-7 or -1): cause of a fault; the first cause is kept.
-    // Returns true when the state changed. After device_lost the state is CLOSED until clear() is
-    // called while the device answers.
+    // Applies motor_rule.h. why, string (0-7 or -1): cause of a fault. A further fault in FAULT, or
+    // a further loss of the device, does not change it. Returns true when the state changed. After
+    // device_lost the state is CLOSED until clear() is called while the device answers.
     bool stop(StopReason reason, Status why = Status::ok, int string = -1) noexcept;
     // True when there is a fault, or a panic stop of a closed device.
     [[nodiscard]] bool needs_clearing() const noexcept {

@@ -21,7 +21,7 @@ struct GainClamp {
         grasp_damping = 6,   // N m s/rad of grasp_angle
         friction = 7,
         speed = 8, // speed of a plane or proxy, m/s or rad/s
-        force = 9, // force of a vibration, N or N m
+        force = 9, // strength of an effect, N or N m
         // The whole request was scaled: `asked` is 1, `given` the factor.
         wrench = 10,
     };

@@ -28,7 +28,7 @@ struct SafetySettings {
     double read_timeout_fault_s = 0.020; // no report for this long: motors off
     double max_grip_speed_m_s = 2.0;     // faster: motors off
     double fade_grip_speed_m_s = 1.2;    // faster for 3 ms: the wrench fades in 20 ms
-    double fade_turn_rate_rad_s = 15.0;  // same for rotation
+    double fade_turn_rate_rad_s = 15.0;  // faster for 3 ms: the wrench fades in 20 ms
     double max_turn_rate_rad_s = 30.0;   // faster: motors off
     double wrench_fade_s = 0.050;        // fade of a wrench after its duration
     double contacts_full_s = 0.100;      // age up to which contacts act in full

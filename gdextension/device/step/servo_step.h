@@ -52,7 +52,7 @@ public:
     // Reports the result of a write. A failure is counted, and the device is lost.
     void report_write(Status write_status) noexcept;
 
-    // Heat of each motor over its thermal budget. It outlasts the loop (safety/motor_heat.h).
+    // Used share of each motor's thermal budget. It outlasts the loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return parts_.monitor.heat().heat(); }
     void set_heat(const StringArray &heat) noexcept {
         parts_.monitor.set_heat(heat);

@@ -1,5 +1,5 @@
-// Splits the error of a servo loop's tensions into its causes, from a snapshot. The reader of
-// snapshots runs it, so that the loop has no cost.
+// Splits the error of a servo loop's tensions into its causes, from a snapshot. It runs in the
+// thread that reads the snapshot and not in the servo loop.
 #pragma once
 
 #include "core/tension/tension_report.h"

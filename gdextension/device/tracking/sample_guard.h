@@ -1,6 +1,6 @@
 // Checks whether encoder counts are plausible. A string cannot move faster than a hand can pull it:
-// a larger step is a glitch of the encoder or the link. One bad sample is skipped; several in a row
-// mean that the zero is lost.
+// a larger step is a glitch of the encoder or the link. One bad sample is skipped. Several in a row
+// are a fault, since the counts may have lost their zero.
 #pragma once
 
 #include "core/base/sound_state.h"

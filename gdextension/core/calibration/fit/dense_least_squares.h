@@ -14,7 +14,7 @@ namespace spidar {
 // Largest number of unknowns: 8 offsets, 8 gains, 8 winding terms and 4 sizes, with some room.
 inline constexpr std::size_t kMaxUnknowns = 32;
 
-// Matrix whose rows are appended one by one, one per measurement.
+// Matrix to which rows can be appended, one per measurement.
 class DenseMatrix {
 public:
     explicit DenseMatrix(std::size_t columns) : columns_(columns) {}

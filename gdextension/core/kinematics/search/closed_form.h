@@ -68,8 +68,8 @@ struct RootPairPose {
 // lengths, with the poles on their spheres.
 [[nodiscard]] RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept;
 
-// Same pose without the last refinement of z and without the misfit, for a pair that is tried in
-// any case.
+// Returns the pose of root_pair_pose() without its last refinement of z and without the misfit, for
+// a pair that is tried in any case.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
 // True when both poles are on the upright side of the fold where the cubic's two roots meet.

@@ -107,7 +107,7 @@ using LaneMatrix = std::array<Lanes, 6>;
             a.y * a.y + b.y * b.y, a.y * a.z + b.y * b.z, a.z * a.z + b.z * b.z};
 }
 
-// Same with one weight per vector.
+// Returns wa a a' + wb b b'.
 [[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b, Lanes wa,
                                                    Lanes wb) noexcept {
     const LaneVec p = wa * a;
@@ -275,9 +275,9 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
         pose, pole_half_length_m);
 }
 
-// Same with the curvature of the lengths (Newton's matrix), whose steps converge quadratically for
-// lengths with errors too. If the residuals are small relative to the poles, the pivots are about
-// those of the normal equations.
+// factorise() with the curvature of the lengths (Newton's matrix): the steps converge quadratically
+// for lengths with errors too. If the residuals are small relative to the poles, the pivots are
+// about those of the normal equations.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
 factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
                  double pole_half_length_m) noexcept {

@@ -78,7 +78,8 @@ using StringMask = std::uint8_t; // bit i: string i
     return static_cast<StringMask>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
-// Returns the strings at their lower and upper bounds. Bits above the eighth are ignored.
+// Returns the active set for two masks: of strings at their lower and at their upper bound. Bits
+// above the eighth are ignored.
 [[nodiscard]] inline ActiveSet active_set(unsigned at_lower, unsigned at_upper) noexcept {
     // Moves bit k to the lowest bit of byte k: of eight copies each byte keeps its own bit, which
     // carries into its top bit.

@@ -366,7 +366,7 @@ private:
     double contraction_ = 0.0; // worst contraction of the corrections; 0 when no pivot was made
     unsigned movable_ = 0;     // strings with lower < upper
     unsigned low_ = 0;         // held at the lower bound
-    // held at the upper bound
+    // Held at the upper bound.
     unsigned high_ = 0;
     unsigned free_ = 0;
     unsigned held_in_table_ = 0;

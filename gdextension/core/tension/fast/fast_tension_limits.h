@@ -20,10 +20,10 @@ inline constexpr double kWorstCondition = 1e15;
 
 // After a correction below this no further correction is needed (unit: N).
 inline constexpr double kStep_n = 1e-13;
-// The same holds for a correction below kShort_n if the next one, at the rate at which they shrink,
-// would be below this (unit: N).
+// A correction below kShort_n is also the last one if the next, at the rate at which corrections
+// shrink, would be below this (unit: N).
 inline constexpr double kLeft_n = 1e-14;
-// Largest correction after which the next one may be predicted (unit: N).
+// Largest correction from which the size of the next one is predicted (unit: N).
 inline constexpr double kShort_n = 1e-8;
 // Corrections after which the exact solver takes over.
 inline constexpr int kCorrections = 4;
