@@ -69,7 +69,7 @@ public:
     // returned pose changes without a jump (pose_blend.h) to a rival that kRivalLooks or
     // kSlowRivalLooks searches in a row prefer. On bad lengths the result holds the last good pose,
     // which is never NaN, and status < 0. Warm ticks report ambiguous_pose only with a closed form
-    // and eyelets, as the last search for rivals found it. No allocation.
+    // and eyelets, as the last search found it. No allocation.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
     // Finds the pose without the last pose: by a search from the closed form, the upright root pair
@@ -153,7 +153,7 @@ private:
     double conditioning_ = 0.0;
     // Searches in a row that preferred a rival.
     int better_looks_ = 0;
-    // Result of the last search for rivals.
+    // True if the last search found that another pose fits as well.
     bool ambiguous_ = false;
     // Warm ticks until the next search for rivals.
     int ticks_to_rivals_ = 0;

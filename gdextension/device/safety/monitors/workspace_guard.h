@@ -21,7 +21,7 @@ public:
     [[nodiscard]] static double scale(const GripState &grip) noexcept;
     // Returns how far P0 is beyond the start of the wall (unit: m); 0 inside.
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
-    // The box without wall, device frame (unit: m).
+    // The box inside which the wall gives no force, device frame (unit: m).
     [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(on_); }
