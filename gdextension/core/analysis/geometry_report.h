@@ -16,14 +16,16 @@ namespace spidar {
 // What the strings can do at one pose. Moments and grasp torque are divided by the pole half length
 // d, so that all rows are newtons.
 struct PoseStatics {
-    // Rank of the weighted wrench matrix. Equals degrees_of_freedom where no direction is lost.
+    // Rank of the weighted wrench matrix. Below GeometryReport::degrees_of_freedom the strings do
+    // not control some direction.
     int rank = 0;
-    // True when the rank is full and all-positive tensions can balance: the strings hold the grip.
+    // True when the strings hold the grip: the rank is full, and some tensions of which the largest
+    // is at most 1000 times the smallest give no net wrench.
     bool closed = false;
-    // Smallest over largest of those tensions, 0..1. 0 where not closed.
+    // Smallest over largest of those tensions, 0..1. 0 unless closed.
     double margin = 0.0;
-    // A motion (v, omega d, -psi_rate/2 d) of length 1 that no string opposes. Zero where the
-    // strings are closed, and where only the rank is lost.
+    // A motion (v, omega d, -psi_rate/2 d) of length 1 that no string opposes. Zero if the strings
+    // hold the grip, and if only the rank is too low.
     PaperWrench unopposed{};
 };
 
@@ -39,17 +41,19 @@ struct GeometryReport {
     // each axis, with the grip open.
     double closure_share = 0.0;
     int poses = 0;
-    // Force that can be given in every direction along the axes at rest, within the tension limits.
+    // Largest force that the strings can give at rest along each of +-x, +-y and +-z, within the
+    // tension limits.
     double force_capacity_n = 0.0;
-    // Moment that can be given in either sense about every axis at rest, within the tension limits.
+    // Largest moment that the strings can give at rest about each axis in both senses, within the
+    // tension limits.
     double moment_capacity_nm = 0.0;
     // One plain sentence per problem; empty when no problem was found.
     std::vector<std::string> complaints;
     [[nodiscard]] bool sound() const noexcept { return complaints.empty(); }
 };
 
-// Requires that validate(frame) and validate(grip, frame) are empty. `poses` is the number of
-// random poses that are tried. The seed is fixed: equal input gives an equal report.
+// Requires that validate(frame) and validate(grip, frame) return empty strings. `poses` is the
+// number of random poses that are tried. The seed is fixed: equal input gives an equal report.
 [[nodiscard]] GeometryReport report_geometry(const FrameGeometry &frame, const GripGeometry &grip,
                                              double min_tension_n, double max_tension_n,
                                              int poses = 500);

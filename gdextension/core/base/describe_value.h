@@ -29,7 +29,8 @@ namespace spidar {
            std::to_string(string + 1) + ")";
 }
 
-// Returns "rate_hz is 5 Hz; give 100 or more." `remedy`: rest of the sentence with full stop.
+// Returns "rate_hz is 5 Hz; give 100 or more." `remedy`: the rest of the sentence, with its full
+// stop.
 [[nodiscard]] inline std::string range_sentence(std::string_view field, double value,
                                                 std::string_view unit, std::string_view remedy) {
     return std::string(field)

@@ -1,4 +1,4 @@
-// all_finite(): true when a value, and every number inside it, is neither NaN nor infinite.
+// all_finite() returns true when no number in its arguments is NaN or infinite.
 #pragma once
 
 #include <array>

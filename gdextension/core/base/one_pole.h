@@ -1,5 +1,5 @@
-// First-order low-pass filter, exact at any time step. It reports the share by which the caller
-// moves its filtered value towards the input.
+// First-order low-pass filter, exact at any time step. The caller keeps the filtered value and
+// moves it toward the input by share() of their difference.
 #pragma once
 
 #include <cmath>

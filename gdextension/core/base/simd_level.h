@@ -1,5 +1,6 @@
-// Which build of the vector kernels a solver runs. All builds find the exact optimum, but their
-// last bits differ. The level is therefore a setting of each solver, and a recording stores it.
+// Which build of the vector kernels a solver runs. All builds find the same optimum, but the last
+// bits of their results differ. The level is therefore a setting of each solver, and a recording
+// stores it.
 #pragma once
 
 #include <cstdint>

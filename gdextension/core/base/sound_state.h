@@ -1,6 +1,6 @@
-// Checks for memory that was restored from a recording. Each part's is_sound() returns true when
-// its flags are 0 or 1, its enumerations hold a defined value, and its counts and indices are in
-// range. Floating-point values are not checked: a servo step accepts any.
+// Checks for memory that was restored from a recording. A part's is_sound() returns true when its
+// flags are 0 or 1, its enumerations hold a defined value, and its counts and indices are in range.
+// Floating-point values are not checked: a servo step accepts any.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,8 @@
 
 namespace spidar {
 
-// True when every flag holds 0 or 1. Reads bytes: reading another value as bool is undefined.
+// True when every flag holds 0 or 1. The bytes are read, since reading a bool with another value is
+// undefined behavior.
 template <typename... Flags>
 [[nodiscard]] bool are_flags(const Flags &...flags) noexcept {
     const auto is_flag = [](const bool &flag) {

@@ -7,14 +7,15 @@ namespace spidar {
 
 enum class Status : std::int32_t {
     ok = 0,
-    // 1 to 8: usable, with a remark.
-    ambiguous_pose = 1,    // another pose fits as well; memory or the upright prior chose
+    // 1 to 8: the result is usable; the code names a weakness.
+    ambiguous_pose = 1,    // another pose fits as well; the last or the upright pose was taken
     near_singular = 2,     // the lengths barely determine one direction
-    held_last_pose = 3,    // the sample was refused; the last good pose stands
+    held_last_pose = 3,    // the sample was refused; the last good pose is used
     wrench_limited = 4,    // strings at a bound: the achieved wrench differs from the request
-    weakly_observed = 7,   // calibration: the motion leaves some combination of unknowns open
+    weakly_observed = 7,   // calibration: some combination of unknowns is hardly determined
     grasp_unavailable = 8, // a grasp torque was requested of a rigid grip
-    // -1 to -12: bad input; the state is unchanged.
+    // -1 to -12: the input gives no result. The function that returns the code says what it does
+    // instead.
     not_finite = -1,          // NaN or infinity in an input
     invalid_geometry = -2,    // frame or grip impossible (zero, negative, not finite)
     invalid_calibration = -3, // string or motor calibration out of range
@@ -22,7 +23,7 @@ enum class Status : std::int32_t {
     impossible_lengths = -5,  // no pose has these string lengths
     outside_frame = -6,       // the pose would lie at or beyond a z face of the frame
     rank_deficient = -7,   // the lengths do not determine the pose (e.g. Rz +-90 deg at psi 90 deg)
-    not_converged = -8,    // iteration bound reached; the last good value stands
+    not_converged = -8,    // iteration bound reached; the last good value is kept
     count_jump = -9,       // an encoder moved faster than a string can
     invalid_request = -10, // wrench or contact data is malformed
     too_few_samples = -11, // calibration: not enough usable measurements
@@ -30,7 +31,7 @@ enum class Status : std::int32_t {
     // -20 to -35: errors of the device or of the servo loop.
     not_open = -20,
     open_failed = -21,
-    device_in_use = -22, // another node of this process owns the device
+    device_in_use = -22, // another node or another program has the device
     read_timeout = -23,
     read_failed = -24,
     write_failed = -25,

@@ -54,7 +54,7 @@ using PaperWeights = SevenDof<struct PaperWeightsMeaning>;
 using PaperTwist = SevenDof<struct PaperTwistMeaning>;
 
 // The wrench that the device exerts on the hand; also the form in which a game requests one. The
-// grip is two crossing poles; closing it turns them towards each other.
+// grip is two crossing poles; closing it turns them toward each other.
 struct Wrench {
     Vec3 force_n{0.0};
     Vec3 moment_nm{0.0};          // about the grip center P0

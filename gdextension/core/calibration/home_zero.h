@@ -16,9 +16,11 @@ struct HomeZero {
     // ok; too_few_samples (no counts); invalid_geometry; invalid_calibration (scale or
     // corrections). Negative: all values below are zero.
     Status status = Status::too_few_samples;
-    // Calibration with the home pose's lengths at the median counts: one wrong reading is harmless.
+    // Calibration that gives the lengths of the home pose at the median counts. Among three or more
+    // readings one wrong reading does no harm.
     StringCalibration strings;
-    // Standard deviation of the repeats. A large value means that the grip was placed differently.
+    // Standard deviation of the repeated readings (unit: m). A large value means that the grip was
+    // not placed in the same way each time.
     StringArray spread_m{};
 };
 

@@ -12,7 +12,8 @@ namespace spidar {
 
 struct LengthCorrections {
     // A length m paid out since the zero count becomes m + curvature m^2 (unit: 1/m). Negative: the
-    // drum is fuller near the zero, so that a count pays out more there. 0: no correction.
+    // drum grows thinner as it pays out, so that each further count pays out less. 0: no
+    // correction.
     StringArray winding_curvature_1_m{};
     // Axial stiffness EA of the string (unit: N): strain = tension / EA. 0: unknown, no correction.
     StringArray axial_stiffness_n{};
@@ -26,8 +27,8 @@ struct LengthCorrections {
     StringArray calibration_tension_n{};
 };
 
-// Largest strain that is corrected. A braided string breaks beyond it, so that a larger value comes
-// from a wrong stiffness.
+// Largest strain that is corrected. A braided string breaks beyond it, so that a larger strain
+// comes from a wrong stiffness.
 inline constexpr double kMaxStrain = 0.05;
 
 // Returns the string lengths (unit: m) of these counts, with the winding corrected.
@@ -36,8 +37,8 @@ inline constexpr double kMaxStrain = 0.05;
                                         const CountArray &counts) noexcept;
 
 // Returns the lengths under tension (unit: m) of strings that have lengths_m at their calibration
-// tension. tensions_n are commanded tensions: friction and lag leave an error of (tension error) *
-// length / EA.
+// tension. tensions_n are commanded tensions: where friction and lag make the real tension differ,
+// an error of (tension error) * (length + hidden_length_m) / EA remains.
 [[nodiscard]] StringArray compensate_stretch(const LengthCorrections &corrections,
                                              const StringArray &lengths_m,
                                              const StringArray &tensions_n) noexcept;

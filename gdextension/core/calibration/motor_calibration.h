@@ -8,8 +8,8 @@
 namespace spidar {
 
 struct MotorCalibration {
-    // Effective winding radius (unit: m): torque = tension * radius. A length fit finds it as
-    // scale_m_per_count * counts per turn / 2 pi, and corrects the tension too.
+    // Effective winding radius (unit: m): torque = tension * radius. A fitted string scale gives it
+    // too: scale_m_per_count * counts per turn / 2 pi.
     StringArray effective_radius_m{0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008, 0.008};
     // Motor torque constant (unit: N m/A). The default is that of a Maxon RE 25.
     StringArray torque_constant_nm_a{0.0438, 0.0438, 0.0438, 0.0438,
@@ -21,7 +21,8 @@ struct MotorCalibration {
 };
 
 // Factors of currents_from_tensions(), computed once per calibration. tension_per_ampere_n_a is 0
-// where the calibration is not a positive number, limit_a likewise.
+// for a string whose radius, torque constant and gain give no positive, finite ratio. limit_a is 0
+// where max_current_a is not positive and finite.
 struct MotorScale {
     StringArray tension_per_ampere_n_a{};
     StringArray limit_a{};
@@ -31,10 +32,10 @@ struct MotorScale {
 // Returns currents (unit: A) from 0 to max_current_a. A NaN or negative tension gives 0 A.
 [[nodiscard]] StringArray currents_from_tensions(const MotorCalibration &calibration,
                                                  const StringArray &tensions_n) noexcept;
-// Same conversion with precomputed factors.
+// The conversion with factors that motor_scale() computed before.
 [[nodiscard]] StringArray currents_from_tensions(const MotorScale &scale,
                                                  const StringArray &tensions_n) noexcept;
-// Returns the largest tension that each motor can pull (unit: N).
+// Returns the tension of each motor at its max_current_a (unit: N).
 [[nodiscard]] StringArray max_tensions(const MotorCalibration &calibration) noexcept;
 
 [[nodiscard]] std::string validate(const MotorCalibration &calibration);

@@ -14,9 +14,9 @@ namespace spidar {
 inline constexpr double kPaperMetresPerCount = 2.513274122871834e-5;
 
 struct StringCalibration {
-    // Length at the zero count (unit: m). Paper's frame at the home pose: 0.3886... m.
+    // Length at the zero count (unit: m). Paper's device at the home pose: 0.3939... m.
     StringArray offset_m{};
-    // Length per count (unit: m). Negative: the motor is wound the other way.
+    // Length per count (unit: m). Negative: the count falls as string is paid out.
     StringArray scale_m_per_count{};
     CountArray zero_count{};
 };

@@ -1,10 +1,10 @@
 // Finds which string is slack, slipped, stuck, swapped or wound the other way. Eight lengths on
-// seven DOF leave one equation per pose. Its weights change over a motion, so that one wrong string
-// explains all equations and the others do not.
+// seven DOF leave one equation per pose. The weights of the strings in it change over a motion, so
+// that only the string that is wrong explains the errors of all poses.
 //
-// Servo-safe: update() allocates nothing and does bounded work, one comparison while the lengths
-// fit. Once they do not, it tries two or three hypotheses per tick, each by solving the pose from
-// lengths that the hypothesis corrects:
+// Servo-safe: update() allocates nothing and does bounded work. While the lengths fit a pose,
+// update() solves no pose. Once they do not fit, it tries two or three hypotheses per tick, and
+// solves for each the pose from lengths that the hypothesis corrects:
 // - one of eight strings off by a constant error (slipped) or by a positive, varying error (slack),
 // each estimated by a scalar Kalman filter;
 // - one of 28 pairs swapped;
@@ -30,9 +30,9 @@ enum class StringFault : std::uint8_t { none, slipped, slack, stuck, swapped, re
 struct FaultObserverSettings {
     // Time between two calls of update().
     double tick_s = 1e-3;
-    // Standard deviation of the parity residual of a healthy device: noise and calibration error.
+    // Standard deviation of the parity error of a healthy device: noise and calibration error.
     double parity_noise_m = 2e-4;
-    // Parity residual (rms over window_s / 3) above which the hypotheses are tried.
+    // Parity error (rms over window_s / 3) above which the hypotheses are tried.
     double suspicion_m = 6e-4;
     double window_s = 1.5; // averaging time of the scores; at least 100 ticks
     // Smallest length error of a slipped string that is reported.
@@ -43,13 +43,14 @@ struct FaultEvidence {
     StringFault fault = StringFault::none;
     int string = -1;      // 0-7, or -1 for none
     int other = -1;       // swapped: the second string, string < other; else -1
-    double error_m = 0.0; // slipped or slack: by how much the string reads too long
+    double error_m = 0.0; // slipped or slack: measured minus true length of the string
     // Score of this explanation, mean over window_s: -2 log likelihood in units of parity_noise_m,
     // 0 for a perfect fit.
     double misfit = 0.0;
-    // Score of the best explanation with another string. The further above `misfit`, the surer.
+    // Score of the best explanation with another string. The more it exceeds `misfit`, the surer is
+    // this explanation.
     double next_misfit = 0.0;
-    double parity_rms_m = 0.0; // of the lengths without any correction
+    double parity_rms_m = 0.0; // of the uncorrected lengths
 };
 
 // Checks restored memory: see core/base/sound_state.h.
@@ -60,8 +61,8 @@ struct FaultEvidence {
 
 class StringFaultObserver {
 public:
-    // On a negative status the old configuration stays. invalid_geometry: also for a rigid grip,
-    // which has two redundant lengths.
+    // On a negative status the old configuration stays. A rigid grip gets invalid_geometry: it has
+    // two redundant lengths.
     Status configure(const FrameGeometry &frame, const GripGeometry &grip,
                      const StringCalibration &strings,
                      const FaultObserverSettings &settings) noexcept;

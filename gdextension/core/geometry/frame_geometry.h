@@ -33,8 +33,8 @@ struct MotorBox {
 };
 [[nodiscard]] MotorBox box_around_motors(const FrameGeometry &frame) noexcept;
 
-// Returns (a, b, c) when the motors are the corners of such a box to 0.25 um, else nothing. The
-// closed-form kinematics need a box; Gauss-Newton serves every frame.
+// Returns (a, b, c) when each motor lies within 0.25 um of its corner of make_box_frame(), else
+// nothing. The closed-form kinematics need a box; Gauss-Newton serves every frame.
 [[nodiscard]] std::optional<Vec3> box_half_extents(const FrameGeometry &frame) noexcept;
 
 // True when validate() returns an empty string. No allocation: for the servo loop.

@@ -1,4 +1,5 @@
-// The grip: two crossing poles hinged at P0 with one string per pole end, or one rigid body.
+// The grip: two crossing poles hinged at P0, each with strings at both ends (in the paper two at
+// each end), or one rigid body.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,9 @@ namespace spidar {
 // Half length of a pole in the paper's device: 4 cm.
 inline constexpr double kPaperPoleHalfLength_m = 0.04;
 
-// Poles nearer to parallel than this have no grip plane. Their ends are 4 um apart, a sixth of an
-// encoder count, so that the rotation about them is noise and the last one is kept.
+// Poles whose angle is within this of 0 or 180 degrees define no plane: the ends of the paper's
+// poles are then at most 4 um apart, a sixth of an encoder count. Their rotation would be noise, so
+// that frame_of() keeps the previous one.
 inline constexpr double kParallelAngle_rad = 1e-4;
 
 // String i is tied to P0 + sign * r[pole], where r[0] = r1 and r[1] = r2.
@@ -29,7 +31,8 @@ enum class GripKind : std::uint8_t { crossed = 0, rigid = 1 };
 
 struct GripGeometry {
     // crossed: d = |r1| = |r2|. rigid: the length that converts turns to meters, and the length of
-    // the poles for drawing and touch; make_rigid_grip() takes the root mean square of the joints.
+    // the poles for drawing and touch; make_rigid_grip() sets it to the root mean square of the
+    // joints' distances from P0.
     double pole_half_length_m = kPaperPoleHalfLength_m;
     // Paper: strings 1,2 -> P0+r1; 3,4 -> P0-r1; 5,7 -> P0+r2; 6,8 -> P0-r2.
     std::array<Attachment, kStringCount> attachments{

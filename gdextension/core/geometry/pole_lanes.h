@@ -1,6 +1,6 @@
 // Two doubles computed side by side: lane 0 for pole 1, lane 1 for pole 2. The compiler's vector
-// extension runs the same code on every processor. Without fusing of multiplications and additions
-// (-ffp-contract=off) the results are equal bit for bit.
+// extension translates this code for every processor. With -ffp-contract=off, which forbids to fuse
+// multiplications with additions, all processors compute the same bits.
 #pragma once
 
 #include <cmath>

@@ -23,7 +23,7 @@ struct Tangents {
 // Returns two tangents of a pole r, which must not be zero.
 [[nodiscard]] inline Tangents tangents_of(const Vec3 &r) noexcept {
     const Vec3 size = glm::abs(r);
-    Vec3 axis(0.0, 0.0, 1.0); // the axis along which r is shortest
+    Vec3 axis(0.0, 0.0, 1.0); // the axis with the smallest component of r
     if (size.x <= size.y && size.x <= size.z) {
         axis = Vec3(1.0, 0.0, 0.0);
     } else if (size.y <= size.z) {

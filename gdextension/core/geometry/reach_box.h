@@ -12,8 +12,8 @@ struct ReachBox {
     Vec3 high_m{0.0};
 };
 
-// Returns the box, device frame (unit: m). A border wider than half the box leaves the middle of
-// that axis.
+// Returns the box, device frame (unit: m). Along an axis where the border is wider than half the
+// box, low and high are both the middle.
 [[nodiscard]] inline ReachBox reach_box(const FrameGeometry &frame, double border_m) noexcept {
     Vec3 low = frame.motors_m[0];
     Vec3 high = low;

@@ -49,7 +49,8 @@ namespace spidar {
     return result;
 }
 
-// Returns the shortest rotation vector (unit: rad) between unit vectors; zero when opposite.
+// Returns the shortest rotation vector (unit: rad) that turns `from` into `to`, both unit vectors.
+// Zero when they are opposite.
 [[nodiscard]] inline Vec3 rotation_between(const Vec3 &from, const Vec3 &to) noexcept {
     const Vec3 axis = glm::cross(from, to);
     const double s = glm::length(axis);

@@ -2,8 +2,8 @@
 // c_i; delta_i n.(r_i x c_i)], where
 //   c_i = unit vector from the attachment to the motor,
 //   n = unit(r1 x r2), delta = +1 for pole 1 (strings 0-3) and -1 for pole 2 (strings 4-7).
-// The cross product in the third row corrects a misprint of the paper. The seventh row belongs to
-// the paper's g = 2 grasp_torque, conjugate to -psi/2.
+// The cross product in the grasp element corrects a misprint of the paper. The seventh row belongs
+// to the paper's g = 2 grasp_torque, conjugate to -psi/2.
 #pragma once
 
 #include "core/base/types.h"

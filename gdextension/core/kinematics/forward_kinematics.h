@@ -1,9 +1,10 @@
 // Forward kinematics: string lengths to grip pose. A warm tick takes Gauss-Newton steps on R3 x S2
-// x S2 from the pose that the last poses predict. A second step is taken only when the first leaves
-// an error, and reuses its factorization where that suffices. A cold start, or a residual that is
-// too large, leads to a search from the closed form (cubic in y1 / x2, eq. (4)-(15) as corrected in
-// docs/why/paper_notes.md). Rigid grips, exit pulleys and other frames use the general steps of
-// gauss_newton.h; without a closed form the search has seven starts.
+// x S2 from the pose that the last poses predict. A second step is taken only if the first leaves
+// an error that matters, and uses the factorization of the first if that suffices. A cold start, or
+// a residual that is too large, leads to a search from the closed form (cubic in y1 / x2, eq.
+// (4)-(15) as corrected in docs/why/paper_notes.md). Rigid grips, exit pulleys and grips without
+// exactly two strings at each pole end use the general steps of gauss_newton.h. Without a closed
+// form the search has seven starts.
 #pragma once
 
 #include <cstdint>
@@ -25,29 +26,32 @@ struct SearchTools; // core/kinematics/search/pose_search.h
 // seven times that is a fault.
 inline constexpr double kImpossibleResidual_m = 0.020;
 // Smallest scaled pivot of the normal equations (about sigma7 squared) that is not flagged
-// near_singular. Below it the lengths leave a direction open to 1 %.
+// near_singular. Below it sigma7 is below about 0.01: a motion of 1 mm in some direction changes
+// the lengths by 0.01 mm or less.
 inline constexpr double kNearSingularPivot = 1e-4;
-// Warm ticks between two searches for a rival pose: 8 ms at 1 kHz, a few mm of hand motion.
+// Warm ticks between two searches for a rival, which is another pose that may fit the same lengths
+// better: 8 ms at 1 kHz, a few mm of hand motion.
 inline constexpr int kRivalPeriod = 8;
-// Same period without a closed form, where a search costs more. Searches then run only while the
-// residual exceeds kWarmResidualGate_m.
+// kRivalPeriod for grips without a closed form or with the general steps, where a search costs
+// more. It then runs only while the residual exceeds kWarmResidualGate_m.
 inline constexpr int kSlowRivalPeriod = 14;
-// Searches in a row, without a closed form, that must prefer a rival before the pose changes to it.
+// kRivalLooks for the same grips as kSlowRivalPeriod.
 inline constexpr int kSlowRivalLooks = 5;
-// Closed-form searches in a row that must prefer a rival before it is taken: 56 ms at 1 kHz.
+// Number of searches in a row, from the closed form, that must prefer a rival before it is taken:
+// 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
 // Largest change of pose per tick that counts as standing still: 0.01 encoder counts per second.
 inline constexpr double kStill_m = 2.5e-10;
-// A warm tick ends when the error it leaves is below this share of the residual. Errors add by
-// squares: the pose is then worse by 0.2 %.
+// A warm tick ends when the error that it leaves is below this share of the residual. Errors add by
+// squares, so that this error makes the total about 0.1 % larger.
 inline constexpr double kTrackingShare = 0.05;
 
 struct KinematicsResult {
     GripPose pose;
-    // sqrt(mean (l - l(pose))^2) of the lengths passed in; shows noise and faults.
+    // sqrt(mean (l - l(pose))^2) over the eight lengths; shows noise and faults.
     double residual_rms_m = 0.0;
     // Smallest pivot of the scaled normal equations, 0..1; small: near singular. For lengths with
-    // errors it is refreshed only at searches for rivals.
+    // errors it is computed anew only at searches for rivals.
     double conditioning = 0.0;
     int steps = 0;              // Gauss-Newton or Newton steps taken
     bool cold_start = false;    // a search ran, from the closed form or other starts
@@ -61,14 +65,15 @@ public:
 
     // Takes one servo tick of measured lengths (unit: m). A warm tick takes one to three steps.
     // Lengths with errors are weighed against the predicted motion (motion_prior.h). A search runs
-    // when a step or residual is larger than the hand and the usual errors explain. A rival pose
-    // that stays preferable for kRivalLooks searches is approached without a jump (pose_blend.h).
-    // On bad lengths the result holds the last good pose and status < 0, never NaN. ambiguous_pose
-    // is refreshed every kRivalPeriod ticks, for eyelet frames with a closed form only. No
-    // allocation.
+    // when a step or a residual is larger than hand motion and the usual errors explain. The
+    // returned pose changes without a jump (pose_blend.h) to a rival that kRivalLooks or
+    // kSlowRivalLooks searches in a row prefer. On bad lengths the result holds the last good pose,
+    // which is never NaN, and status < 0. Warm ticks report ambiguous_pose only with a closed form
+    // and eyelets, as the last search found it. No allocation.
     KinematicsResult update(const StringArray &lengths_m) noexcept;
 
-    // update() without memory: closed form, upright root pair first, then steps to convergence.
+    // Finds the pose without the last pose: by a search from the closed form, the upright root pair
+    // first, or from seven starts. A good result becomes the last pose.
     KinematicsResult solve_cold(const StringArray &lengths_m) noexcept;
 
     // Sets the pose from which the next update() starts warm.
@@ -77,11 +82,11 @@ public:
     [[nodiscard]] const GripPose &last_pose() const noexcept {
         return blend_.active() ? blend_.shown() : last_pose_;
     }
-    // True when update() with the same lengths would return the same pose.
+    // True when another update() with the last lengths would return the last pose.
     [[nodiscard]] bool settled() const noexcept {
         return !blend_.active() && better_looks_ == 0 && (prior_.weight() == 0.0 || still_);
     }
-    // Forgets the last pose: the next update() is cold.
+    // The next update() searches for the pose instead of starting at the last one.
     void reset() noexcept {
         warm_ = false;
         ambiguous_ = false;
@@ -141,13 +146,14 @@ private:
     MotionPrior prior_;
     PoseBlend blend_;
     bool still_ = false; // the last tick moved the pose by less than kStill_m
-    // No tick has run since the pose was set or found.
+    // True until the first tick after the pose was set or the memory was reset.
     bool fresh_ = true;
-    // Conditioning by the lengths alone, at the last search for rivals.
+    // Conditioning by the lengths alone: of the last tick or, for lengths with errors, of the last
+    // tick that searched for rivals.
     double conditioning_ = 0.0;
     // Searches in a row that preferred a rival.
     int better_looks_ = 0;
-    // Result of the last search for rivals.
+    // True if the last search found that another pose fits as well.
     bool ambiguous_ = false;
     // Warm ticks until the next search for rivals.
     int ticks_to_rivals_ = 0;

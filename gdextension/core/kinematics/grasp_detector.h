@@ -1,4 +1,5 @@
-// Classifies the grasp angle: open, grasped, over-closed. Hysteresis and dwell reject noise.
+// Determines from the grasp angle whether the grip is open, grasped or over-closed. Hysteresis and
+// a dwell time reject noise.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ struct GraspSettings {
     double leave_rad = 15.0 * kDegree_rad;
     double over_closed_rad = 55.0 * kDegree_rad;
     double over_closed_leave_rad = 50.0 * kDegree_rad;
-    double dwell_s = 0.030; // time for which a new phase must last before it counts
+    // Time for which the angle must belong to a new phase before the phase changes.
+    double dwell_s = 0.030;
 };
 
 class GraspDetector {

@@ -1,8 +1,8 @@
 // Weight of the predicted motion against the measured lengths. A warm tick minimizes
 //   sum_i (l_i - l_i(pose))^2 + weight |pose - expected pose|^2,
-// so that the motion holds directions that the strings determine badly, and the strings decide the
-// others. weight = (sigma of a length / sigma of the motion)^2, where the recent residual gives the
-// first sigma. Exact lengths give weight 0.
+// so that the expected pose decides the directions that the strings determine badly, and the
+// strings decide the others. weight = (sigma of a length / sigma of the motion)^2, where the recent
+// residual gives the first sigma. Exact lengths give weight 0.
 #pragma once
 
 #include <cmath>
@@ -14,21 +14,24 @@ namespace spidar {
 
 class MotionPrior {
 public:
-    // Standard deviation of the prediction error per tick. Of the values tried (1 to 20 mm) it is
-    // the largest that keeps the pose within 1 mm per tick of the hand's motion for strings that
-    // err by 5 mm.
+    // Standard deviation of the error of the expected pose, per tick. Of the values tried (1 to 20
+    // mm) it is the largest that keeps the pose within 1 mm per tick of the hand's motion for
+    // strings that err by 5 mm.
     static constexpr double kMotionSigma_m = 3e-3;
     // Smallest weight that is used (a residual of 0.03 mm); below it the lengths alone decide.
     static constexpr double kLeastWeight = 1e-3;
-    // Largest weight (a residual of 3.3 mm): larger residuals are faults and must not stop the
-    // pose.
+    // Largest weight (a residual of 3.3 mm): a larger residual is a fault, and a larger weight
+    // would hold the pose back.
     static constexpr double kMostWeight = 10.0;
-    // Share per tick by which the residual level rises: 20 ticks.
+    // Share of the difference by which the residual level rises in a tick: a time constant of 20
+    // ticks.
     static constexpr double kRise = 0.05;
-    // Share per tick by which the residual level falls: 1000 ticks. It is slow because the one
-    // redundant length shows no errors while its own error passes through zero.
+    // Share of the difference by which the residual level falls in a tick: a time constant of 1000
+    // ticks. It is slow because the one redundant length shows no errors while its own error passes
+    // through zero.
     static constexpr double kFall = 0.001;
-    // Share of the newest movement in the mean movement: 20 ticks, in which a hand keeps its speed.
+    // Share of the newest movement in the mean movement: a time constant of 20 ticks, in which a
+    // hand keeps its speed.
     static constexpr double kNewest = 0.05;
 
     void restart() noexcept { *this = MotionPrior(); }
@@ -37,7 +40,7 @@ public:
         moving_ = false;
     }
 
-    // Restarts after a pose was found by a search, with that pose's sum of squared length errors.
+    // Restarts after a search. sum_of_squares_m2: squared length errors at the pose that it found.
     void begin(double sum_of_squares_m2) noexcept {
         restart();
         variance_m2_ = sum_of_squares_m2;
@@ -47,7 +50,7 @@ public:
     void learn(double sum_of_squares_m2, const CrossedPose &change) noexcept {
         const double off_m2 = sum_of_squares_m2 - variance_m2_;
         variance_m2_ += (off_m2 > 0.0 ? kRise : kFall) * off_m2;
-        if (!moving_) { // the first difference is from a pose of other lengths
+        if (!moving_) { // the first difference starts at the pose of a search
             moving_ = true;
             return;
         }

@@ -1,4 +1,5 @@
-// Moves the shown pose to another answer without a jump, in equal steps, as the hand moves on.
+// Moves the shown pose to another pose that was found, without a jump and in equal steps, while the
+// hand moves on.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -8,8 +9,8 @@ namespace spidar {
 
 class PoseBlend {
 public:
-    // Largest movement of the farthest point per tick, unless the blend would take more than
-    // kLongest_ticks.
+    // Largest movement of the fastest point per tick, besides the hand's motion. A blend that would
+    // take more than kLongest_ticks moves faster.
     static constexpr double kStep_m = 0.8e-3;
     static constexpr int kLongest_ticks = 130;
 
@@ -24,7 +25,7 @@ public:
     [[nodiscard]] bool is_sound() const noexcept { return left_ >= 0 && left_ <= kLongest_ticks; }
 
 private:
-    // ticks until shown and found pose agree
+    // Number of ticks until the shown pose reaches the found one.
     int left_ = 0;
     GripPose shown_{};
     GripPose found_{}; // the found pose of the previous tick

@@ -1,12 +1,13 @@
-// Limits of a warm tick for both kinds of steps, and arithmetic of pose changes.
+// Limits of a warm tick, for the fast steps (crossed_step.h) and the general steps
+// (gauss_newton.h), and arithmetic of pose changes.
 #pragma once
 
 #include "core/kinematics/forward_kinematics.h"
 
 namespace spidar::tracking {
 
-// Closest allowed distance to a z face, a 25th of an encoder count. Nearer, a pole and its mirror
-// image have equal lengths to rounding.
+// Smallest distance of P0 from a z face of the frame, a 25th of an encoder count. Below it a pole
+// and its mirror image have equal lengths up to rounding.
 inline constexpr double kFaceMargin_m = 1e-6;
 // Longest string that is accepted: the diagonal of the largest frame is 35 m.
 inline constexpr double kLongestString_m = 40.0;
@@ -14,37 +15,37 @@ inline constexpr double kLongestString_m = 40.0;
 // lengths. Calibrated strings err by less; the redundant eighth length shows only a third of the
 // error of one string.
 inline constexpr double kWarmResidualGate_m = 1e-3;
-// Residual, less than an encoder count, at which a search accepts the remembered pose without
-// trying others. Above it the others must fit 50 times better, since next to it a wrong branch may
-// fit to a millimeter.
+// Residual, less than an encoder count, up to which a search accepts the remembered pose without
+// trying others. Above it another pose must fit 50 times better (twice as well above 2 mm), since a
+// wrong pose may fit to a millimeter.
 inline constexpr double kContentResidual_m = 2e-5;
-// A residual above this many times its recent level is unusual.
+// A residual above this many times its recent level leads to a search.
 inline constexpr double kUnusual = 3.0;
 // Near badly determined poses, lengths that err by sigma move the predicted pose by up to this many
 // sigma per tick.
 inline constexpr double kNoiseReach = 4.0;
-// For lengths with errors a second step below this share of the first counts as settling.
+// For lengths with errors, a second step below this share of the first counts as convergence.
 inline constexpr double kSettlingShare = 0.5;
 // Largest motion in one tick for which Gauss-Newton alone is trusted: 5 m/s at 1 kHz.
 inline constexpr double kMaxWarmStep_m = 5e-3;
-// Largest motion in one tick for which the last pose is still trusted to select the right root, if
-// it fits. Strings that err by millimeters move the pole ends this far in a tick. Beyond, the last
-// pose competes with the closed form.
+// Largest motion in one tick after which the last pose, if it fits, is still used to select the
+// right root. Strings that err by millimeters move the pole ends this far in a tick. Beyond it the
+// closed form is tried too.
 inline constexpr double kTrustedStep_m = 0.02;
 // Largest second step of a warm tick. The second step is quadratically smaller than the first; a
-// larger one did not settle.
+// larger one means no convergence.
 inline constexpr double kMaxSecondStep_m = 5e-4;
 // Second step above which a third is taken, since more than 10 nm of error would remain. This
 // happens for unpredicted movements of more than a millimeter per tick, and after lost samples.
 inline constexpr double kThirdStep_m = 2e-5;
 // Motion in one tick beyond which the last pose is forgotten (device restarted, samples lost).
 inline constexpr double kForgetStep_m = 0.05;
-// Smallest scaled pivot of an accepted pose: below it the lengths leave a direction open.
+// Smallest scaled pivot of an accepted pose: below it the lengths do not determine some direction.
 inline constexpr double kRankDeficientPivot = 1e-12;
-// A warm tick ends when its error is below this or below kTrackingShare of the residual.
+// A warm tick ends when its error is below this plus kTrackingShare of the residual.
 inline constexpr double kTrackingFloor_m = 1e-12;
-// A higher order of extrapolation is used when its squared error was below this share of the lower
-// order's.
+// A higher order of extrapolation is used if its squared error in the last tick was below this
+// share of that of the next lower order.
 inline constexpr double kForeseenShare = 0.25;
 
 inline CrossedPose minus(const CrossedPose &a, const CrossedPose &b) noexcept {
@@ -60,7 +61,7 @@ inline double squared(const CrossedPose &change) noexcept {
            sum_of(dot(change.poles_m, change.poles_m));
 }
 
-// Returns the pose after one more change. Poles return to their spheres to second order.
+// Returns the pose after one more change. The poles keep their length to second order.
 inline CrossedPose one_change_on(const CrossedPose &pose, const CrossedPose &change,
                                  double d) noexcept {
     const LaneVec poles = pose.poles_m + change.poles_m;

@@ -35,12 +35,13 @@ struct DevicePreset {
     FrameGeometry frame;
     GripGeometry grip;
     double metres_per_count = 0.0;
-    double min_tension_n = 0.0; // tension range of the device's usual driver
+    // The range of tensions of the device's usual driver.
+    double min_tension_n = 0.0;
     double max_tension_n = 0.0;
     BoardWiring boards;
 };
 
-// Returns the paper's device for a value outside the enumeration.
+// For a value outside the enumeration it returns the paper's device.
 [[nodiscard]] DevicePreset device_preset(Preset preset) noexcept;
 
 } // namespace spidar

@@ -1,5 +1,5 @@
-// Which part of a request some tensions achieve, and the causes of the rest. Diagnosis on request,
-// four solves: not for the servo step.
+// Which wrench some tensions achieve of a requested wrench, and the causes of the error. Takes up
+// to three solves: for diagnosis, not for the servo step.
 #pragma once
 
 #include "core/tension/tension_solver.h"
@@ -11,8 +11,8 @@ namespace spidar {
 struct TensionReport {
     PaperWrench achieved{}; // A tau
     PaperWrench error{};    // A tau - q
-    // The next three are steady shares, computed with the strings at their bounds.
-    // Error left by bounds, broken strings and lost rank, without any regularizing term.
+    // Error by bounds, broken strings and lost rank, without any regularizing term. `limits`,
+    // `ridge` and `reference` are the errors that remain if request and pose stand still.
     PaperWrench limits{};
     PaperWrench ridge{};     // error that the ridge adds to `limits`
     PaperWrench reference{}; // error that the pull to the reference tension adds
@@ -22,19 +22,22 @@ struct TensionReport {
     std::uint8_t at_min_mask = 0;
     // Strings at their upper bound in the steady solution.
     std::uint8_t at_max_mask = 0;
-    // wrench_limited when weighted `limits` exceeds kNoticeableLimit_n. Negative: nothing is valid.
+    // wrench_limited when some element of `limits`, times its weight in the settings
+    // (TensionSettings::weight_...), exceeds kNoticeableLimit_n. If the status is negative, all
+    // values of the report are zero.
     Status status = Status::ok;
 
     // Returns ridge + reference: the steady error of the regularizing terms.
     [[nodiscard]] PaperWrench bias() const noexcept;
 };
 
-// Smallest weighted error that counts (N at the pole ends): a tenth of what a fingertip feels.
+// Smallest weighted error that sets wrench_limited (N at the pole ends): a tenth of what a
+// fingertip feels.
 inline constexpr double kNoticeableLimit_n = 1e-3;
 
-// tensions_n: the tensions that were sent for `wrench` at the pose of `matrix`. DOF outside the
-// mask are reported as they result. For input that is not finite or settings out of range the
-// status is negative and all values are zero.
+// tensions_n: the tensions that were sent for `wrench` at the pose of `matrix`. A DOF outside the
+// mask is reported too, with the value that these tensions happen to give. For input that is not
+// finite or settings out of range the status is negative and all values are zero.
 [[nodiscard]] TensionReport tension_report(const WrenchMatrix &matrix, const PaperWrench &wrench,
                                            const StringArray &tensions_n,
                                            const TensionSettings &settings) noexcept;

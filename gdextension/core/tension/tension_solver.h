@@ -1,7 +1,8 @@
 // Tension distribution: eight tensions that only pull, within limits, for a requested wrench q:
 //   min ||W (A tau - q)||^2 + ridge ||tau||^2 + reference_weight ||tau - tau_ref||^2
 //       + change_weight ||tau - tau_last||^2          subject to tau_min <= tau <= tau_max.
-// W weights moments and g by 1/d, so that all rows are newtons at the pole ends.
+// The default W multiplies moments and g by 1/d (paper: 25 1/m), so that all rows are newtons at
+// the pole ends.
 #pragma once
 
 #include <cstdint>
@@ -37,10 +38,11 @@ struct TensionSettings {
     double weight_moment_per_m = 25.0; // 1/d
     double weight_grasp_per_m = 25.0;  // 1/d, on the paper's g
     double ridge = 1e-9;               // makes the optimum unique
-    double reference_weight = 1e-3;    // pull towards tau_ref
-    double change_weight = 0.2;        // damps jumps from tick to tick
-    // Bit k: DOF k of the wrench counts (fx fy fz mx my mz g). A DOF that is left out has weight 0
-    // and is unconstrained: the solver chooses it to reduce the error in the other DOF.
+    double reference_weight = 1e-3;    // weight of the distance from tau_ref
+    double change_weight = 0.2;        // weight of the change since the last tick
+    // If bit k is set, the tensions follow DOF k of the wrench (order: fx fy fz mx my mz g). A DOF
+    // whose bit is 0 has weight 0: the solver gives it any value that reduces the error in the
+    // others.
     std::uint8_t dof_mask = kAllDofs;
     std::uint8_t broken_mask = 0; // bit i: string i is broken and gets tension 0
     SimdLevel simd = best_simd_level();
@@ -52,7 +54,8 @@ struct TensionResult {
     std::uint8_t at_min_mask = 0;
     // Strings at their upper bound.
     std::uint8_t at_max_mask = 0;
-    // True when nothing had changed and all had settled: the last answer returns, bit for bit.
+    // True when the input was that of the last tick and the tensions had stopped changing: the
+    // tensions of the last tick are returned, bit for bit.
     bool skipped = false;
     int iterations = 0;
     // wrench_limited: the error exceeds what the regularizing terms explain (tension_report()).
@@ -68,10 +71,11 @@ public:
     Status configure(const TensionSettings &settings) noexcept;
     [[nodiscard]] const TensionSettings &settings() const noexcept { return settings_; }
 
-    // Takes one tick. wrench: the paper's q; if not finite it counts as zero, status not_finite.
+    // Takes one tick. wrench: the paper's q. A wrench that is not finite is replaced by zero, with
+    // status not_finite. A matrix that is not finite gives the minimum tensions and not_finite.
     TensionResult update(const WrenchMatrix &matrix, const PaperWrench &wrench) noexcept;
-    // Sets the tensions that were actually sent, where a later stage (slew limit) changed them. The
-    // change term of the next tick refers to these. Ignored when not finite.
+    // Sets the tensions that were sent, if a later stage such as the slew limit changed them. The
+    // change term of the next tick refers to them. Tensions that are not finite are ignored.
     void set_last_tensions(const StringArray &tensions_n) noexcept;
     // Makes the next update() solve even when nothing has changed. The result is the same.
     void forget_settled() noexcept { settled_ = false; }
@@ -95,8 +99,8 @@ private:
     TensionSettings settings_{};
     // Matrix and wrench are those of the last tick when it settled.
     TensionProblem problem_{};
-    StringArray steady_pull_{}; // proximal target without the change term
-    StringArray change_pull_{}; // share of last_tensions_n_ in the proximal target
+    StringArray steady_pull_{}; // share of tau_ref in the target of the next tick
+    StringArray change_pull_{}; // share of last_tensions_n_ in that target
     // Proximal target when the last tensions are unknown.
     StringArray steady_target_n_{};
     StringArray last_tensions_n_{};
@@ -104,11 +108,11 @@ private:
     TensionResult last_result_{};
     TensionSolution fast_{};           // scratch memory, not cleared for each solve
     std::uint8_t working_mask_ = 0xFF; // strings that are not broken
-    // last_active_ can start the next solve.
+    // True if last_active_ can start the next solve.
     bool warm_ = false;
-    // last_tensions_n_ is known: the change term counts.
+    // True if last_tensions_n_ is known, so that the change term applies.
     bool has_last_ = false;
-    // The last update left last_tensions_n_ and last_active_ unchanged.
+    // True if the last update left last_tensions_n_ and last_active_ unchanged.
     bool settled_ = false;
 };
 

@@ -13,8 +13,8 @@ public:
     DeviceClaim(const DeviceClaim &) = delete;
     DeviceClaim &operator=(const DeviceClaim &) = delete;
 
-    // Returns false when somebody else owns the device; owner_of(name) returns who. `owner` is a
-    // name for messages.
+    // Returns false when another claim owns the device; owner_of(name) then returns its owner. A
+    // new claim ends the one that this object held. `owner` is a name for messages.
     bool take(const std::string &name, const std::string &owner);
     void release() noexcept;
     // Returns the owner, or an empty string.

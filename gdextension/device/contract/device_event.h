@@ -64,7 +64,7 @@ struct DeviceEvent {
     double value = 0.0;
     DeviceEventKind kind = DeviceEventKind::device_connected;
     std::int8_t string = -1; // 0-7, or -1
-    // Occurrences of this kind that were not reported since the last report of it.
+    // Events of this kind that were left out since the last one that was reported.
     std::uint16_t repeated = 0;
 };
 
@@ -80,9 +80,9 @@ struct EventDescription {
 // Returns the description. An unknown kind gets a description that says so.
 [[nodiscard]] const EventDescription &describe(DeviceEventKind kind) noexcept;
 
-// The events of one servo cycle. A kind below level `fault` is reported again only after kQuiet_s;
-// events that are left out are counted. A fault that repeats each cycle therefore cannot flood the
-// queue.
+// The events of one servo cycle. An event whose kind was reported less than kQuiet_s ago is left
+// out and counted, so that a warning that repeats in each cycle does not flood the queue. Kinds of
+// level `fault` are reported each time.
 class EventLog {
 public:
     static constexpr double kQuiet_s = 1.0;

@@ -11,7 +11,7 @@ namespace spidar {
 // FAULT is latched.
 enum class DeviceState : std::uint8_t {
     closed = 0,    // no device
-    connected = 1, // the device is read; motors off
+    connected = 1, // the device is open; motors off
     arming = 2,    // forces rise
     active = 3,
     // Forces fall, then the device is connected with its motors off.

@@ -1,6 +1,6 @@
 // The seven DOF as a row of numbers in the order of DofGains: x, y, z, turns about x, y, z, grasp.
-// Not the paper's q, whose g is twice the grasp torque (core/base/types.h). The file also defines
-// sums of wrenches.
+// This row is not the paper's q, whose g is twice the grasp torque (core/base/types.h). The file
+// also defines the sum of two wrenches and the product with a number.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-// Returns the vector from P0 to the point (unit: m). A stop acts at P0: zero.
+// Returns the vector from P0 to the point (unit: m); zero for the center and the stops.
 [[nodiscard]] inline Vec3 grip_lever(const GripPose &pose, ContactTarget target) noexcept {
     switch (target) {
     case ContactTarget::pole1_plus:
@@ -28,8 +28,8 @@ namespace spidar {
     return Vec3(0.0);
 }
 
-// Returns the turn of the point's pole about the grip's z per unit of grasp_angle. Both poles share
-// psi = pi/2 - grasp_angle about their bisector: r1 lies at +psi/2, r2 at -psi/2.
+// Returns by how much the point's pole turns about the grip's z axis per unit of grasp_angle. Both
+// poles share psi = pi/2 - grasp_angle about their bisector: r1 lies at +psi/2, r2 at -psi/2.
 [[nodiscard]] inline double turn_per_grasp(ContactTarget target) noexcept {
     switch (target) {
     case ContactTarget::pole1_plus:

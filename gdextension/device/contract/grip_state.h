@@ -13,7 +13,7 @@ struct GripState {
     Twist twist; // filtered
     double residual_rms_m = 0.0;
     double conditioning = 0.0;
-    // < 0 or held_last_pose: the pose is from an earlier cycle.
+    // If < 0 or held_last_pose, this cycle gave no pose: the last one was extrapolated or kept.
     Status status = Status::held_last_pose;
 };
 

@@ -1,6 +1,6 @@
 // What the game requests the servo loop to render. A plain value, published as a whole through a
-// triple buffer. Device frame, SI units. Requests add up; each ages from the cycle in which it
-// arrives and fades when it is not refreshed.
+// triple buffer. Device frame, SI units. Requests add up. A request ages from the cycle in which it
+// arrives, and fades when it is not refreshed or when its duration ends.
 #pragma once
 
 #include <array>
@@ -14,9 +14,11 @@ namespace spidar {
 
 // Largest number of contact planes.
 inline constexpr int kMaxContacts = 8;
-// Largest distance in a request (unit: m), beyond any frame: larger values could overflow.
+// Distances in a request are clamped to this (unit: m), since larger values could overflow. It is
+// larger than any frame.
 inline constexpr double kFarAway_m = 10.0;
-// Longest duration of a raw wrench (unit: s): no contact stops the grip when the hand lets go.
+// Longest duration of a raw wrench or an effect (unit: s): if the hand lets go, no contact stops
+// the grip that they push.
 inline constexpr double kMaxWrenchDuration_s = 60.0;
 
 // The point of the grip that a contact plane stops.
@@ -38,20 +40,20 @@ enum class ContactTarget : std::uint8_t {
 
 // All bits of a DOF mask. Bit k: x, y, z, turns about x, y, z, grasp; axes of the device.
 inline constexpr std::uint8_t kAllDof = 0x7F;
-// One value per DOF in that order. Units: N, N/m or N s/m for the first three; N m, N m/rad or N m
-// s/rad for the others, for the grasp per radian of grasp_angle. Not the paper's q, whose g is
-// twice the grasp torque.
+// One value per DOF in the order of those bits. Units: N, N/m or N s/m for the first three; N m, N
+// m/rad or N m s/rad for the others. The last value belongs to grasp_angle and not to the paper's
+// g, which is twice the grasp torque.
 using DofGains = SevenDof<struct DofGainsMeaning>;
 
 // A unilateral constraint of the target point x: pushes x along +normal while dot(normal, x) <
-// offset. Between updates the plane moves by its velocity, and turns and accelerates as in the last
-// updates.
+// offset. Between updates the plane moves by its velocity, and by the turn and the acceleration
+// that the last updates show.
 // grasp_stop: keeps normal.x * grasp_angle >= offset (rad), with normal.x = +1 or -1. Stiffness is
 // in N m/rad, damping in N m s/rad. Example: closing stops at the angle w with normal.x = -1,
 // offset = -w.
 // turn_stop: keeps dot(normal, turn) >= offset (rad). `turn` is the rotation vector of the grip's
-// orientation in the device frame, zero at rest. Its rate is dot(normal, velocity) in rad/s; other
-// units as for grasp_stop.
+// orientation in the device frame, zero at rest. The rate of the stop is dot(normal, velocity) in
+// rad/s; other units as for grasp_stop.
 struct ContactPlane {
     Vec3 normal{0.0, 1.0, 0.0}; // unit vector
     double offset_m = 0.0;      // m; rad for stops
@@ -64,7 +66,7 @@ struct ContactPlane {
 };
 
 // A spring and damper in all seven DOF between the grip and a proxy of the game, for something held
-// or dragged. The proxy is extrapolated by its twist from the time that it was computed for (see
+// or dragged. Between updates the proxy moves by its twist, from state_time_s on (see
 // game_clock.h).
 struct Coupling {
     Vec3 position_m{0.0}; // of the proxy: where the grip center should be
@@ -92,14 +94,14 @@ enum class EffectKind : std::uint8_t {
     detents = 4,
 };
 inline constexpr int kEffectKindCount = 5;
-// Largest vibration force (unit: N): a string should buzz, not hammer.
+// Largest vibration force along each axis (unit: N).
 inline constexpr double kMaxVibration_n = 2.0;
-// Largest vibration moment and grasp torque (unit: N m).
+// Largest vibration moment about each axis, and largest grasp torque (unit: N m).
 inline constexpr double kMaxVibration_nm = 0.05;
 inline constexpr double kMinVibration_hz = 5.0;
-// Upper limit besides a quarter of the servo rate.
+// Larger frequencies are refused. A frequency above a quarter of the servo rate is lowered to it.
 inline constexpr double kMaxVibration_hz = 250.0;
-// Smallest spacing of detents (m or rad); finer ones are below the encoders' resolution.
+// Smallest spacing of detents (m or rad): 1 mm is about 40 encoder counts.
 inline constexpr double kMinDetentSpacing = 1e-3;
 
 struct Effect {
@@ -112,13 +114,13 @@ struct Effect {
     double centre_grasp_rad = 0.0;
     double frequency_hz = 0.0; // vibration
     DofGains spacing{};        // detents: m, rad
-    // Time of full strength (unit: s) from arrival or change of `renewal`. The effect then fades.
+    // Time of full strength (unit: s), counted from the arrival or from the last change of
+    // `renewal`. Then the effect fades.
     double duration_s = 0.0;
     std::uint32_t renewal = 0;
 };
 
-// Limits that a game may change while the device is open. Ranges as in SafetySettings and
-// RenderSettings.
+// Limits that a game may change while the device is open; validate_limits() checks them.
 struct LiveLimits {
     double max_force_n = 0.0;
     double max_moment_nm = 0.0;
@@ -132,7 +134,7 @@ struct TouchScene; // device/contact/touch
 
 struct HapticCommand {
     bool forces_enabled = false;
-    // The following counters are edges: the device acts when a value differs from the last one.
+    // The device acts once on each change of one of these counters, from arm_count to zero_count.
     std::uint32_t arm_count = 0;
     std::uint32_t disarm_count = 0;
     std::uint32_t clear_fault_count = 0;
@@ -140,7 +142,7 @@ struct HapticCommand {
     // Sign of life: the game changes it in each frame. 0: the game is not watched.
     std::uint32_t heartbeat = 0;
     // Set by the loop's own watchdogs and panic_stop(), not by the game. A change switches the
-    // motors off for stop_reason, latched.
+    // motors off and latches a fault with stop_reason.
     std::uint32_t stop_count = 0;
     Status stop_reason = Status::panic_stopped;
 
@@ -157,7 +159,7 @@ struct HapticCommand {
     double contacts_state_time_s = -1.0;
 
     // Scene that the hand can touch; null: nothing to touch. A new scene needs a new
-    // touch_sequence. The scene must stay unchanged until the device has acknowledged a newer one.
+    // touch_sequence. The scene must stay unchanged until TouchReport::sequence shows a newer one.
     std::uint64_t touch_sequence = 0;
     const TouchScene *touch = nullptr;
 
@@ -176,8 +178,8 @@ struct HapticCommand {
     LiveLimits limits;
 };
 
-// Returns ok, or invalid_request / not_finite: the command must then not be published. Finite
-// values above the limits are ok: the device clamps them. duration_s: 0 to kMaxWrenchDuration_s.
+// Returns ok, or invalid_request or not_finite if the request must not be published. Forces and
+// gains above a limit are ok, since the device clamps them. duration_s: 0 to kMaxWrenchDuration_s.
 [[nodiscard]] Status validate_wrench(const Wrench &wrench, double duration_s) noexcept;
 [[nodiscard]] Status validate_contact(const ContactPlane &contact) noexcept;
 // Checks contact_count and every contact that it covers.

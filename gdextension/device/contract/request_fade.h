@@ -1,6 +1,6 @@
-// How requests start, change and end. A game updates 30 to 144 times per second and the servo loop
-// renders 1000 times. A change must not reach the hand as a jolt, and a request that is no longer
-// refreshed must end.
+// How requests start, change and end. A game updates 30 to 144 times per second, and the servo loop
+// renders 1000 times (default). A change must not reach the hand as a jolt, and a request that is
+// no longer refreshed must end.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,10 @@
 
 namespace spidar {
 
-// Time over which a jump between two updates is spread (unit: s): one game frame at 60 Hz.
+// Time over which the difference between two updates is spread (unit: s): about one frame at 60 Hz.
 inline constexpr double kCrossFade_s = 0.016;
-// Returns the weight (0..1) of the new value since_s after the update; the old value has the rest.
+// Returns the weight (0..1) of the new value, since_s after the update. The weight of the old value
+// is 1 minus this.
 [[nodiscard]] inline double cross_fade(double since_s) noexcept {
     return std::min(1.0, since_s / kCrossFade_s);
 }
@@ -20,8 +21,8 @@ inline constexpr double kCrossFade_s = 0.016;
     return from + share * (to - from);
 }
 
-// Returns the strength (0..1) of a request whose full duration ended past_s ago (negative: not yet)
-// and that fades over fade_s.
+// Returns the strength (0..1) of a request whose duration ended past_s ago and that then fades over
+// fade_s. past_s is negative before the end.
 [[nodiscard]] inline double faded_out(double past_s, double fade_s) noexcept {
     return std::clamp(1.0 - std::max(0.0, past_s) / fade_s, 0.0, 1.0);
 }
@@ -30,7 +31,7 @@ inline constexpr double kCrossFade_s = 0.016;
 // and returns gradually with the next update.
 class RefreshedStrength {
 public:
-    // Time from no to full strength (unit: s), also after a pause of the game.
+    // Time in which the strength rises from 0 to 1 (unit: s), also after a pause of the game.
     static constexpr double kOnset_s = 0.050;
 
     explicit RefreshedStrength(double strength) noexcept : strength_(strength) {}
@@ -39,7 +40,8 @@ public:
         gone_s_ = safety.contacts_gone_s;
     }
     void set(double strength) noexcept { strength_ = strength; }
-    // Takes one cycle. age_s: age of the update. Returns false when the request has expired.
+    // Takes one cycle. age_s: time since the last update. Returns false when the request has
+    // expired.
     bool advance(double age_s, double dt_s) noexcept {
         const double left = std::clamp(1.0 - (age_s - full_s_) / (gone_s_ - full_s_), 0.0, 1.0);
         strength_ = std::min(left, strength_ + dt_s / kOnset_s);

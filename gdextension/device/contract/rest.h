@@ -1,11 +1,11 @@
 // Defines "at rest" for all parts that evolve in time. A part is at rest when another cycle with
-// the same reading and the same command would change none of its outputs, and of its state only
-// ages. While all parts are at rest a whole servo step may be skipped: the last answer holds, bit
-// for bit.
+// the same reading and the same command would change no output, and of its state only ages (and the
+// heat of the motors). While all parts are at rest a whole servo step may be skipped: the last
+// answer holds, bit for bit.
 //
 //     bool at_rest() const noexcept;                     every part with state
-//     void advance_at_rest(double dt_s) noexcept;        a part with an age that counts: only the age grows
-//     bool rests_through(double dt_s) const noexcept;    a part whose age ends: not within this time
+//     void advance_at_rest(double dt_s) noexcept;        a part with an age: only adds to it
+//     bool rests_through(double dt_s) const noexcept;    false if an age ends the rest within dt_s
 //
 // The owner of parts holds them in one aggregate, whose with_all(combine) binds all members and
 // calls combine(part...). A part that is added without being bound does not compile.

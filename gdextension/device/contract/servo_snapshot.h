@@ -22,7 +22,7 @@ struct ContactReport {
     bool touching = false;
 };
 
-// Impulse from the tool on a part of the scene (device/contact/touch).
+// Impulse that the tool has given to one part of the scene (device/contact/touch).
 struct TouchPartReport {
     std::int32_t id = 0;
     Vec3 impulse_ns{0.0};          // on the part, summed since this id appeared
@@ -50,7 +50,8 @@ struct TouchReport {
     double grasp_rad = 0.0;
     // Wrench of contacts and load on the hand, before limits.
     Wrench wrench;
-    // Grasp torque of the jaws' stop.
+    // Grasp torque by which the jaws, closed on each other or on the held body, resist closing
+    // further. 0 while they are open.
     double stop_push_nm = 0.0;
     DofGains stiffness{}; // as used in this cycle
     int part_count = 0;
@@ -59,7 +60,7 @@ struct TouchReport {
     std::int32_t queries = 0;
     // Solver passes of the last cycle.
     std::int32_t passes = 0;
-    // Cycles that reused the last answer.
+    // Number of cycles that used the last answer again.
     std::uint64_t skipped = 0;
     std::array<TouchPartReport, kMostTouchParts> parts{}; // in the order of the scene
     std::array<TouchPointReport, kMostTouchPoints> points{};
@@ -69,12 +70,13 @@ struct TouchReport {
 struct ServoCounters {
     std::uint64_t ticks = 0;
     std::uint64_t kinematics_skipped = 0; // counts were unchanged
-    // Pose and request were unchanged and all had settled: the last tensions were used.
+    // Cycles that used the last tensions, since pose and request were unchanged and the tensions
+    // had stopped changing.
     std::uint64_t tension_skipped = 0;
-    // Everything was at rest without new input: the whole last answer was used.
+    // Cycles that used the whole last answer, since everything was at rest (contract/rest.h).
     std::uint64_t steps_skipped = 0;
     std::uint64_t cold_starts = 0;
-    std::uint64_t bad_samples = 0; // count jumps and impossible lengths
+    std::uint64_t bad_samples = 0; // refused, or without a pose
     std::uint64_t read_timeouts = 0;
     // Requests that were not finite or malformed.
     std::uint64_t rejected_requests = 0;
@@ -87,7 +89,7 @@ struct ServoCounters {
     std::uint64_t old_reports = 0;    // repeated or out of order: ignored
     std::uint64_t faded_ticks = 0;    // a safety monitor reduced the wrench
     std::uint64_t bad_time_steps = 0; // outside [1e-6, 0.05] s: replaced by 1 / rate
-    // A tension outside [0, max] or NaN reached the safety gate. This is a defect.
+    // Cycles in which a tension outside [0, max] or a NaN reached the safety gate: a defect.
     std::uint64_t gate_clamps = 0;
 };
 
@@ -102,15 +104,15 @@ struct ServoSnapshot {
     StringArray lengths_m{};
     StringArray tensions_n{}; // commanded, after every limit
     Wrench requested;         // sum of all requests, after limits and ramp
-    // The wrench that tensions_n give; tension_report() splits the difference.
+    // The wrench that tensions_n give. tension_report() names the causes of its error.
     Wrench achieved;
     std::uint8_t at_min_mask = 0;
     std::uint8_t at_max_mask = 0;
     Status tension_status = Status::ok;
-    double force_scale = 0.0;   // arming ramp, 0..1
+    double force_scale = 0.0;   // ramp of arming and fading, 0..1
     double tension_scale = 0.0; // part of force_scale that scales all tensions, also the pretension
     double safety_scale = 1.0;  // share of the wrench that the safety monitors allow, 0..1
-    double thermal_share = 0.0; // used share of the warmest motor's thermal budget; 1: spent
+    double thermal_share = 0.0; // used part of the warmest motor's budget; 1: spent
     double parity_error_m = 0.0; // part of the eight lengths that no pose explains
     bool zero_known = false;
     int contact_count = 0;

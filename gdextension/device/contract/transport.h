@@ -20,7 +20,8 @@ struct DeviceReading {
     // False: the counts have no reference yet. A real device is in this state before it is zeroed,
     // and after it was plugged in again.
     bool zeroed = true;
-    // Valid reports since the last reading that were superseded by this one. They are not lost.
+    // Number of valid reports that arrived since the last reading, before this one, and were not
+    // read. They do not count as lost.
     std::uint16_t overtaken = 0;
     // ok, or why the device cannot pull: emergency stop, watchdog, supply, encoders or temperature.
     Status device_status = Status::ok;
@@ -30,14 +31,14 @@ struct DeviceReading {
     std::array<std::int16_t, kSensorCount> sensors{};
 };
 
-// What a cycle sends. Both forms are filled in, so that a device may use either: tensions after the
-// tension gain, and the motor currents that MotorCalibration makes of them.
+// What a cycle sends. A device may use either of two forms: the tensions divided by
+// MotorCalibration::tension_gain, or the motor currents for the same tensions.
 struct DriveCommand {
     StringArray tensions_n{};
     StringArray currents_a{};
     // False: currents are zero and the device may cut the motors' power.
     bool motors_on = false;
-    // The device may clear latched faults. Acts only with motors_on false.
+    // True: the device may clear its latched faults. It has effect only if motors_on is false.
     bool clear_faults = false;
 };
 
@@ -64,17 +65,16 @@ public:
     // Switches the motors off, then closes the handle. Does nothing when not open. May wait.
     virtual void close() noexcept = 0;
 
-    // Reads the newest reading. Returns read_timeout when there is no new one (reading unchanged),
-    // read_failed when the device is lost.
+    // Reads the newest report. Returns read_timeout and leaves `reading` unchanged when there is no
+    // new one, and read_failed when the device is lost.
     virtual Status read(DeviceReading &reading) noexcept = 0;
     virtual Status write(const DriveCommand &command) noexcept = 0;
 
     // True: write() may wait for the device for seconds and must not run in the loop's thread.
     [[nodiscard]] virtual bool write_may_block() const noexcept { return false; }
 
-    // Waits for the next report and leaves it to read(). Returns true when a report waits or
-    // monotonic_ns() has reached until_ns. Returns false at once when the device cannot clock the
-    // loop.
+    // Waits until a report has arrived, which read() then reads, or until monotonic_ns() reaches
+    // until_ns, and returns true. A device that cannot clock the loop returns false at once.
     [[nodiscard]] virtual bool wait_report(std::int64_t until_ns) noexcept {
         (void)until_ns;
         return false;

@@ -18,8 +18,8 @@ public:
     void panic() noexcept { panics_.fetch_add(1, std::memory_order_acq_rel); }
 
     // Called before the first cycle with the newest command, and sets its stop_count and
-    // stop_reason. Stops of an earlier run are over. A panic stays latched until the fault is
-    // cleared after it: then the first cycle has a reason to stop.
+    // stop_reason. A stop of an earlier run has no effect, except a panic after which no fault was
+    // cleared: it stops the motors in the first cycle.
     void restart(HapticCommand &newest) noexcept {
         write_is_blocked_ = false;
         hear(newest);
@@ -29,8 +29,8 @@ public:
             stop(Status::panic_stopped);
         }
     }
-    // Called once per cycle. Sets the command's stop_count and stop_reason. writer: null when the
-    // loop writes itself. Returns true when there is a new reason.
+    // Called once per cycle. Sets the command's stop_count and stop_reason. writer: null when no
+    // writer thread is used. Returns true when there is a new reason to stop.
     bool watch(WriterThread *writer, HapticCommand &command, EventLog &events) noexcept {
         const std::uint32_t before = stops_;
         if (hear(command)) {
@@ -81,7 +81,7 @@ private:
     std::atomic<std::uint32_t> panics_{0};
     std::uint32_t panics_seen_ = 0;
     std::uint32_t clear_fault_count_ = 0;
-    // A panic occurred and no fault was cleared since.
+    // True after a panic, until a fault is cleared.
     bool panicked_ = false;
     // Only grows, since any change counts as an edge.
     std::uint32_t stops_ = 0;

@@ -9,7 +9,7 @@
 namespace spidar {
 
 struct LoopStatistics {
-    double measured_rate_hz = 0.0; // over the last second; the set rate when stepped
+    double measured_rate_hz = 0.0; // of the last whole second; the set rate when stepped
     double lateness_p50_us = 0.0;  // delay of the wake-up; 0 when stepped
     double lateness_p99_us = 0.0;
     double lateness_max_us = 0.0;
@@ -18,7 +18,7 @@ struct LoopStatistics {
     std::uint64_t missed_deadlines = 0;
     // Cycles that began more than 1 ms late.
     std::uint64_t late_cycles = 0;
-    bool real_time_priority = false; // SCHED_FIFO was granted
+    bool real_time_priority = false; // was granted
 };
 
 class LoopTiming {
@@ -35,7 +35,8 @@ public:
         late_of_hundred_ = 0;
     }
 
-    // Starts the measurement of a second. Loop's thread only, like all functions up to missed().
+    // Starts the measurement of a second. This function and those up to missed() belong to the
+    // loop's thread.
     void begin(std::int64_t now_ns) noexcept {
         second_began_ns_ = now_ns;
         cycles_of_second_ = 0;
@@ -43,8 +44,8 @@ public:
     void set_real_time_priority(bool granted) noexcept {
         real_time_priority_.store(granted, std::memory_order_relaxed);
     }
-    // A cycle began late_ns after its deadline. Returns true when more than kLateOfHundred of the
-    // last hundred cycles were late.
+    // A cycle began late_ns after its deadline. At the end of each block of a hundred cycles,
+    // returns true if more than kLateOfHundred of the block were late; else false.
     bool woken(std::int64_t late_ns) noexcept {
         lateness_.add(late_ns);
         const bool late = late_ns > kLate_ns;
@@ -88,9 +89,9 @@ public:
     [[nodiscard]] const LoopHistogram &lateness() const noexcept { return lateness_; }
 
 private:
-    // Delay from which a cycle counts as late.
+    // A cycle with a longer delay counts as late.
     static constexpr std::int64_t kLate_ns = 1'000'000;
-    // Late cycles in a hundred that are not reported.
+    // Largest number of late cycles in a block of a hundred that is not reported.
     static constexpr int kLateOfHundred = 3;
 
     LoopHistogram lateness_;

@@ -1,4 +1,4 @@
-// The recording that a loop makes, and stopped recordings that the loop's thread may still use.
+// The running recording of a loop, and stopped ones whose recorder the loop's thread may still use.
 #pragma once
 
 #include <atomic>
@@ -48,7 +48,7 @@ public:
         recorder->close();
         last_ = recorder->statistics();
     }
-    // Like stop(), while no cycle runs and nothing uses a recorder.
+    // Like stop(), but called while no cycle runs: also frees the recorders.
     void stop_at_rest() noexcept {
         stop();
         owned_.clear();
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    // The last element is the running recording.
+    // While a recording runs, the last element of owned_ is its recorder.
     struct Owned {
         std::unique_ptr<Recorder> recorder;
         std::uint64_t free_at_cycle = UINT64_MAX; // the loop no longer uses it from this cycle on

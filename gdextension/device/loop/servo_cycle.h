@@ -18,17 +18,17 @@ public:
         step_.use(&touch_memory_);
     }
 
-    // Called while no cycle runs. Earlier commands and events have no effect on later cycles. On a
-    // negative status the old settings stay.
+    // Called while no cycle runs. Earlier commands have no effect on later cycles, except a panic
+    // stop that was not cleared. On a negative status the old settings stay.
     Status configure(const ServoSettings &settings) noexcept;
-    // Sets the motors' heat to what an earlier loop left, cooled since then. Called while no cycle
-    // runs and the source is open.
+    // Sets the motors' heat to the stored heat of an earlier loop, less the cooling since then.
+    // Called while no cycle runs and the source is open.
     void recall_heat() noexcept;
     // Stores the motors' heat for a later loop. Called while no cycle runs and the source is open.
-    // Returns false when there is no memory.
+    // Returns false if memory cannot be allocated.
     bool keep_heat() noexcept;
-    // Publishes the state before the first cycle of a source that begins in the middle of a
-    // recording. Called while no cycle runs and the source is open.
+    // If the source is a recording that begins in the middle, publishes the state before its first
+    // cycle. Called while no cycle runs and the source is open.
     void recall() noexcept;
     // Runs one cycle of dt_s in the loop's thread. Returns false when the source is exhausted.
     bool run(double dt_s) noexcept SPIDAR_NONBLOCKING;

@@ -37,11 +37,12 @@ public:
     // progress. May be called at any time and repeatedly.
     void stop() noexcept;
     // Switches the motors off in the next cycle, or at once where a writer thread serves the
-    // device. May be called from any thread at any time; one atomic operation. Latched until
+    // device. May be called from any thread at any time, and never waits. The motors stay off until
     // clear_fault() and arm(). When no loop runs or no device is open, the device later opens in
     // FAULT.
     void panic_stop() noexcept { cycle_.source().panic(); }
-    // Time since the thread began its last cycle (unit: s), for a game to watch; 0 without thread.
+    // Time since the thread began its last cycle (unit: s), for a game to watch; 0 before the first
+    // cycle and without a thread.
     [[nodiscard]] double since_last_cycle_s() const noexcept {
         return thread_.since_last_cycle_s();
     }
@@ -56,7 +57,7 @@ public:
 
     // Stepped only: advances simulated time by numerator/denominator seconds in whole servo cycles
     // and carries the remainder exactly (1/60 s at 1 kHz gives 16 or 17 cycles). Returns the number
-    // of cycles run.
+    // of cycles in this time, even if a replay ends before.
     int advance(std::uint32_t numerator, std::uint32_t denominator) noexcept;
 
     // Stepped only: runs whole cycles until the newest is `tick` or the replay ends.
@@ -76,8 +77,8 @@ public:
         return timing_.lateness().counts();
     }
 
-    // Records every cycle from the next one on into a file that replays bit for bit. Returns an
-    // empty string, or one sentence with the reason. On failure a running recording continues.
+    // Starts a recording with the next cycle, for a replay bit for bit. Returns an empty string, or
+    // one sentence that says why nothing is recorded. On failure a running recording continues.
     // stop() ends a recording too.
     [[nodiscard]] std::string start_recording(const std::string &path) {
         return running() ? cycle_.recordings().start(path, settings_, threaded(), touches_)
@@ -85,7 +86,7 @@ public:
     }
     void stop_recording() noexcept { cycle_.recordings().stop(); }
     [[nodiscard]] bool recording() const noexcept { return cycle_.recordings().recording(); }
-    // Tells a recording what the game has just read, so that a replay returns it at the same place.
+    // Records what the game has just read, so that a replay gives it to the game at the same cycle.
     void note_read(const GameRead &read) noexcept { cycle_.recordings().note(read); }
     // Of the running recording, else of the last one.
     [[nodiscard]] RecorderStatistics recording_statistics() const noexcept {

@@ -20,7 +20,8 @@ public:
     // Switches the motors off and joins the thread.
     void stop() noexcept;
     [[nodiscard]] bool running() const noexcept { return thread_.joinable(); }
-    // Time since the last cycle began (unit: s); 0 when no thread runs. Called from any thread.
+    // Time since the last cycle began (unit: s); 0 before the first cycle and when no thread runs.
+    // Called from any thread.
     [[nodiscard]] double since_last_cycle_s() const noexcept;
 
 private:

@@ -24,7 +24,7 @@ public:
         bool hand_present = true;
         bool device_ready = true; // the device has power and no fault of its own
         bool too_warm = false;    // a motor's thermal budget is spent
-        // True when nothing holds that would end a state in which motors pull.
+        // False if one of these three inputs would end a state in which motors pull.
         [[nodiscard]] bool may_pull() const noexcept {
             return forces_enabled && game_alive && !too_warm;
         }
@@ -33,7 +33,7 @@ public:
     struct Outcome {
         // The strings are taut: the present counts are those of the home pose.
         bool take_zero = false;
-        bool zero_needed = false; // arm() or forces were requested without a zero
+        bool zero_needed = false; // the device would arm, but has no zero
         bool no_hand = false;     // arm() was requested without a hand
         bool too_warm = false;    // arm() or a zero was requested while a motor is too warm
         bool game_stalled = false;
@@ -45,9 +45,9 @@ public:
     // The device answers: CLOSED becomes CONNECTED, unless the device was lost. Returns true when
     // the device was stopped while closed: it opens in FAULT.
     bool open(bool zero_known) noexcept;
-    // Applies motor_rule.h. why, string (0-7 or -1): cause of a fault; the first cause is kept.
-    // Returns true when the state changed. After device_lost the state is CLOSED until clear() is
-    // called while the device answers.
+    // Applies motor_rule.h. why, string (0-7 or -1): cause of a fault. A further fault in FAULT, or
+    // a further loss of the device, does not change it. Returns true when the state changed. After
+    // device_lost the state is CLOSED until clear() is called while the device answers.
     bool stop(StopReason reason, Status why = Status::ok, int string = -1) noexcept;
     // True when there is a fault, or a panic stop of a closed device.
     [[nodiscard]] bool needs_clearing() const noexcept {
@@ -55,11 +55,11 @@ public:
     }
     // Leaves FAULT, or CLOSED after device_lost. answers: the device was read in this cycle.
     void clear(bool answers) noexcept;
-    // Sets whether the device's counts have a zero.
+    // Sets whether the zero of the counts is known.
     void set_zero_known(bool known) noexcept { zero_known_ = known; }
-    // Result of the zero check in TAUT: correct.
+    // The check in TAUT found the zero correct.
     void confirm_zero() noexcept;
-    // Result of the zero check in TAUT: wrong.
+    // The check in TAUT found the zero wrong.
     void refuse_zero() noexcept;
 
     // Takes one cycle: edges and ramps.
@@ -75,7 +75,8 @@ public:
     [[nodiscard]] double scale() const noexcept { return tension_scale_ * wrench_scale_; }
     [[nodiscard]] bool motors_on() const noexcept;
     [[nodiscard]] bool zero_known() const noexcept { return zero_known_; }
-    // True when the next advance() without an edge and with equal forces_enabled changes nothing.
+    // True only in ACTIVE and CONNECTED, and only if another advance() with the same inputs and no
+    // edge would change nothing.
     [[nodiscard]] bool at_rest() const noexcept;
     // True in TAUT once the zero was taken: the grip's motion is being checked.
     [[nodiscard]] bool checking_zero() const noexcept {
@@ -90,7 +91,7 @@ public:
     }
 
 private:
-    // Enters a state in which nothing pulls.
+    // Enters `next`, in which no motor pulls.
     void go_slack(DeviceState next) noexcept;
     // Arms, unless a condition is missing.
     void arm(const Inputs &inputs, bool ramps_wrench, Outcome &outcome) noexcept;

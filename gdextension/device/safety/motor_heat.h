@@ -1,6 +1,6 @@
-// Heat of each device's motors while no loop runs: a device that is opened again is as warm as it
-// was left, less the cooling since. Kept for this process under the device's name
-// (Transport::device_name()).
+// Keeps the heat of each device's motors while no loop runs, and lets it cool, so that a device
+// that is opened again does not start cold. It is kept until the process ends, under the device's
+// name (Transport::device_name()).
 #pragma once
 
 #include <cstdint>

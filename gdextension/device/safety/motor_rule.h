@@ -27,7 +27,7 @@ static_assert(kStopReasons == static_cast<std::size_t>(StopReason::device_lost) 
 enum class StopAction : std::uint8_t {
     unset = 0,   // a cell that was not filled in: does not compile
     nothing = 1, // the motors are off or going off
-    // Nothing pulls; a device that would arm itself no longer does.
+    // The state stays (the motors are off or going off), but the device does not arm itself again.
     disarm = 2,
     // Forces fall within 20 ms, then CONNECTED with the motors off.
     fade = 3,
@@ -37,9 +37,10 @@ enum class StopAction : std::uint8_t {
     latch = 7,  // stays CLOSED; the device opens in FAULT
 };
 
-// What lets a self-arming (simulated) device arm again. A real device always waits for arm().
+// What must happen before a simulated device, which arms itself, arms again. A real device always
+// waits for arm().
 enum class Rearm : std::uint8_t {
-    by_itself = 0, // the end of the reason
+    by_itself = 0, // the reason ends
     by_toggle = 1, // arm(), or forces_enabled switched off and on
     by_arm = 2,    // arm() alone
 };
@@ -92,7 +93,7 @@ static_assert(is_whole(), "a state or a reason is missing in the rule for motors
 [[nodiscard]] constexpr StopAction stop_action(DeviceState state, StopReason reason) noexcept {
     return motor_rule::kActions[static_cast<std::size_t>(reason)][static_cast<std::size_t>(state)];
 }
-// may_arm_itself: true for a simulated device, which continues when its game does.
+// may_arm_itself: true for a simulated device. It arms again when its silent game comes back.
 [[nodiscard]] constexpr Rearm rearm_after(StopReason reason, bool may_arm_itself) noexcept {
     return reason == StopReason::game_silent && may_arm_itself
                ? Rearm::by_itself

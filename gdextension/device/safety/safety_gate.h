@@ -1,4 +1,5 @@
-// The last stage before the motors. Its output is finite, within [0, max] and slew-limited.
+// The last stage before the motors. Its tensions are finite and within [0, max]. They change by no
+// more than the slew limit, except that NaN, negative input and shut() give 0 N at once.
 #pragma once
 
 #include "core/base/types.h"
@@ -13,7 +14,8 @@ public:
         bool clamped = false; // an input was NaN, negative or above the maximum
     };
 
-    // Requires positive, finite arguments; otherwise the gate stays shut (zero tensions).
+    // A maximum that is not positive and finite keeps its string at 0 N. A slew limit that is not
+    // positive and finite keeps all strings at 0 N.
     void configure(const StringArray &max_tensions_n, double slew_n_per_ms) noexcept;
 
     // Returns the tensions to send. NaN and negative inputs give 0 N at once; all others are

@@ -1,5 +1,5 @@
-// All monitors of the grip while forces act. The result scales the wrench down or gives a reason to
-// stop (motor_rule.h). Each monitor has its own file.
+// Runs the monitors of the grip. They scale the wrench down or, while the motors are on, give a
+// reason to stop (motor_rule.h). Each monitor has its own file.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -31,7 +31,7 @@ public:
         double fastest_m_s = 0.0;
         double strongest_n = 0.0; // largest commanded tension
         bool fresh = false;       // a good sample arrived in this cycle
-        bool moved = false;       // the sample gave another pose
+        bool moved = false;       // the pose changed
         bool motors_on = false;
         bool rendering = false; // a wrench is requested
         Wrench contact_push{};  // the part of it that contacts request
@@ -42,12 +42,12 @@ public:
     void restart() noexcept;
 
     Verdict watch(const Sample &sample, EventLog &events, double dt_s) noexcept;
-    // Takes the tensions of this cycle (unit: N).
+    // Heats the motors' model by the tensions of this cycle (unit: N).
     void spend(const StringArray &tensions_n, double dt_s) noexcept {
         parts_.heat.spend(tensions_n, dt_s);
     }
 
-    // True when nothing is scaled down. spend() must still be called.
+    // True when nothing is scaled down and all monitors are at rest. spend() must still be called.
     [[nodiscard]] bool at_rest() const noexcept {
         return fade_ >= 1.0 && scale_ >= 1.0 && !fading_ && all_at_rest(parts_);
     }
@@ -56,7 +56,9 @@ public:
         return parts_.heat.at_rest();
     }
     [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
-    // Scale of the wrench, 0..1. Falls to zero within 20 ms, returns within 50 ms.
+    // Scale of the wrench, 0..1: the product of a fade (to 0 within 20 ms while a string is
+    // suspected or the grip is too fast, back to 1 within 50 ms) and of the scales of shaking, heat
+    // and workspace.
     [[nodiscard]] double wrench_scale() const noexcept { return scale_; }
     // False while the velocity must not be used for damping.
     [[nodiscard]] bool velocity_trusted() const noexcept { return !fading_; }

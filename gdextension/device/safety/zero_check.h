@@ -1,6 +1,6 @@
-// Checks a zero: was it taken at home, with the strings in their places? At one pose this cannot be
-// seen, since any eight lengths can be called home. Once the grip moves, a wrong zero, swapped or
-// reversed strings make the lengths contradict each other.
+// Checks a zero: was it taken at home, with the strings in their places? One pose cannot show it,
+// since the counts of any pose can be declared to be home. Once the grip moves, a wrong zero,
+// swapped or reversed strings make the lengths contradict each other.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ public:
     // Parity error that refuses the zero (unit: m). A zero 30 mm beside home gives 2 mm within
     // kReach_m, a calibrated device 0.5 mm.
     static constexpr double kParity_m = 0.001;
-    // Time for which the error must last (unit: s), so that one bad sample refuses nothing.
+    // Time for which the error must last (unit: s), so that one bad sample does not refuse the
+    // zero.
     static constexpr double kHold_s = 0.020;
 
     void begin() noexcept {

@@ -21,15 +21,15 @@ struct GainClamp {
         grasp_damping = 6,   // N m s/rad of grasp_angle
         friction = 7,
         speed = 8, // speed of a plane or proxy, m/s or rad/s
-        force = 9, // force of a vibration, N or N m
-        // The whole request was scaled; `asked` and `given` are relative to it.
+        force = 9, // strength of an effect, N or N m
+        // The whole request was scaled: `asked` is 1, `given` the factor.
         wrench = 10,
     };
     enum class Request : std::uint8_t { contact, coupling, effect, wrench };
 
     Gain gain = Gain::none;
     Request request = Request::contact;
-    // The latency and rate of the loop, not a setting, set the limit.
+    // True if the latency and the rate of the loop set the limit; false if a setting did.
     bool from_latency = false;
     std::int32_t index = 0; // of the contact, effect or DOF
     // Requested value.
@@ -42,7 +42,8 @@ struct GainClamp {
 
 // Largest Coulomb coefficient, whatever the settings: no hand can use more.
 inline constexpr double kMaxFriction = 10.0;
-// Largest speed of a surface in any settings: a faster one is an error of the physics engine.
+// Largest speed of a surface, whatever the settings: a faster one is an error of the physics
+// engine.
 inline constexpr double kMaxSurfaceSpeed_m_s = 10.0;
 
 // Returns `value` clamped to +-cap. Records the first clamped gain of a request in `clamp`.

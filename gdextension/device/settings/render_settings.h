@@ -1,4 +1,4 @@
-// How requests become a wrench: resonance and delay of the device, and the gain limits they set.
+// Settings of the renderer: resonance and delay of the device, limits of gains, compensation.
 #pragma once
 
 #include <string>
@@ -8,18 +8,20 @@
 namespace spidar {
 
 struct RenderSettings {
-    // Resonance of the motors' rotors against the grip on the elastic strings, somewhat above
-    // sqrt(EA / (length * rotor mass)) / (2 pi), where EA is the axial stiffness of a string (N). A
-    // filter removes this frequency from the motion that contacts and coupling use. 0: no filter.
+    // Frequency at which the motors' rotors and the grip swing against each other on the elastic
+    // strings, somewhat above sqrt(EA / (length m)) / (2 pi). EA is the axial stiffness of a string
+    // (N), m the inertia of a rotor over the square of its drum's radius (kg). A filter removes
+    // this frequency from the motion that is rendered. No filter with 0, or if the servo rate is
+    // too low for it (device/rendering/motion_filter.cpp).
     double string_resonance_hz = 112.0;
-    double velocity_cutoff_hz = 300.0; // of the velocity for damping
+    double velocity_cutoff_hz = 300.0; // of the velocity that damping uses
     // Time by which the pose is predicted for contacts and coupling. It compensates the delays of
     // the link, the hold of one cycle, the motors and the filter.
     double delay_compensation_s = 0.003;
 
-    // Time from encoder edge to motor current. The caps below are lowered according to it.
+    // Time from encoder edge to motor current. It lowers the stiffness caps below: see gain_caps().
     double latency_s = 0.001;
-    bool caps_from_latency = true; // false: only the caps below apply, for measuring limits
+    bool caps_from_latency = true; // false: latency lowers no cap (for tests)
     // Largest stiffness of one contact or coupling. Latency and rate may lower it further.
     double max_stiffness_n_m = 2000.0;
     double max_turn_stiffness_nm_rad = 3.0;
@@ -28,7 +30,8 @@ struct RenderSettings {
     double max_turn_damping_nm_s_rad = 0.01;
     double max_grasp_damping_nm_s_rad = 0.003;
 
-    // Largest damping of the coupling's passivity controller over the damping caps. 0: off.
+    // Largest damping that the passivity controller of the coupling adds, as a multiple of the
+    // damping caps. 0: no controller.
     double passivity_share = 2.0;
 
     // Mass of the grip whose weight the strings carry. Off by default; needs a measurement.
@@ -40,7 +43,8 @@ struct RenderSettings {
     double compensated_viscous_n_s_m = 0.0; // of rotor and back-EMF
 };
 
-// Largest stable gains for a loop of this latency and rate; never above the settings' caps.
+// Largest gains that are rendered: the caps of the settings, where the stiffness is also limited to
+// what is stable at this latency and rate.
 struct GainCaps {
     double stiffness_n_m = 0.0;
     double turn_stiffness_nm_rad = 0.0;
@@ -48,7 +52,7 @@ struct GainCaps {
     double damping_n_s_m = 0.0;
     double turn_damping_nm_s_rad = 0.0;
     double grasp_damping_nm_s_rad = 0.0;
-    // The latency and rate, not the settings, limit the stiffness.
+    // True if latency and rate limit stiffness_n_m below the settings' cap.
     bool from_latency = false;
 };
 [[nodiscard]] GainCaps gain_caps(const RenderSettings &settings, double rate_hz) noexcept;

@@ -19,7 +19,7 @@ namespace spidar {
 struct SafetySettings {
     double arming_time_s = 1.0;         // forces rise from 0 to full over this time
     double tension_slew_n_per_ms = 1.0; // largest change of a string's tension
-    double max_force_n = 8.0;           // of the request; a larger one keeps its direction
+    double max_force_n = 8.0;           // of the request; a larger one is scaled down
     double max_moment_nm = 0.4;
     double max_grasp_torque_nm = 0.4;
     double max_count_speed_m_s = 5.0;    // a faster string is a bad sample
@@ -28,7 +28,7 @@ struct SafetySettings {
     double read_timeout_fault_s = 0.020; // no report for this long: motors off
     double max_grip_speed_m_s = 2.0;     // faster: motors off
     double fade_grip_speed_m_s = 1.2;    // faster for 3 ms: the wrench fades in 20 ms
-    double fade_turn_rate_rad_s = 15.0;  // same for rotation
+    double fade_turn_rate_rad_s = 15.0;  // faster for 3 ms: the wrench fades in 20 ms
     double max_turn_rate_rad_s = 30.0;   // faster: motors off
     double wrench_fade_s = 0.050;        // fade of a wrench after its duration
     double contacts_full_s = 0.100;      // age up to which contacts act in full
@@ -36,13 +36,15 @@ struct SafetySettings {
     double game_timeout_s = 0.5;         // no heartbeat of the game for this long: disarmed
     double continuous_tension_n = 3.5;   // tension that a motor bears continuously
     double thermal_time_s = 12.0;        // thermal time constant of a motor's winding
-    double string_error_fade_m = 0.002;  // change of the parity error that fades the wrench
-    double string_error_fault_m = 0.006; // same for 50 ms: motors off
+    double string_error_fade_m = 0.002;  // rise of the parity error that fades the wrench
+    double string_error_fault_m = 0.006; // parity error above this for 50 ms: motors off
     double workspace_margin_m = 0.01;    // soft wall this far inside the reach; 0: none
-    double hand_presence_s = 5.0;        // arming a real device needs motion within this
+    // Motion that arming a real device needs within this time; 0: none.
+    double hand_presence_s = 5.0;
 };
 
-// Sources that close a rigid grip's fingers (device/tracking/fingers.h). The strongest counts.
+// Sources that close a rigid grip's fingers (device/tracking/fingers.h). The one that closes them
+// most counts.
 struct FingerSettings {
     std::uint8_t button_mask = 0x01; // device buttons that close: bit i is button i
     bool by_game = true;             // use HapticCommand::grasp_share
@@ -55,7 +57,8 @@ struct FingerSettings {
 struct ServoSettings {
     double rate_hz = 1000.0;          // 100 to 4000
     double velocity_cutoff_hz = 60.0; // one-pole filter of the twist
-    // Threaded: interval between attempts to open a device (unit: s). 0: start fails instead.
+    // Threaded loop: interval between attempts to open a device (unit: s). With 0 the start fails
+    // if the device does not open.
     double reopen_interval_s = 0.0;
     FrameGeometry frame = make_box_frame(Vec3(kPaperHalfExtent_m));
     GripGeometry grip;

@@ -17,7 +17,7 @@ class ServoStep;
 struct CycleGiven {
     CycleInput input;
     HapticCommand command;
-    // The command may differ from the last cycle's.
+    // True if the command may differ from that of the last cycle.
     bool command_is_new = false;
 };
 
@@ -32,7 +32,7 @@ public:
     // nothing when not open.
     virtual Status open() noexcept = 0;
     virtual void close() noexcept = 0;
-    // True: each cycle lasts exactly one period, whatever time it took.
+    // True: each cycle advances the time by exactly one period, however long it took.
     [[nodiscard]] virtual bool simulated() const noexcept = 0;
 
     // Updates `given` for the next cycle; input.dt_s already holds the measured time. May set
@@ -47,8 +47,8 @@ public:
     virtual void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                         double dt_s) noexcept = 0;
 
-    // Prepares the first cycle. threaded: cycles run in real time in the loop's thread. This and
-    // the following functions do nothing for recordings, unless overridden.
+    // Prepares the first cycle. threaded: cycles run in real time in the loop's thread. This
+    // function and those below have defaults for a source without device and game.
     virtual Status begin(bool /*threaded*/) noexcept { return Status::ok; }
     // Called after the last cycle.
     virtual void motors_off() noexcept {}
@@ -56,8 +56,8 @@ public:
     [[nodiscard]] virtual bool wait_report(std::int64_t /*until_ns*/) noexcept { return false; }
     // Publishes the game's command; the newest wins. Called from the controlling thread. Wait-free.
     virtual void publish(const HapticCommand & /*command*/) noexcept {}
-    // Called before a start. Returns the newest published command, of which only a latched panic
-    // stop has effect.
+    // Called before a start. Sets `command` to the newest published one, so that the step can take
+    // it as seen. A panic stop that was not cleared still has effect.
     virtual void restart(HapticCommand & /*command*/) noexcept {}
     // Called once after open(), before the first cycle. Returns true when `step` was set to the
     // state before that cycle, which a game may see.
@@ -65,7 +65,7 @@ public:
     // Like Transport::device_name(), after open().
     [[nodiscard]] virtual std::string device_name() const { return {}; }
     // Switches the motors off as soon as possible, and keeps them off in later runs until the fault
-    // is cleared. Called from any thread; one atomic operation.
+    // is cleared. Called from any thread; never waits.
     virtual void panic() noexcept {}
 };
 

@@ -40,7 +40,8 @@ public:
     [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.renderer.touch(); }
     [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.renderer.touch(); }
 
-    // Takes this command's edges and requests as seen: earlier requests do not act after a start.
+    // Takes this command's counters and requests as seen, so that a request from before a start has
+    // no effect.
     void acknowledge(const HapticCommand &command) noexcept;
 
     // Runs one cycle. read_status: result of Transport::read(). may_arm_itself: true for simulated
@@ -51,15 +52,15 @@ public:
     // Reports the result of a write. A failure is counted, and the device is lost.
     void report_write(Status write_status) noexcept;
 
-    // Heat of each motor over its thermal budget. It outlasts the loop (safety/motor_heat.h).
+    // Used share of each motor's thermal budget. It outlasts the loop (safety/motor_heat.h).
     [[nodiscard]] const StringArray &heat() const noexcept { return parts_.monitor.heat().heat(); }
     void set_heat(const StringArray &heat) noexcept {
         parts_.monitor.set_heat(heat);
         resting_ = false;
     }
 
-    // The next step skips only kinematics. The outputs do not change, except the counters
-    // tension_skipped and steps_skipped.
+    // The next step computes the tensions anew, even at rest. This changes no output except the
+    // counters tension_skipped and steps_skipped.
     void forget_settled() noexcept {
         parts_.drive.forget_settled();
         resting_ = false;
@@ -99,7 +100,7 @@ private:
     void take_limits(const HapticCommand &command) noexcept;
     void clear_fault(bool answers) noexcept;
     void jump_clock(double asked_dt_s) noexcept;
-    // Returns false for an old report, or one that is not of this device.
+    // Returns false for an old report, which must not be used.
     bool accept_report(const DeviceReading &reading) noexcept;
     void observe(Status read_status, const DeviceReading &reading, double dt_s) noexcept;
     void solve_pose(const CountArray &counts, bool unchanged, double dt_s) noexcept;
@@ -112,7 +113,7 @@ private:
     void tell_state() noexcept;
     // Applies motor_rule.h, and reports the stop when it changes the state.
     void stop(StopReason reason, Status why, int string) noexcept;
-    // Latches a fault or a panic stop.
+    // Stops with a fault, or with a panic if `why` is panic_stopped.
     void raise(Status why, int string) noexcept;
     void lose(Status why) noexcept;
     // Whether the next step would give the same result as the last (servo_step_rest.cpp).

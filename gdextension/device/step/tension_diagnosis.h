@@ -1,5 +1,5 @@
-// Splits the error of a servo loop's tensions into its causes, from a snapshot. The reader of
-// snapshots runs it, so that the loop has no cost.
+// Splits the error of a servo loop's tensions into its causes, from a snapshot. It runs in the
+// thread that reads the snapshot and not in the servo loop.
 #pragma once
 
 #include "core/tension/tension_report.h"
@@ -12,7 +12,8 @@ namespace spidar {
 // pull, so that currents are never clamped after the solver.
 [[nodiscard]] TensionSettings solver_settings(const ServoSettings &settings) noexcept;
 
-// Scales everything alike during the ramps of arming and fading. Motors off: zeros, status ok.
+// During the ramps of arming and fading, request and tensions are compared at full scale, and the
+// report is scaled by the ramp. With the motors off all values are zero and the status is ok.
 [[nodiscard]] TensionReport tension_report(const ServoSettings &settings,
                                            const ServoSnapshot &snapshot) noexcept;
 

@@ -23,9 +23,8 @@ public:
     void forget_settled() noexcept { solver_.forget_settled(); }
 
     // Renders a wrench. The ramp (0..1) scales the tensions, so that pretension and wrench rise
-    // together: A (ramp tau) is exactly ramp times the wrench. Call one of pull(),
-    // hold_pretension() and let_go() per cycle; each fills in the tensions of `snapshot` and what
-    // belongs to them.
+    // together: A (ramp tau) = ramp A tau. Call one of pull(), hold_pretension() and let_go() per
+    // cycle. Each sets the fields of `snapshot` on tensions, requested and achieved wrench.
     DriveCommand pull(const GripState &grip, const Wrench &wrench, double ramp, double dt_s,
                       ServoSnapshot &snapshot, EventLog &events) noexcept;
     // Sets every string that is not broken to this part (0..1) of the pretension. Needs no pose.
@@ -33,7 +32,7 @@ public:
     // Switches the motors off in this cycle, without a ramp.
     DriveCommand let_go(ServoSnapshot &snapshot) noexcept;
 
-    // True when the tensions repeat the last cycle bit for bit and no rate limit changed them.
+    // True when the tensions equal those of the last cycle bit for bit and the gate changed none.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // True when strings at a bound changed the wrench of the last pull().
     [[nodiscard]] bool saturated() const noexcept { return saturated_; }

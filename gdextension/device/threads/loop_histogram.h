@@ -38,8 +38,9 @@ public:
         return all;
     }
 
-    // Returns the time (unit: us) below which this part (0..1) of all samples lies: the middle of
-    // its bucket, within a factor of 2^(1/4). 0 when there are no samples; never above max_us().
+    // Returns the time (unit: us) below which this part (0..1) of all samples lies, within a factor
+    // of 2^(1/4), since the middle of its bucket stands for it. Never above max_us(); 0 without
+    // samples.
     [[nodiscard]] double quantile_us(double part) const noexcept {
         const std::uint64_t all = total();
         if (all == 0) {

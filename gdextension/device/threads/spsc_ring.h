@@ -1,5 +1,5 @@
 // Queue between one writing and one reading thread. Wait-free on both sides; memory is allocated
-// once, in the constructor. A full queue refuses elements.
+// once, in the constructor. A full queue takes no new element.
 #pragma once
 
 #include <atomic>
@@ -77,7 +77,8 @@ public:
 
 private:
     std::vector<T> slots_;
-    // Each side has its own cache lines, with its last view of the other side.
+    // Each thread has its own cache lines, with the position of the other thread as it last read
+    // it.
     alignas(64) std::atomic<std::size_t> tail_{0};
     std::size_t known_head_ = 0;
     alignas(64) std::atomic<std::size_t> head_{0};

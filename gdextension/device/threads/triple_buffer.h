@@ -1,6 +1,6 @@
-// Newest-value mailbox between one writing and one reading thread. Wait-free on both sides: neither
-// retries, so that a slow reader cannot delay the servo loop, and a value is never torn. The newest
-// value replaces values that were not read.
+// Passes the newest value from one writing to one reading thread; it replaces older values that
+// were not read. Wait-free on both sides: no side retries, so that a slow reader cannot delay the
+// servo loop. A value is always read whole.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // Writes to a device whose write() may wait for seconds, in a thread with a mailbox that holds only
 // the newest command. The servo loop never waits. The thread is also a watchdog: when the loop
 // stops posting while the motors may be on, the thread switches them off. Motors count as off only
-// once the device has accepted such a command, which is repeated until then.
+// once the device has accepted a command with motors off. The thread repeats that command until
+// then.
 #pragma once
 
 #include <atomic>
@@ -18,8 +19,8 @@ class WriterThread {
 public:
     // Time without a post, with motors on, after which this thread switches them off.
     static constexpr std::int64_t kStalled_ns = 20'000'000;
-    // Time after which a blocked write means that the device accepts no more: its firmware has
-    // switched off by itself.
+    // Time after which a write that is still blocked means that the device accepts no more. By then
+    // its firmware has switched the motors off by itself.
     static constexpr std::int64_t kBlockedForGood_ns = 50'000'000;
 
     explicit WriterThread(Transport &transport) noexcept : transport_(transport) {}
@@ -41,8 +42,8 @@ public:
     void forbid() noexcept;
     void allow() noexcept { forbidden_.store(false, std::memory_order_release); }
 
-    // Returns the result of the last posted command whose write ended since the last call; ok when
-    // none did.
+    // Returns ok if no write of a posted command has failed since the last call. Otherwise returns
+    // the status of the last one that failed.
     Status take_result() noexcept;
     // Time for which the current write has been waiting (unit: ns); 0 when there is none.
     [[nodiscard]] std::int64_t blocked_ns(std::int64_t now_ns) const noexcept;
@@ -75,7 +76,7 @@ private:
     // Used by the thread only, and kept between runs: a device that did not accept the off command
     // still has its motors on.
     bool motors_may_be_on_ = false;
-    // The last command or this thread wants the motors off.
+    // The last command that was written had its motors off.
     bool off_is_wanted_ = false;
 };
 

@@ -1,6 +1,6 @@
 // The fingers of a rigid grip, which no string measures. A button, the game or a sensor closes
-// them. The angle follows smoothly, without jumps of angle or speed. Nothing can push the fingers
-// open, so that no grasp torque is felt.
+// them. The angle follows smoothly, without jumps of angle or speed. The device cannot push the
+// fingers, so that no grasp torque is felt.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] bool at_rest() const noexcept {
         return motion_.rate_rad_s == 0.0 && motion_.angle_rad == target_rad();
     }
-    // True when take() with these arguments would change nothing.
+    // True when both take() functions with these arguments would change nothing.
     [[nodiscard]] bool has_seen(const DeviceReading &reading,
                                 const HapticCommand &command) const noexcept;
     // Checks restored memory: see core/base/sound_state.h.

@@ -1,6 +1,6 @@
-// From the counts of each cycle to GripState: pose by forward kinematics, twist by filtered
-// differences of poses. A report is somewhat old, or missing: the present pose is the measured one
-// extrapolated by the twist.
+// Computes GripState from the counts of each cycle: the pose by forward kinematics, the twist by
+// filtered differences of poses. Since a report is some time old, or missing, the present pose is
+// the measured pose extrapolated by a twist.
 #pragma once
 
 #include "core/base/one_pole.h"
@@ -16,10 +16,10 @@ class GripTracker {
 public:
     // On a negative status the old configuration stays.
     Status configure(const ServoSettings &settings) noexcept;
-    // Solves the next sample without memory, and restarts the twist from zero.
+    // The next sample is solved without the last pose, and the twist restarts from zero.
     void restart() noexcept;
 
-    // Takes these counts as those of the home pose, then acts like restart().
+    // Sets the zero counts to `counts`, which the grip has at home, then acts like restart().
     void set_zero(const CountArray &counts) noexcept;
 
     struct Update {
@@ -47,7 +47,7 @@ public:
     // Unfiltered displacement of the last cycle; zero when the pose was found by a search.
     [[nodiscard]] const Displacement &moved() const noexcept { return moved_; }
     [[nodiscard]] const StringArray &lengths_m() const noexcept { return lengths_m_; }
-    // True when the twist is exactly zero and the same counts would give the same pose.
+    // True when the twist is exactly zero and the same counts again would give the same pose.
     [[nodiscard]] bool at_rest() const noexcept;
     [[nodiscard]] bool has_pose() const noexcept { return has_pose_; }
     // Speed of the fastest point among P0 and the four pole ends (unit: m/s).

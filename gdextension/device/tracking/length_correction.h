@@ -1,6 +1,6 @@
-// Converts counts to lengths in the servo loop, corrected for winding and stretch. The stretch
-// follows the commanded tensions slowly. It removes the error of a held force and does not affect
-// the stability of a stiff wall.
+// Converts counts to lengths in the servo loop, corrected for winding and stretch. The computed
+// stretch follows the commanded tensions slowly: it corrects the lengths under a steady force, and
+// is too slow to affect the stability of a stiff wall.
 #pragma once
 
 #include "core/base/one_pole.h"
@@ -14,8 +14,8 @@ public:
     void configure(const StringCalibration &strings, const LengthCorrections &corrections) noexcept;
     void set_zero(const CountArray &counts) noexcept { strings_.zero_count = counts; }
 
-    // Takes one cycle. tensions_n: commanded in the last cycle. Returns true when the lengths of
-    // unchanged counts change.
+    // Takes one cycle. tensions_n: commanded in the last cycle. Returns true if the same counts now
+    // give other lengths.
     bool follow(const StringArray &tensions_n, double dt_s) noexcept;
     [[nodiscard]] StringArray lengths(const CountArray &counts) const noexcept;
     // Checks restored memory: see core/base/sound_state.h.

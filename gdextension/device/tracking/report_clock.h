@@ -2,10 +2,10 @@
 // lost, late or superseded, or a device clock that differs from the host's, therefore changes
 // neither the velocity nor the present pose.
 //
-// A report arrives some time after it was made. The shortest delay counts as zero, since prediction
-// covers it as part of the link's latency. Any longer delay is the age of the report. The two
-// clocks run at different rates: the shortest delay is found in each interval of kStretch_s, and
-// its growth is the drift.
+// A report arrives some time after it was made. The shortest delay counts as zero, since the
+// prediction of the renderer covers it as part of the link's latency. The age of a report is its
+// delay minus the shortest one. The two clocks run at different rates: the drift is the growth of
+// the shortest delay from one interval of kStretch_s to the next.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ private:
     static constexpr double kStretch_s = 0.25;
     // Resolution of the device's clock.
     static constexpr double kGrain_s = 2e-6;
-    // Shortest time between two reports, whatever their times are.
+    // A shorter time between two reports counts as this.
     static constexpr double kClosest_s = 1e-4;
 
     [[nodiscard]] double made_after_s(std::uint64_t device_us) const noexcept;
@@ -61,7 +61,7 @@ private:
     double age_s_ = 0.0;
     // Host time minus the device time corrected for drift, since the first report.
     double lag_s_ = 0.0;
-    // The smallest value that lag_s_ can have now.
+    // Value of lag_s_ for the shortest delay; the age of a report is measured from it.
     double floor_s_ = 0.0;
     // Part of a change of the floor that is still to be made, in small steps: a jump would be felt.
     double to_come_s_ = 0.0;
@@ -70,7 +70,8 @@ private:
     double stretch_s_ = 0.0;
     double least_s_ = 0.0;
     double least_at_s_ = 0.0;
-    // Smallest lag of the previous interval on today's scale, and its time before this interval.
+    // Smallest lag of the previous interval, extrapolated by the drift to its end, and how long
+    // before that end it was measured.
     bool has_before_ = false;
     double before_s_ = 0.0;
     double before_ago_s_ = 0.0;

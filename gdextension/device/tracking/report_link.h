@@ -14,7 +14,8 @@ namespace spidar {
 
 class ReportLink {
 public:
-    // A device clock that goes back by more than this has restarted; less is a late report.
+    // If a report's device time is earlier than the last one by more than this, the device has
+    // restarted; if by less, the report is late.
     static constexpr std::uint64_t kClockBack_us = 50'000;
 
     void configure(const SafetySettings &safety, double nominal_dt_s) noexcept {
@@ -23,12 +24,12 @@ public:
         lost_s_ = safety.read_timeout_fault_s;
         slack_s_ = 0.5 * nominal_dt_s;
     }
-    // The device may restart its report numbers.
+    // Accepts any number and device time in the next report.
     void expect_anew() noexcept {
         order_.reset();
         clock_.reset();
     }
-    // A fault was cleared: missed reports are forgotten.
+    // Called when a fault is cleared. Like expect_anew(), and restarts the time without reports.
     void forgive() noexcept {
         expect_anew();
         since_report_s_ = 0.0;
@@ -52,7 +53,7 @@ public:
         device_time_us_ = std::max(device_time_us_, reading.device_time_us);
         return true;
     }
-    // Returns whether accept() would take this report without missing any.
+    // Returns whether this report is the next one: no restart, and none missing before it.
     [[nodiscard]] bool follows(const DeviceReading &reading) const noexcept {
         return reading.device_time_us + kClockBack_us >= device_time_us_ &&
                order_.follows(reading.sequence);

@@ -11,12 +11,13 @@ namespace spidar {
 
 class ReportOrder {
 public:
-    // Old reports in a row after which the device is taken to have restarted its numbers.
+    // After this many old reports in a row the next one is used: the device has restarted its
+    // numbers.
     static constexpr int kAnew = 20;
 
     void reset() noexcept { *this = ReportOrder(); }
     // Returns true when the report must be used. A device without numbers sends 0 each time.
-    // overtaken: reports that arrived since the last one and were superseded unread.
+    // overtaken: number of newer reports than the last one that were skipped for this one.
     bool accept(std::uint16_t sequence, int overtaken = 0) noexcept {
         missed_ = 0;
         const auto step = static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - last_));

@@ -1,6 +1,6 @@
 // Checks whether encoder counts are plausible. A string cannot move faster than a hand can pull it:
-// a larger step is a glitch of the encoder or the link. One bad sample is skipped; several in a row
-// mean that the zero is lost.
+// a larger step is a glitch of the encoder or the link. One bad sample is skipped. Several in a row
+// are a fault, since the counts may have lost their zero.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -14,8 +14,9 @@ public:
     enum class Verdict : std::uint8_t {
         good,      // new counts
         unchanged, // the same counts as the last good sample
-        bad,       // hold the last good sample
-        // Bad for max_bad_samples in a row, now or earlier. Lasts until reset().
+        bad,       // the last good sample must be used
+        // max_bad_samples bad samples in a row have been seen. All verdicts are `jumped` until
+        // reset().
         jumped,
     };
 
@@ -31,7 +32,7 @@ public:
     void advance_without_reading(double dt_s) noexcept { elapsed_s_ += dt_s; }
     [[nodiscard]] bool at_rest() const noexcept { return has_reference_ && bad_in_row_ == 0; }
 
-    // The string (0-7) that moved too fast in the last bad sample; -1 before any.
+    // The string (0-7) that moved most in the last bad sample; -1 if there was none since reset().
     [[nodiscard]] int bad_string() const noexcept { return bad_string_; }
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {

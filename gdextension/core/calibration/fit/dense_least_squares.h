@@ -1,7 +1,7 @@
 // Small dense least squares for calibration: Householder QR, then the singular values of R by
 // one-sided Jacobi rotations. QR does not square the condition number. The rotations give small
-// singular values to full relative accuracy, which shows what the measurements leave open.
-// Allocates: not for the servo loop.
+// singular values to full relative accuracy, which shows the combinations of unknowns that the
+// measurements do not determine. Allocates: not for the servo loop.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace spidar {
 // Largest number of unknowns: 8 offsets, 8 gains, 8 winding terms and 4 sizes, with some room.
 inline constexpr std::size_t kMaxUnknowns = 32;
 
-// Matrix whose rows are appended one by one, one per measurement.
+// Matrix to which rows can be appended, one per measurement.
 class DenseMatrix {
 public:
     explicit DenseMatrix(std::size_t columns) : columns_(columns) {}
@@ -41,15 +41,15 @@ private:
 };
 
 struct LeastSquaresSolution {
-    // ok; near_singular when directions below the cutoff were left at zero; invalid_settings for no
-    // or more than kMaxUnknowns unknowns, fewer rows than unknowns, sizes that do not match or a
-    // negative cutoff; not_finite.
+    // ok; near_singular when directions below the cutoff were left at zero; invalid_settings for 0
+    // or more than kMaxUnknowns unknowns, for fewer rows than unknowns, for sizes that do not match
+    // and for a negative cutoff; not_finite.
     Status status = Status::invalid_settings;
-    std::vector<double> x;        // minimizes |A x - b|; the shortest such x when rank deficient
+    std::vector<double> x;        // minimizes |A x - b| over the directions above the cutoff
     double residual_norm = 0.0;   // |A x - b|
     std::size_t rank = 0;         // singular values above the cutoff
     std::vector<double> singular; // descending
-    DenseMatrix right{0};         // column j: the unit combination of unknowns of singular[j]
+    DenseMatrix right{0};         // column j: unit vector of unknowns that belongs to singular[j]
 };
 
 // Directions whose singular value is at most relative_cutoff times the largest are left out of x.

@@ -25,10 +25,11 @@ public:
     // Smallest singular value of J, with motions in meters at the grip center and at the pole ends.
     // Found by inverse iteration to within a few percent. 0 when J is singular or not finite.
     [[nodiscard]] double smallest_singular() const noexcept { return smallest_; }
-    // Parity residual: nu . (measured - computed lengths) (unit: m).
+    // Returns the parity error with a sign: nu . (measured - computed lengths) (unit: m).
     [[nodiscard]] double parity_m(const StringArray &measured_m) const noexcept;
-    // The motion that best explains a change of lengths: x y z of the grip center, then two tangent
-    // displacements of each pole's end (unit: m). Zero where J is singular.
+    // Returns the motion whose length changes are nearest to these in the least-squares sense: x y
+    // z of the grip center, then two tangent displacements of each pole's end (unit: m). Zero where
+    // J is singular.
     [[nodiscard]] PoseStep motion(const StringArray &length_change_m) const noexcept;
 
 private:

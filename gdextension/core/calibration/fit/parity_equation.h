@@ -7,11 +7,12 @@
 
 namespace spidar {
 
-// Returns `start` changed by offsets (m), relative gains, windings (1/m) and relative sizes.
+// Returns `start` with `change` applied. Units of `change`: see SelfCalibrationResult::change.
 [[nodiscard]] DeviceModel changed_model(const DeviceModel &start,
                                         const CalibrationVector &change) noexcept;
 
-// Returns d(measured - computed lengths)/d(unknown) with the grip held still at lengths_m.
+// Returns d(measured - computed lengths)/d(unknown) at a fixed pose. lengths_m: the measured
+// lengths at that pose.
 [[nodiscard]] StringArray length_change(const DeviceModel &model, const LengthJacobian &jacobian,
                                         const GripPose &pose, const StringArray &lengths_m,
                                         std::size_t unknown) noexcept;

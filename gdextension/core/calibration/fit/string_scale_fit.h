@@ -19,13 +19,13 @@ struct StringScaleFit {
     // ok; too_few_samples below two different counts; not_finite. Negative: all values are zero.
     Status status = Status::too_few_samples;
     double offset_m = 0.0;                // length at count 0
-    double scale_m_per_count = 0.0;       // negative: wound the other way
+    double scale_m_per_count = 0.0;       // negative: counts fall in paying out
     double scale_error_m_per_count = 0.0; // standard error of the scale; 0 for two pairs
     double residual_rms_m = 0.0;          // of the fit
     double residual_max_m = 0.0;
     // Spread of repeated trials about their mean (unit: m of string), pooled over all points with
-    // two or more trials. A residual much larger than the spread shows a curve (winding), not
-    // chance.
+    // two or more trials. A residual much larger than the spread means that the lengths follow a
+    // curve (winding).
     double repeat_spread_m = 0.0;
     int repeated_points = 0;
 };

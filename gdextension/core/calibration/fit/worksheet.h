@@ -1,5 +1,5 @@
 // All measurements of one calibration session and what follows from them: wiring, zero at home,
-// lengths by the ruler, free motion, weights. Refuses measurements that cannot be true, with the
+// lengths by the ruler, free motion, weights. Measurements that cannot be true are refused with the
 // reason. Allocates: not for the servo loop.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-// A pose is kept when a length changed by this much since the last kept pose.
+// A pose is kept when some string's length differs by this much from the last kept pose.
 inline constexpr double kPoseStep_m = 0.003;
 // Largest number of poses kept, which bounds the time of a fit.
 inline constexpr std::size_t kMostPoses = 3000;
@@ -28,9 +28,9 @@ inline constexpr double kMostGripError_m = 0.0005;
 inline constexpr double kMostScaleError = 0.2;
 // Smallest range of lengths for a scale: half a millimeter of reading error is 1 % of it.
 inline constexpr double kLeastLengthRange_m = 0.05;
-// Largest relative difference of a motor's gain from its data sheet.
+// Largest relative difference between a weight and the commanded tension that balances it.
 inline constexpr double kMostGainError = 0.5;
-// Largest standard deviation of readings at the home pose; above it the poses differed.
+// Largest standard deviation of readings at the home pose; above it the grip was not in one place.
 inline constexpr double kMostHomeSpread_m = 0.005;
 
 struct WeightReading {
@@ -49,9 +49,9 @@ struct WeightFit {
     int repeats = 0;
 };
 
-// How much of the workspace the kept poses cover. Ranges are largest less smallest.
+// How much of the workspace the kept poses cover.
 struct Coverage {
-    int poses = 0;
+    int poses = 0; // kept poses that could be solved
     Vec3 travel_m{0.0};
     double turn_rad = 0.0; // largest rotation from upright
     double grasp_rad = 0.0;
@@ -62,19 +62,19 @@ public:
     // Discards all measurements. start: nominal frame and grip, and the present string calibration.
     void begin(const DeviceModel &start, const MotorCalibration &motors);
 
-    // reversed: the encoder of this string (0-7) counts the wrong way.
+    // reversed: true if the encoder of this string (0-7) counts the wrong way.
     void set_reversed(std::size_t string, bool reversed) { reversed_[string] = reversed; }
     [[nodiscard]] bool reversed(std::size_t string) const { return reversed_[string]; }
 
-    // The add functions take one measurement and return an empty string, or the sentence that
-    // refuses it. add_zero: counts with the grip at home.
+    // add_zero(), add_length() and add_weight() return an empty string, or the sentence that
+    // refuses the measurement. counts: read with the grip at home.
     std::string add_zero(const CountArray &counts);
     // length_m: ruler length from exit to grip at this count.
     std::string add_length(std::size_t string, std::int32_t count, double length_m);
-    // A refused weight differs from its commanded tension by more than kMostGainError.
+    // Refuses a weight that differs by more than kMostGainError from the mean of rise_n and fall_n.
     std::string add_weight(std::size_t string, const WeightReading &reading);
-    // Returns true when the pose was kept: it differs by kPoseStep_m from the last kept one, and
-    // fewer than kMostPoses are kept.
+    // Returns true when the pose was kept: some length differs by kPoseStep_m from the last kept
+    // pose, and fewer than kMostPoses were kept.
     bool add_pose(const CountArray &counts);
 
     void clear_zero() { zeros_.clear(); }
@@ -98,8 +98,8 @@ public:
     [[nodiscard]] const DeviceModel &before() const { return start_; }
     // The model after wiring, ruler and zero, from which self-calibration starts.
     [[nodiscard]] DeviceModel measured() const;
-    // Fits offsets and gains. With ruler scales of all eight strings, gains are held to 0.2 % and
-    // no size is taken as true.
+    // Returns settings that fit offsets and gains. If all eight strings have a scale by the ruler,
+    // the gains have a prior of 0.2 % and no size is taken as true.
     [[nodiscard]] SelfCalibrationSettings settings() const;
     // Returns why a fit result must not be used, or an empty string.
     [[nodiscard]] static std::string refusal(const SelfCalibrationResult &result);
@@ -107,7 +107,7 @@ public:
     // the string scales of `found`.
     [[nodiscard]] MotorCalibration motors(const DeviceModel &found) const;
     // Returns, per string, the rms difference between measured lengths and those of the best pose,
-    // over at most some 300 of the kept poses (unit: m). NaN when no pose fits any of the lengths.
+    // over at most 599 of the kept poses (unit: m). NaN if no pose could be solved.
     [[nodiscard]] StringArray residuals(const DeviceModel &model) const;
 
 private:

@@ -18,8 +18,8 @@ inline constexpr int kRootPairCount = 4;
 // True when the strings are tied as in the paper, which the closed form assumes.
 [[nodiscard]] bool has_paper_attachments(const GripGeometry &grip) noexcept;
 
-// Common values of the four root pairs of one set of lengths, pole 1 in lane 0 and pole 2 in lane
-// 1. Letters are the paper's for pole 1, in brackets for pole 2.
+// Values that the four root pairs of one set of lengths share: of pole 1 in lane 0, of pole 2 in
+// lane 1. Each comment gives the paper's letter for pole 1, and in brackets that for pole 2.
 struct ClosedForm {
     Lanes along{};    // b (a): half size of the frame along the pole's rest direction
     Lanes position{}; // y (x)
@@ -36,7 +36,7 @@ struct ClosedForm {
 [[nodiscard]] ClosedForm solve_closed_form(const Vec3 &half_extents_m, double pole_half_length_m,
                                            const StringArray &lengths_m) noexcept;
 
-// Height of P0 that each root of each pole implies, and its sensitivity. 0: upright, 1: flipped.
+// Height of P0 that each root of each pole implies. Index 0: upright root, 1: flipped root.
 struct RootHeights {
     std::array<Lanes, 2> from_face_m{}; // |z of P0 - face|
     std::array<Lanes, 2> slope_m{};     // |d(|r|^2)/dz|
@@ -46,11 +46,11 @@ struct RootHeights {
 [[nodiscard]] RootHeights root_heights(const ClosedForm &form) noexcept;
 
 // First-order forecast of RootPairPose::misfit_m from the difference between the two poles'
-// heights. It forecasts all pairs for little more than the cost of one.
+// heights. Forecasts for all four pairs cost little more than one of them.
 struct MisfitForecast {
     // Expected misfit (unit: m).
     double misfit_m = 0.0;
-    // Misfit per error of the lengths, up to a constant factor; grows towards the z faces.
+    // Misfit per error of the lengths, up to a constant factor; grows toward the z faces.
     double gain = 1.0;
 };
 [[nodiscard]] MisfitForecast forecast_misfit(const RootHeights &heights, double pole_half_length_m,
@@ -58,8 +58,8 @@ struct MisfitForecast {
 
 struct RootPairPose {
     CrossedPose pose;
-    // Distance (unit: m) by which the poles miss their spheres at the best common z: about the
-    // residual of the final pose, up to a factor of the geometry.
+    // Distance (unit: m) by which the pole ends miss their spheres at the best common z. It is
+    // about the residual of the final pose times a factor of the geometry.
     double misfit_m = 0.0;
 };
 
@@ -68,7 +68,8 @@ struct RootPairPose {
 // lengths, with the poles on their spheres.
 [[nodiscard]] RootPairPose root_pair_pose(const ClosedForm &form, int pair) noexcept;
 
-// Same without misfit and last refinement of z, for a pair that is tried whatever its misfit.
+// Returns the pose of root_pair_pose() without its last refinement of z and without the misfit, for
+// a pair that is tried in any case.
 [[nodiscard]] CrossedPose root_pair_start(const ClosedForm &form, int pair) noexcept;
 
 // True when both poles are on the upright side of the fold where the cubic's two roots meet.

@@ -1,6 +1,6 @@
 // Refines a rough pose to the exact least-squares pose by damped Newton steps with the curvature of
-// the lengths. For lengths with errors of millimeters Gauss-Newton converges only linearly and this
-// method quadratically. The damping makes it descend from distant starts.
+// the lengths. For lengths with errors of millimeters Gauss-Newton converges only linearly, this
+// method quadratically. With the damping it converges from distant starts too.
 #pragma once
 
 #include "core/kinematics/steps/gauss_newton.h"
@@ -9,7 +9,7 @@ namespace spidar {
 
 // Step below which the search has converged: the limit of double precision.
 inline constexpr double kConvergedStep_m = 1e-15;
-// A step below this that no longer shrinks is rounding.
+// The search has also converged when a step below this no longer shrinks: it is rounding.
 inline constexpr double kStagnantStep_m = 1e-9;
 // Largest trial step: the linear model holds over about one pole length.
 inline constexpr double kMaxTrialStep_m = 0.04;
@@ -19,7 +19,7 @@ struct PolishResult {
     double residual_rms_m = 0.0;
     double min_pivot = 0.0; // of the final normal equations, as in GaussNewtonStep
     int steps = 0;
-    bool converged = false; // false: the step limit was reached, or lengths are not finite
+    bool converged = false; // false: step limit reached, or lengths not finite
 };
 
 [[nodiscard]] PolishResult polish_pose(const LengthProblem &problem,

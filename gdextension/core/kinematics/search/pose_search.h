@@ -1,6 +1,6 @@
-// Kinematics without memory, or when memory fails: tries every pose worth trying, and reports the
-// best and whether another fits as well. Root pairs that cannot win are dropped by their misfit
-// before any step.
+// Finds the pose when there is no last pose, or when the steps from it fail. The search polishes
+// several starts and reports the best pose, and whether another fits as well. For eyelets, root
+// pairs whose misfit is too large to win are skipped.
 #pragma once
 
 #include <optional>
@@ -38,15 +38,15 @@ struct SearchResult {
 
 // Result of a search for other poses than the one that a warm tick found.
 struct RivalResult {
-    bool ambiguous = false; // another pose fits these lengths as well
-    // `best` is the better answer: it fits clearly better, or it fits within the noise and is
-    // upright where the known pose is not.
+    bool ambiguous = false; // another pose fits as well or better
+    // True when `best` should replace the known pose: it fits clearly better, or it fits within the
+    // noise and is upright while the known pose is not.
     bool preferable = false;
     PolishResult best;
 };
 
-// noise_m: recent level of the residual (rms over the strings). Without a closed form all seven
-// starts are tried, in about 50 us.
+// noise_m: recent level of the residual (rms over the strings). Without a closed form it tries
+// seven starts, in about 50 us.
 [[nodiscard]] RivalResult find_rival(const LengthProblem &problem, const SearchTools &tools,
                                      const PolishResult &known, double noise_m) noexcept;
 

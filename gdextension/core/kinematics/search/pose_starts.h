@@ -1,5 +1,5 @@
-// Starting poses for frames without a closed form. The grip is taken as a point, whose
-// least-squares position comes from the eight lengths.
+// Starting poses for frames without a closed form. Their position is the least-squares one of the
+// eight lengths, computed as if all strings met in one point.
 #pragma once
 
 #include "core/kinematics/steps/gauss_newton.h"

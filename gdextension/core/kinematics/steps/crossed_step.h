@@ -94,7 +94,7 @@ struct CrossedStep {
     LaneVec position_m;
     LaneVec poles_m;
     double size_m2 = 0.0;     // squared norm of the seven displacements
-    double decrease_m2 = 0.0; // of the sum of squares, by the linear model
+    double decrease_m2 = 0.0; // expected, of the sum of squares
 };
 
 namespace crossed_detail {
@@ -107,7 +107,7 @@ using LaneMatrix = std::array<Lanes, 6>;
             a.y * a.y + b.y * b.y, a.y * a.z + b.y * b.z, a.z * a.z + b.z * b.z};
 }
 
-// Same with one weight per vector.
+// Returns wa a a' + wb b b'.
 [[gnu::always_inline]] inline LaneMatrix outer_sum(const LaneVec &a, const LaneVec &b, Lanes wa,
                                                    Lanes wb) noexcept {
     const LaneVec p = wa * a;
@@ -263,7 +263,8 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
     return errors;
 }
 
-// prior: weight of the expected pose, added to all diagonals and so to the pivots. 0: none.
+// prior: weight of the expected pose, added to all diagonals, so that the pivots include it. 0:
+// none.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor factorise(const CrossedErrors &errors,
                                                                  const CrossedPose &pose,
                                                                  double pole_half_length_m,
@@ -274,9 +275,9 @@ eliminate(const LaneMatrix &plus, const LaneMatrix &minus, Lanes fall, double ho
         pose, pole_half_length_m);
 }
 
-// Same with the curvature of the lengths: Newton's matrix, whose steps converge quadratically for
-// lengths with errors. The pivots equal those of the normal equations for residuals that are small
-// against the poles.
+// factorise() with the curvature of the lengths (Newton's matrix): the steps converge quadratically
+// for lengths with errors too. If the residuals are small relative to the poles, the pivots are
+// about those of the normal equations.
 [[nodiscard, gnu::always_inline]] inline CrossedFactor
 factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
                  double pole_half_length_m) noexcept {
@@ -303,8 +304,9 @@ factorise_curved(const CrossedErrors &errors, const CrossedPose &pose,
     return crossed_detail::step_of(factor, crossed_detail::gradients(errors));
 }
 
-// Returns the step for `errors` at `pose` with the factorization of a nearby pose; repeated steps
-// end at the same pose. prior: as in factorise(). expected: the pose that the prior pulls towards.
+// Returns the step for `errors` at `pose` with the factorization of a nearby pose. Repeated steps
+// converge to the same pose as with the own factorization of each pose. prior: as in factorise().
+// expected: the pose that the prior pulls toward.
 [[nodiscard, gnu::always_inline]] inline CrossedStep
 solve_nearby(const CrossedFactor &factor, const CrossedErrors &errors, const CrossedPose &pose,
              double prior = 0.0, const CrossedPose &expected = CrossedPose()) noexcept {

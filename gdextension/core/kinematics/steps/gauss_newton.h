@@ -2,9 +2,9 @@
 //   minimize sum_i (l_i - |Q_i - P0 - s_i r_k(i)|)^2.
 // A rigid grip is fitted on SE(3) instead (rigid_step.h); exit pulleys change the length function
 // (string_exit.h). Unknowns of a step are the displacement of P0 and two tangent displacements of
-// each pole's end, all in meters, so that singular values compare. The normal equations are an
-// arrow of two 2x2 pole blocks and a 3x3 position block. They square the condition number, but each
-// step starts from the true residual: repeated steps end at the noise floor.
+// each pole's end, all in meters, so that they can be compared. The normal equations are an arrow
+// of two 2x2 pole blocks and a 3x3 position block. They square the condition number, but each step
+// computes the residual anew, so that repeated steps converge to rounding.
 #pragma once
 
 #include "core/base/types.h"
@@ -34,7 +34,7 @@ struct LengthErrors {
 
 struct GaussNewtonStep {
     double step_m = 0.0;    // Euclidean norm of the seven displacements
-    double min_pivot = 0.0; // smallest pivot over its diagonal entry, 0..1 (about sigma7 squared)
+    double min_pivot = 0.0; // smallest scaled pivot, 0..1: about sigma7 squared
     bool solvable = false;  // false: a pivot vanished and the pose was not moved
 };
 

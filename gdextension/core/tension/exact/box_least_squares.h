@@ -20,7 +20,7 @@ public:
     // cancels, Householder QR of [WA; sqrt(w) I]: the error of QR grows with the condition number
     // and not with its square.
     void factor(StringMask free) noexcept;
-    // Smallest element of D over the free strings; +infinity when no string is free.
+    // Smallest element of D over the free strings of the last factor(); +infinity if none was free.
     [[nodiscard]] double smallest_pivot() const noexcept { return smallest_pivot_; }
 
     struct Gradient {
@@ -32,7 +32,7 @@ public:
     // Computes the gradient from A itself, not from H. precise: in double-double arithmetic.
     [[nodiscard]] Gradient gradient(const StringArray &x, bool precise) const noexcept;
 
-    // Returns H^-1 right_side on the free strings and 0 elsewhere, with the last factor().
+    // Returns H^-1 right_side on the free strings of the last factor(), and 0 for the others.
     [[nodiscard]] StringArray solve(const StringArray &right_side) const noexcept;
 
     // Returns (H v)_i for every string, computed as W A v first.

@@ -13,7 +13,8 @@
 
 namespace spidar {
 
-//   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2    subject to lower <= tau <= upper
+//   min ||W (A tau - q)||^2 + proximal_weight ||tau - proximal_target||^2
+//       subject to lower <= tau <= upper
 struct TensionProblem {
     WrenchMatrix matrix;
     PaperWrench wrench{};   // q, in the paper's order and with g
@@ -42,13 +43,15 @@ struct TensionSolution {
     StringArray tensions_n{};
     ActiveSet active{};
     double largest_error_n = 0.0; // max |W (A tau - q)|
-    int iterations = 0;           // number of factorizations
+    int iterations = 0;           // of the solver that found the answer
     Status status = Status::ok;
 };
 
-// Returns the exact optimum of `problem`, for any weights, lost rank and zero multipliers. warm
-// (may be null): a guess of the active set, which changes only the time. For input that is not
-// finite: status not_finite and tensions = lower bounds clamped to [0, upper]. Never NaN.
+// Returns the exact optimum of `problem`, also with zero weights, lost rank or zero multipliers.
+// warm (may be null): a guess of the active set, which changes only the time. Status not_finite for
+// input that is not finite, invalid_settings for a proximal weight that is not positive or a lower
+// bound above the upper one: the tensions are then the lower bounds, clamped to [0, upper], and
+// never NaN.
 [[nodiscard]] TensionSolution solve_exactly(const TensionProblem &problem,
                                             const ActiveSet *warm) noexcept;
 
@@ -75,7 +78,8 @@ using StringMask = std::uint8_t; // bit i: string i
     return static_cast<StringMask>((((bytes >> bit) & kLowBits) * kGather) >> 56U);
 }
 
-// Returns the strings at their lower and upper bounds. Bits above the eighth are ignored.
+// Returns the active set for two masks: of strings at their lower and at their upper bound. Bits
+// above the eighth are ignored.
 [[nodiscard]] inline ActiveSet active_set(unsigned at_lower, unsigned at_upper) noexcept {
     // Moves bit k to the lowest bit of byte k: of eight copies each byte keeps its own bit, which
     // carries into its top bit.

@@ -19,10 +19,10 @@ struct FastInput {
     }
 };
 
-// Returns true when `solution` is the optimum to rounding: its KKT conditions were checked with a
-// gradient from A itself, each sign beyond its rounding. Returns false for bad input and for
-// degenerate or nearly singular problems: `solution` is then undefined and the exact solver must
-// decide. level: one that the processor supports.
+// Returns true when `solution` is the optimum up to rounding. The solver has then checked its own
+// answer with the matrix A itself (see FastTension and TranslationTension). Returns false for bad
+// input and for degenerate or nearly singular problems: `solution` is then undefined and the exact
+// solver must decide. level: one that the processor supports.
 [[nodiscard]] bool solve_fast(const FastInput &input, const ActiveSet *warm, SimdLevel level,
                               TensionSolution &solution) noexcept;
 

@@ -6,9 +6,10 @@
 // operator). Held strings have a unit row and column.
 // 2. Principal pivots on the resulting table hold and release strings, one rank-1 update each,
 // until every tension is within its bounds and every slope at a bound has the right sign.
-// 3. Newton corrections with the gradient from A itself follow. They also certify the answer:
-// tensions of free strings, slopes of all held strings and the rounding of the gradient are
-// checked. A string held wrongly restarts at 1; anything in doubt is left to the exact solver.
+// 3. Newton corrections with the gradient from A itself follow. The last correction also checks the
+// answer: tensions of free strings, slopes of held strings and the rounding of the gradient. If a
+// held string should be free, step 1 runs again with it free. What cannot be decided is left to the
+// exact solver.
 #pragma once
 
 #include "core/tension/fast/fast_tension_limits.h"
@@ -209,8 +210,8 @@ private:
         largest_step_ = Four::max(d.a.absolute(), d.b.absolute()).largest();
     }
 
-    // Pivots until all strings of the table are within their ranges: tensions of the free strings,
-    // slopes of the held ones. Returns false when a pivot cancels or the passes run out.
+    // Pivots until every string of the table is within its range: the tension of a free string, the
+    // slope of a held one. Returns false when a pivot cancels or the passes run out.
     bool settle(int &passes) noexcept {
         const Row lower = Row::load(p_.lower_n.data());
         const Row upper = Row::load(p_.upper_n.data());
@@ -365,7 +366,7 @@ private:
     double contraction_ = 0.0; // worst contraction of the corrections; 0 when no pivot was made
     unsigned movable_ = 0;     // strings with lower < upper
     unsigned low_ = 0;         // held at the lower bound
-    // held at the upper bound
+    // Held at the upper bound.
     unsigned high_ = 0;
     unsigned free_ = 0;
     unsigned held_in_table_ = 0;

@@ -18,12 +18,12 @@ inline constexpr double kLargest = 1e12;
 // singular matrix.
 inline constexpr double kWorstCondition = 1e15;
 
-// A correction below this ends the corrections (unit: N).
+// After a correction below this no further correction is needed (unit: N).
 inline constexpr double kStep_n = 1e-13;
-// A correction d below kShort_n also ends them when the observed contraction leaves less than this
-// for the next (unit: N).
+// A correction below kShort_n is also the last one if the next, at the rate at which corrections
+// shrink, would be below this (unit: N).
 inline constexpr double kLeft_n = 1e-14;
-// Largest correction that can be the last one (unit: N).
+// Largest correction from which the size of the next one is predicted (unit: N).
 inline constexpr double kShort_n = 1e-8;
 // Corrections after which the exact solver takes over.
 inline constexpr int kCorrections = 4;
@@ -34,8 +34,9 @@ inline constexpr double kNoiseMove_n = 4e-12;
 // A table inverted with condition c (trace of H times its largest diagonal element) has lost a
 // factor c, and pivots on it may lose another: corrections contract by kTableRounding c^2 at worst.
 inline constexpr double kTableRounding = 1e-16;
-// Worst contraction that is accepted. Beyond it corrections may stand still, which looks like
-// convergence; the table is then inverted again for the strings that the pivots left free.
+// Largest contraction, the ratio of a correction to the one before, that is accepted. Beyond it
+// corrections may stand still, which looks like convergence; the table is then inverted again for
+// the strings that the pivots left free.
 inline constexpr double kWorstContraction = 1e-2;
 // Rounding of the table (unit: N; about 1e-9 at w = 1e-6): smaller violations count as zero.
 inline constexpr double kTableTolerance = 1e-9;

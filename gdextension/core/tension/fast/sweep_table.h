@@ -67,7 +67,7 @@ class SweepTable {
 public:
     using Row = StringRow<Four>;
 
-    // Row of R for one DOF, used by the next invert(). Must be zero for strings outside the table.
+    // Row of R for one DOF, read by invert(). It must be zero for strings outside the table.
     [[nodiscard]] double *rows(std::size_t dof) noexcept { return rows_[dof]; }
     // Sets R for the strings of `table`.
     void set_rows(const double (&rows)[kFastDofs][kFastStrings], unsigned table) noexcept {

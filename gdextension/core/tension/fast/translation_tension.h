@@ -4,8 +4,8 @@
 //
 // The solution is x = clamp(t + R'z), where z is the one root of b - R x(z) - w z = 0. That
 // function is monotone and piecewise linear, so that Newton's method (Jacobian R_F R_F' + w I, F:
-// strings not clamped) ends in a few steps, warm mostly in one. Sources include this file and
-// compile it for their own target.
+// strings not clamped) ends in a few steps, and with a good guess mostly in one. Sources include
+// this file and compile it for their own target.
 #pragma once
 
 #include "core/tension/fast/fast_tension_limits.h"

@@ -11,8 +11,8 @@ namespace spidar {
 class BounceMonitor {
 public:
     void configure() noexcept { *this = BounceMonitor(); }
-    // Takes one cycle. push: wrench of all contacts on the grip in the last cycle. Returns true
-    // when a series of such bounces is complete.
+    // Takes one cycle. push: wrench of all contacts on the grip in the last cycle. Returns true at
+    // the third such bounce in a row.
     bool update(const Twist &twist, const Wrench &push, double dt_s) noexcept;
     // True when nothing touches and no series has begun.
     [[nodiscard]] bool at_rest() const noexcept { return !touching_ && row_ == 0; }

@@ -14,7 +14,8 @@ namespace spidar {
 
 class HandPresence {
 public:
-    // Movement that counts (unit: m): twenty counts at the pole ends, more than encoder flicker.
+    // Movement of P0 or of a pole's end that counts (unit: m): twenty encoder counts, more than
+    // encoder flicker.
     static constexpr double kMove_m = 0.0005;
 
     void configure(const SafetySettings &safety) noexcept {
@@ -27,7 +28,7 @@ public:
         moved_ = false;
         still_s_ = 0.0;
     }
-    // True when the last pose did not move: only the time without motion changes.
+    // True when the last update() found no movement: only the time without motion changes.
     [[nodiscard]] bool at_rest() const noexcept { return !moving_; }
     void advance_at_rest(double dt_s) noexcept { still_s_ += dt_s; }
     void update(const GripPose &pose, double dt_s) noexcept {

@@ -1,7 +1,7 @@
 // Detects forces that shake the grip. A rendering that is too stiff for its latency oscillates at 8
-// to 200 Hz; a hand does not, and a tap swings once or twice. Swings that follow each other within
-// half a period are counted, of the velocity in each DOF and of the contacts' push, since a firm
-// hand hardly moves.
+// to 200 Hz; a hand does not, and a tap swings once or twice. The monitor counts swings of the
+// velocity in each DOF, and of the force of the contacts, since a firm hand hardly moves. A swing
+// counts if it follows the last one soon enough (Kind).
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -12,21 +12,24 @@ namespace spidar {
 class ShakeMonitor {
 public:
     void configure() noexcept { *this = ShakeMonitor(); }
-    // Takes one cycle. push: contacts' wrench on the grip. rendering: forces act, swings count.
+    // Takes one cycle. push: wrench of the contacts on the grip. rendering: true while forces act;
+    // only then shaking has effect.
     void update(const Twist &twist, const Wrench &push, bool rendering, double dt_s) noexcept;
 
     // Takes shaking found by another monitor as found here. swing_m_s: its largest swing.
     void found(double swing_m_s) noexcept;
 
-    // Scale of the forces: 1, halved each time the grip shakes, 1 again after kCalm_s of calm.
+    // Scale of the forces: halved each time the grip shakes, down to 1/4. After kCalm_s without
+    // shaking it rises to 1 again, by 1 in a second.
     [[nodiscard]] double scale() const noexcept { return scale_; }
-    // True when the grip still shakes after two halvings: forces must end. Lasts until configure()
-    // or calm.
+    // True when the grip still shakes after two halvings: forces must end. It stays true until
+    // configure() or until kCalm_s have passed without shaking.
     [[nodiscard]] bool unstable() const noexcept { return unstable_; }
     // Largest swing of the last shaking (unit: m/s at the pole ends).
     [[nodiscard]] double swing_m_s() const noexcept { return swing_m_s_; }
 
-    // True at full scale when nothing changes while the grip rests.
+    // True when the scale is 1 and no swing was seen lately, so that a grip at rest changes
+    // nothing.
     [[nodiscard]] bool at_rest() const noexcept;
 
     // Time without shaking after which the scale returns (unit: s).

@@ -21,13 +21,14 @@ public:
     void update(const CountArray &counts, const StringArray &lengths_m, const GripState &grip,
                 bool moved, double strongest_n, double dt_s) noexcept;
 
-    // True when the lengths have begun to disagree: the wrench must fade.
+    // True while the lengths disagree more than usual: the wrench must fade.
     [[nodiscard]] bool suspicious() const noexcept { return suspicious_s_ > 0.0; }
-    // True when the disagreement lasts: motors off.
+    // True once the disagreement has lasted too long, until reset(): motors off.
     [[nodiscard]] bool faulty() const noexcept { return faulty_; }
-    // Finding of the observer. Its fault is none while the observer is unsure or the error small.
+    // Finding of the observer. Its fault is `none` while the observer is not sure, or the error is
+    // small.
     [[nodiscard]] const FaultEvidence &named() const noexcept { return named_; }
-    // True when there is no suspicion, and nothing changes while the counts stay.
+    // True if there is no suspicion and the same counts again would change nothing.
     [[nodiscard]] bool at_rest() const noexcept;
     // The string (0-7) that stands still or that the observer found; -1 when unknown.
     [[nodiscard]] int string() const noexcept { return string_; }

@@ -11,12 +11,14 @@ namespace spidar {
 class ThermalBudget {
 public:
     void configure(const SafetySettings &safety) noexcept;
-    // Takes one cycle at these tensions (unit: N). Values that are not finite do not heat.
+    // Takes one cycle at these tensions (unit: N). A tension that is not finite, or above 1000
+    // times the continuous one, counts as 0.
     void spend(const StringArray &tensions_n, double dt_s) noexcept;
 
-    // True when constant tensions change nothing but the heat. spend() must be called at rest too.
+    // True below kDerateFrom, where the heat scales nothing down. spend() must be called at rest
+    // too.
     [[nodiscard]] bool at_rest() const noexcept { return spent() < kDerateFrom; }
-    // Used share of the warmest motor's budget; 1: as warm as allowed.
+    // Used share of the warmest motor's budget; 1: the largest heat that is allowed.
     [[nodiscard]] double spent() const noexcept { return warmest_; }
     // True when the budget is spent. NaN counts as spent.
     [[nodiscard]] bool is_spent() const noexcept { return !(warmest_ < 1.0); }

@@ -1,5 +1,5 @@
-// The edge of the workspace: a soft wall before the reach of the grip ends, and less force where
-// the strings barely determine a direction.
+// The edge of the workspace: a soft wall before the end of the grip's reach, and less force where
+// the strings hardly determine some direction.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -14,13 +14,14 @@ public:
     // The reach is the box around the motors less a pole's half length.
     void configure(const ServoSettings &settings) noexcept;
 
-    // Returns the wrench that pushes P0 back inside; zero inside.
+    // Returns the wrench that pushes P0 back; zero inside the box, and with a workspace_margin_m of
+    // 0.
     [[nodiscard]] Wrench wall(const GripState &grip) const noexcept;
-    // Scale of all requests: 1, falling to 0 where the pose loses a direction.
+    // Scale of the wrench: 1, and less down to 0 as GripState::conditioning falls below 0.01.
     [[nodiscard]] static double scale(const GripState &grip) noexcept;
     // Returns how far P0 is beyond the start of the wall (unit: m); 0 inside.
     [[nodiscard]] double beyond_m(const GripState &grip) const noexcept;
-    // The box without wall, device frame (unit: m).
+    // The box inside which the wall gives no force, device frame (unit: m).
     [[nodiscard]] const ReachBox &free_box() const noexcept { return free_; }
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(on_); }
