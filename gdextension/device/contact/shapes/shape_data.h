@@ -1,4 +1,4 @@
-// Result of cooking, used within this folder only.
+// Results of cooking. Used within this folder only.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
