@@ -1,10 +1,10 @@
 // A device on the bench, opened for calibration alone. The rig reads the device, and one
 // CalibrationTask at a time moves its motors; no game does. Tensions are limited by
-// kTaskMaxTension_n and kTaskSlew_n_per_ms. The motors pull only for a task. A task ends when the
-// controlling thread has sent no new beat for kUnwatched_s, or when a motor is too warm. With
-// start_threaded(), a thread of the rig runs the cycles, a WriterThread writes if a write may
-// block, and no call waits for the device, except the destructor: it waits for the device call in
-// progress.
+// kTaskMaxTension_n and kTaskSlew_n_per_ms. The motors pull only for a task, and after it until the
+// tension is lowered. A task ends when the controlling thread has sent no new beat for
+// kUnwatched_s, or when a motor is too warm. With start_threaded(), a thread of the rig runs the
+// cycles, a WriterThread writes if a write may block, and no call waits for the device, except the
+// destructor: it waits for the device call in progress.
 #pragma once
 
 #include <functional>

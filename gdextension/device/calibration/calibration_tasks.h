@@ -28,12 +28,13 @@ enum class TaskVerdict : std::uint8_t {
     // weighing: no rise up to kMostOfWeight times the weight, or no sinking after it
     not_lifted = 5,
     moved_too_fast = 6, // a string was faster than kTaskSpeed_m_s: motors off
-    stopped = 7,        // motors off: ordered, order out of range, or no controlling thread
-    not_ready = 8,      // the device cannot pull: RigNews::device_status says why
-    too_warm = 9,       // a motor's thermal budget is spent: motors off
+    stopped = 7, // motors off: order out of range, no new beat, or a thread of the rig was late
+    // the device cannot pull: it has a fault (RigNews::device_status) or does not answer
+    not_ready = 8,
+    too_warm = 9, // a motor's thermal budget is spent: motors off
 };
 
-// Returns one plain English sentence; never null.
+// Returns English sentences that say what happened and what to do; never null.
 [[nodiscard]] const char *describe(TaskVerdict verdict) noexcept;
 
 struct TaskOrder {

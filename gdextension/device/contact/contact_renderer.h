@@ -71,7 +71,7 @@ private:
         Vec3 anchor_m{0.0}; // end of the friction spring on the plane, device frame
         Vec3 force_n{0.0};
         double grasp_torque_nm = 0.0;
-        Vec3 moment_nm{0.0}; // turn_stop only
+        Vec3 moment_nm{0.0}; // of a turn stop; else zero
         Vec3 impulse_ns{0.0};
         double grasp_impulse_nms = 0.0;
     };

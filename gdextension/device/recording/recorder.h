@@ -49,8 +49,8 @@ public:
     Recorder(const Recorder &) = delete;
     Recorder &operator=(const Recorder &) = delete;
 
-    // Opens the file; called from the controlling thread. Returns an empty string, or a sentence
-    // with the reason of a failure.
+    // Opens the file; called from the controlling thread. Returns an empty string, or a text with
+    // the reason of a failure.
     [[nodiscard]] std::string open(const std::string &path);
     // Writes what the ring holds and closes the file; called from the controlling thread. The loop
     // may still call begin() and end(), which then have no effect.

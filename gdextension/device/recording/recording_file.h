@@ -41,8 +41,7 @@ inline constexpr std::size_t kMostChunkBytes = 4'000'000;
 
 class RecordingWriter {
 public:
-    // Opens the file and writes its head. Returns an empty string, or a sentence with path and
-    // remedy.
+    // Opens the file and writes its head. Returns an empty string, or a text with path and remedy.
     [[nodiscard]] std::string open(const std::string &path, const RecordingInfo &info);
 
     void memory(std::span<const std::uint8_t> bytes);
@@ -81,7 +80,8 @@ private:
 
 class RecordingReader {
 public:
-    // Opens a file and reads info(). Returns an empty string, or one sentence with the reason.
+    // Opens a file and reads info(). Returns an empty string, or a text with the reason of a
+    // failure.
     [[nodiscard]] std::string open(const std::string &path);
     // Opens a stream; `name` appears in messages.
     [[nodiscard]] std::string open(std::unique_ptr<std::istream> stream, const std::string &name);

@@ -30,7 +30,7 @@ struct RecordingInfo {
 
 [[nodiscard]] std::string to_text(const RecordingInfo &info);
 
-// Reads a head. Returns an empty string, or one sentence with the reason. Unknown fields are
+// Reads a head. Returns an empty string, or a text with the reason of a failure. Unknown fields are
 // ignored. Missing fields keep their defaults; only the format must be there.
 [[nodiscard]] std::string read_text(std::string_view text, RecordingInfo &info);
 

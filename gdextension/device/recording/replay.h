@@ -29,7 +29,7 @@ struct ReplayReport {
 
 class Replay final : public CycleSource {
 public:
-    // Loads a file. Returns an empty string, or a sentence with the reason: no file, damaged head,
+    // Loads a file. Returns an empty string, or a text with the reason: no file, damaged head,
     // unusable settings.
     [[nodiscard]] std::string load(const std::string &path);
     // Loads the bytes of a file; `name` appears in messages.

@@ -1,6 +1,6 @@
 // Physics of a simulated SPIDAR-G: eight strings (elastic or not) with motors, the grip with its
 // hinge, and a hand. It does not use core's forward kinematics and wrench matrix, so that it can
-// reveal errors in them. Semi-implicit Euler at kPlantRate_hz.
+// reveal errors in them. Integrated by the semi-implicit Euler method at kPlantRate_hz.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct PlantSettings {
     double metres_per_count = kPaperMetresPerCount;
     StringArray length_offset_error_m{}; // which a calibration has to find
     StringArray length_gain_error{};     // relative: 0.01 = 1 %
-    // False: strings do not stretch and rotors have no mass. The tension is then exactly the motor
-    // tension plus the friction of the moving string.
+    // False: strings do not stretch and rotors have no mass. The tension is then the motor tension
+    // plus the friction of the moving string, but at least 0.
     bool elastic = true;
     double string_stiffness_ea_n = 3000.0; // stiffness k = EA / length
     double string_damping_n_s_m = 0.3;
@@ -62,7 +62,7 @@ struct PlantSettings {
     double report_loss = 0.0;
 };
 
-// The true state of the plant, which no encoder shows.
+// The true state of the plant, of which the encoders show a part.
 struct PlantTruth {
     GripPose pose;
     GripFrame frame;

@@ -26,7 +26,7 @@ public:
     Status open() noexcept override;
     // Sets the currents to zero. Hand and grip continue to move while advance() is called.
     void close() noexcept override;
-    // Returns one report after open() and one after each advance(), else read_timeout.
+    // Returns at most one report after open() and one after each advance(), else read_timeout.
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     void advance(double dt_s) noexcept override;

@@ -8,7 +8,8 @@
 
 namespace spidar {
 
-// Valleys in the surface; the crests are flush with the shape. Grooves and pits are cosines.
+// Valleys in the surface; the crests are flush with the shape. Grooves and pits have the shape of a
+// cosine.
 struct SurfaceTexture {
     double wavelength_m = 0.0; // 0: no texture
     double depth_m = 0.0;      // from crest to valley
@@ -32,8 +33,8 @@ struct SurfaceTraits {
     double adhesion_n = 0.0;
     // Attraction at the surface (unit: N). It falls linearly to 0 at magnet_range_m.
     double magnet_n = 0.0;
-    // At least magnet_n / stiffness between grip and proxy is used, so that the pull rises no more
-    // steeply than those springs.
+    // Distance at which the attraction ends. It is raised to magnet_n / (stiffness between grip and
+    // proxy), so that the pull rises no more steeply than the force of those springs.
     double magnet_range_m = 0.0;
     SurfaceTexture texture;
 };

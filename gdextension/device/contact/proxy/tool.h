@@ -1,4 +1,5 @@
-// The tool in seven DOF: parts on the grip or on one of its two jaws. Device frame, SI units.
+// The tool, which moves in seven DOF: shapes on the grip or on one of its two jaws. Device frame,
+// SI units.
 #pragma once
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 // stops at the surface however fast the hand moves. The wrench is the pull of the springs from the
 // device to the proxy, with damping and Coulomb friction at each contact.
 //
-// A cycle has one to three passes. In each, every closest point of tool and scene gives a one-sided
-// row n . J dq >= -gap: the move dq of the proxy may bring the point (motion J dq) closer to the
-// surface by the gap and no further. The next proxy is the pose nearest to the device under all
+// A cycle has one to three passes. In each, the closest points of tool and scene give one-sided
+// rows n . J dq >= -gap: the move dq of the proxy may bring such a point (motion J dq) closer to
+// the surface by the gap and no further. The next proxy is the pose nearest to the device under all
 // rows (god_object.h). No step is longer than the search distance guarantees to be free.
 #pragma once
 
@@ -194,7 +194,7 @@ private:
     double friction_now(ProxyContact &contact, const ScenePart &other, const ProxyContact *last,
                         double stretch_m, double m_per_coefficient, double slides_m_s,
                         double dt_s) const noexcept;
-    // Return the distances up to which the magnet and all traits act (tool_proxy_surface.cpp).
+    // Return the distances up to which the magnet (magnet_range_m) and any trait (reach_m) act.
     [[nodiscard]] double magnet_range_m(const SurfaceTraits &traits) const noexcept;
     [[nodiscard]] double reach_m(const SurfaceTraits &traits) const noexcept;
     // Sets the contact's slope, and drawn_n to the damping of the texture. Returns the height of

@@ -15,7 +15,7 @@
 namespace spidar {
 
 inline constexpr int kMaxContactPoints = 24; // of one tool on one shape
-// Largest number of points for one pair of faces.
+// Largest number of points with one direction of the normal.
 inline constexpr int kPointsPerFace = 4;
 
 struct ContactPoint {
@@ -45,7 +45,8 @@ struct NearTriangle {
     std::array<std::uint16_t, 3> neighbour{};
     std::array<float, 3> middle_m{}; // center of a ball around the triangle
     float radius_m = 0.0F;
-    // Bit i: edge i is convex or a border. Bit 4 + i: by more than 3 degrees.
+    // Bit i: edge i is sharp: a border, convex, or (of a two-sided shape) concave. Bit 4 + i: a
+    // border, or sharp by more than 3 degrees.
     std::uint8_t sharp_edges = 0;
 };
 

@@ -1,5 +1,5 @@
-// Distance between a triangle's edge and a core: in closed form for points and flat discs, else by
-// GJK (gjk.h).
+// Distance between a triangle's edge and a core: in closed form for points, by a root search for
+// flat discs, else by GJK (gjk.h).
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"

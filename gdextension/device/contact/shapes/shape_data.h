@@ -9,11 +9,11 @@
 namespace spidar {
 
 struct CookedShape::Data {
-    // Holds the points of a mesh and the heights of a height map.
+    // Also the only place of a mesh's points and of a height map's heights.
     ShapeDescription description;
     Vec3 lower_m{0.0};
     Vec3 upper_m{0.0};
-    ConvexCore core; // convex kinds only
+    ConvexCore core; // box to hull only
     double skin_m = 0.0;
     TriangleTree tree;                     // mesh only
     std::vector<std::uint8_t> sharp_edges; // mesh only: NearTriangle::sharp_edges

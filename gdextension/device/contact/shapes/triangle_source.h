@@ -125,8 +125,9 @@ private:
     [[nodiscard]] unsigned sharpness(const Corners &triangle, std::uint32_t neighbour,
                                      std::uint32_t first_shared,
                                      std::uint32_t second_shared) const noexcept {
-        // An edge is sharp when the other face's far corner lies below this face's plane by more
-        // than this share of its distance from corner 0: about the sine of the bend.
+        // An edge is sharp when the other face's far corner lies below this face's plane (of a
+        // two-sided shape, also above it) by more than this share of its distance from corner 0:
+        // about the sine of the bend.
         constexpr double kFlatEdge = 1e-6;
         constexpr double kOneFace = 0.9986; // cosine of 3 degrees
         if (neighbour == kNone) {

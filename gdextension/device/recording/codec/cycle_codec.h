@@ -1,5 +1,5 @@
-// Encodes cycles compactly, each as its difference from the one before; the first of a segment does
-// not need the one before.
+// Encodes cycles compactly, each as its difference from the one before; the first of a segment is
+// encoded in full.
 #pragma once
 
 #include <span>
