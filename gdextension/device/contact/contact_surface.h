@@ -18,7 +18,8 @@ struct ContactSurface {
     double friction = 0.0;
 };
 
-// One plane from update to update. Stops (grasp, turn) are extrapolated by velocity only.
+// Extrapolates one plane from update to update. Stops (grasp, turn) are extrapolated by velocity
+// only.
 class SurfaceTrack {
 public:
     // Starts with the first update, or with another surface of the same id.

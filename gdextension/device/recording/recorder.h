@@ -43,7 +43,7 @@ struct NumberedTouch {
 class Recorder {
 public:
     // in_time: the loop runs in its own thread, and a writing thread empties the ring. Otherwise
-    // end() empties it, so that the ring does not wait for a thread.
+    // end() empties it.
     Recorder(const ServoSettings &settings, bool in_time);
     ~Recorder(); // calls close()
     Recorder(const Recorder &) = delete;

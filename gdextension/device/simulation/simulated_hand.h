@@ -57,7 +57,7 @@ inline constexpr HandImpedance kFirmHand{0.8,    700.0,  12.0, 1.28e-3, 1.12,
 
 // Largest speed of a hand that follows a target: a jump of the target must not throw the grip.
 inline constexpr double kHandMaxSpeed_m_s = 1.0;
-// Same for rotation and grasp angle.
+// The same for rotation and grasp angle.
 inline constexpr double kHandMaxTurnRate_rad_s = 6.0;
 // Largest acceleration of the path. It is above what stopping from full speed needs (speed *
 // kHandPathRate_rad_s / e), so that the limit causes no overshoot.

@@ -1,5 +1,5 @@
-// Finds where a tool and a shape of the scene are closest, so that the proxy of the servo loop does
-// not pass through. All functions are servo-safe: no allocation, lock or exception.
+// Finds where a tool and a shape of the scene are closest, so that the servo loop's proxy stops
+// there. All functions are servo-safe: no allocation, lock or exception.
 //
 // Largest errors while the cores are apart: 1e-7 m on spheres, else 1e-5 m; 0.1 degree for normals.
 #pragma once

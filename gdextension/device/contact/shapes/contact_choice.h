@@ -1,5 +1,6 @@
 // Selects contact points from many candidates. For each direction of the normal (within 3 degrees),
-// it selects the nearest, then the one that is farthest from those selected, up to four.
+// it selects the nearest, then again and again the one that is farthest from those selected, up to
+// four.
 #pragma once
 
 #include <array>

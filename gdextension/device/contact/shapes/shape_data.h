@@ -9,7 +9,7 @@
 namespace spidar {
 
 struct CookedShape::Data {
-    // Also the only place of a mesh's points and of a height map's heights.
+    // The servo loop too reads a mesh's points and a height map's heights here.
     ShapeDescription description;
     Vec3 lower_m{0.0};
     Vec3 upper_m{0.0};
