@@ -9,9 +9,9 @@ namespace spidar {
 
 enum class HandScript : std::uint8_t {
     home = 0, // the grip's rest pose
-    // All seven DOF at once, by sines of incommensurate frequencies, within the workspace.
+    // All DOF of the grip at once, each by a sine of another frequency, within the reach.
     free_motion = 1,
-    // One of kHandPlaces fixed places, for lengths by the ruler.
+    // One of kHandPlaces fixed places, where lengths are measured with a ruler.
     place = 2,
 };
 

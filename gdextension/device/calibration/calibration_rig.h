@@ -1,9 +1,10 @@
-// A device on the bench, opened for calibration alone. A thread of the rig reads the device, and
-// one CalibrationTask at a time moves its motors; no game does. Tensions are limited by
-// kTaskMaxTension_n and kTaskSlew_n_per_ms. The motors are off unless a task runs, when the
-// controlling thread stops sending a new beat for kUnwatched_s, and while a motor is too warm.
-// Cycle times are measured. A WriterThread serves a device whose write may block. No call waits for
-// the device except the destructor, which waits for the device call in progress.
+// A device on the bench, opened for calibration alone. The rig reads the device, and one
+// CalibrationTask at a time moves its motors; no game does. Tensions are limited by
+// kTaskMaxTension_n and kTaskSlew_n_per_ms. The motors pull only for a task, and after it until the
+// tension is lowered. A task ends when the controlling thread has sent no new beat for
+// kUnwatched_s, or when a motor is too warm. With start_threaded(), a thread of the rig runs the
+// cycles, a WriterThread writes if a write may block, and no call waits for the device, except the
+// destructor: it waits for the device call in progress.
 #pragma once
 
 #include <functional>
@@ -27,17 +28,17 @@ struct RigSettings {
     double rate_hz = 1000.0;
     StringArray scale_m_per_count{}; // present calibration (unit: m); must not be 0
     MotorCalibration motors;
-    // Limits the targets of a simulated device's scripted hand.
+    // The simulated device's settings, which limit the targets of its hand.
     PlantSettings plant;
     double max_tension_n = kTaskMaxTension_n;
-    // kUnwatched_s for a simulated device. May be longer: an editor on a busy machine can be slow
-    // and no hand is at risk.
+    // Used instead of kUnwatched_s for a simulated device. It may be longer: an editor on a busy
+    // machine can be slow, and no hand is at risk.
     double simulated_unwatched_s = kUnwatched_s;
 };
 
 // Time between kept readings (unit: s): poses must differ by more than a hand's tremor.
 inline constexpr double kSampleInterval_s = 0.02;
-// Readings that the queue holds; more are dropped until they are fetched.
+// Largest number of collected readings that wait for next_sample(); further ones are dropped.
 inline constexpr std::size_t kWaitingSamples = 1024;
 
 // Orders from the controlling thread to the rig.
@@ -47,7 +48,7 @@ struct RigOrders {
     std::uint32_t beat = 0;
     HandScript hand = HandScript::home;
     int hand_place = 0;
-    std::uint32_t hand_number = 0; // a new number starts the script
+    std::uint32_t hand_number = 0; // a new number restarts the script's time
     bool collecting = false;
 };
 
@@ -71,7 +72,8 @@ struct RigNews {
 
 class CalibrationRig {
 public:
-    // Called once, in the rig's thread. Returns null on failure, with the reason in `problem`.
+    // Called once, in the rig's thread or by start_stepped(). Returns null on failure, with the
+    // reason in `problem`.
     using MakeTransport = std::function<std::unique_ptr<Transport>(std::string &problem)>;
 
     CalibrationRig(const RigSettings &settings, MakeTransport make_transport);
@@ -79,19 +81,23 @@ public:
     CalibrationRig(const CalibrationRig &) = delete;
     CalibrationRig &operator=(const CalibrationRig &) = delete;
 
-    // Starts the rig's thread. Call one start function, once. Returns false without a thread.
+    // Starts the rig's thread. Call one of the two start functions, once. Returns false when the
+    // system cannot start a thread.
     bool start_threaded();
-    // Starts without a thread: advance() then runs the cycles.
+    // Opens the device at once, without a thread: advance() then runs the cycles.
     void start_stepped();
-    // Stepped only: runs the cycles of this much simulated time, at most a minute per call.
+    // After start_stepped(): runs the cycles of this many simulated seconds, at most 60. Does
+    // nothing after start_threaded().
     void advance(double seconds) noexcept;
-    // Asks the thread to switch the motors off, close the device and end. state() reports the end.
+    // Asks the thread to switch the motors off, close the device and end; state() reports the end.
+    // Without a thread, this function does the same itself.
     void ask_close() noexcept;
 
     [[nodiscard]] RigState state() const noexcept;
-    // Why state() is failed, or why the rig closed by itself.
+    // Why state() is failed; empty in any other state.
     [[nodiscard]] std::string problem() const;
-    // Sends orders. Called by the controlling thread; wait-free, as are the next two.
+    // Sends orders. Called by the controlling thread, like the next two functions; none of the
+    // three waits.
     void give(const RigOrders &orders) noexcept;
     // Reads the newest report. Returns false when there is none since the last call.
     bool latest(RigNews &news) noexcept;

@@ -1,6 +1,7 @@
 // Motor tasks of a calibration and their results: motors off, all strings taut, one string pulled
-// (wiring), one string lifting a known weight. One task runs at a time, slowly and weakly. Each
-// task ends by itself, or at once when ordered. Servo-safe: no allocation, no clock.
+// (wiring), one string lifting a known weight. One task runs at a time, slowly and weakly. The
+// wiring and weighing tasks end by themselves; a new order or abort() ends any task at once.
+// Servo-safe: no allocation, no clock.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +22,19 @@ enum class CalibrationTask : std::uint8_t {
 enum class TaskVerdict : std::uint8_t {
     running = 0,
     done = 1,
-    no_movement = 2,    // wiring: no string moved by kMoved_m
-    wrong_string = 3,   // wiring: another string moved most, see TaskResult::moved_string
-    wrong_sign = 4,     // wiring: right string, but its count reports a longer string
-    not_lifted = 5,     // weighing: no movement up to kMostOfWeight times the weight
+    no_movement = 2,  // wiring: no string moved by kMoved_m
+    wrong_string = 3, // wiring: another string moved most, see TaskResult::moved_string
+    wrong_sign = 4,   // wiring: right string, but its count reports a longer string
+    // weighing: no rise up to kMostOfWeight times the weight, or no sinking after it
+    not_lifted = 5,
     moved_too_fast = 6, // a string was faster than kTaskSpeed_m_s: motors off
-    stopped = 7,        // motors off: ordered, order out of range, or no controlling thread
-    not_ready = 8,      // the device cannot pull: RigNews::device_status says why
-    too_warm = 9,       // a motor's thermal budget is spent: motors off
+    stopped = 7, // motors off: order out of range, no new beat, or a thread of the rig was late
+    // the device cannot pull: it has a fault (RigNews::device_status) or does not answer
+    not_ready = 8,
+    too_warm = 9, // a motor's thermal budget is spent: motors off
 };
 
-// Returns one plain English sentence; never null.
+// Returns English sentences that say what happened and what to do; never null.
 [[nodiscard]] const char *describe(TaskVerdict verdict) noexcept;
 
 struct TaskOrder {
@@ -48,7 +51,7 @@ struct TaskResult {
     int moved_string = 0;  // wiring: the string that changed most
     StringArray moved_m{}; // wiring: change of each length during the pull
     double rise_n = 0.0;   // weighing: commanded tension at which the weight rose
-    // Weighing: commanded tension at which the weight sank. Friction is half the difference.
+    // Weighing: commanded tension at which the weight sank. Friction is (rise_n - fall_n) / 2.
     double fall_n = 0.0;
 };
 
@@ -62,8 +65,9 @@ inline constexpr double kMoved_m = 0.001;
 inline constexpr double kLeastWeight_n = 0.5;
 // Largest weight that is accepted (unit: N).
 inline constexpr double kMostWeight_n = 4.0;
-inline constexpr double kMostOfWeight = 1.6; // highest tension tried, over the weight
-// Rate of the weighing ramp (unit: N/s).
+// largest tension of the weighing task, divided by the weight
+inline constexpr double kMostOfWeight = 1.6;
+// Rate at which the weighing task raises and lowers the tension (unit: N/s).
 inline constexpr double kWeighRate_n_per_s = 1.0;
 // Movement that counts as lifted, or as sunk again (unit: m).
 inline constexpr double kLifted_m = 0.002;
@@ -86,9 +90,10 @@ struct TaskInput {
 
 class CalibrationTasks {
 public:
-    // Returns the tensions to command (unit: N). An order that is out of range ends as `stopped`.
+    // Returns the tensions to command (unit: N). An order with a value out of range gets the
+    // verdict `stopped`.
     StringArray step(const TaskOrder &order, const TaskInput &input) noexcept;
-    // Ends the running task with this verdict; the motors are off from now on.
+    // Ends the running task with this verdict; step() then returns zeros until a new order.
     void abort(TaskVerdict verdict) noexcept;
     [[nodiscard]] const TaskResult &result() const noexcept { return result_; }
     [[nodiscard]] bool active() const noexcept { return task_ != CalibrationTask::idle; }

@@ -1,5 +1,5 @@
-// When a device that stopped itself is told to clear its faults. It stays off until a new task is
-// requested. That task finds the device not ready; the next one may pull.
+// Decides when a device that stopped itself is commanded to clear its faults: when a new task is
+// requested. That task still ends as not_ready; the next one may pull.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace spidar {
 
 class FaultClearing {
 public:
-    // Takes one cycle. task: number of the last requested task. Returns true when the device must
-    // clear its faults, with the motors off.
+    // Called once per cycle. task: number of the last requested task. Returns true in the cycles in
+    // which the device must be commanded to clear its faults, with the motors off.
     [[nodiscard]] bool step(std::uint32_t task, bool device_is_well) noexcept {
         if (task != asked_for_) {
             asked_for_ = task;

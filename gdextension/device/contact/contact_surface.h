@@ -1,6 +1,6 @@
-// The present plane of a contact. A game updates it 30 to 144 times per second and the servo loop
-// uses it 1000 times. In between, the plane is extrapolated by the velocity that the game gives,
-// and by the turn rate and acceleration of the last updates.
+// The plane of a contact at the present time. A game updates it 30 to 144 times per second, and the
+// servo loop uses it 1000 times. Between two updates, the plane is extrapolated by the velocity
+// that the game gave, and by the turn rate and acceleration on which the last three updates agree.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -18,14 +18,15 @@ struct ContactSurface {
     double friction = 0.0;
 };
 
-// One plane from update to update. Stops (grasp, turn) are extrapolated by velocity only.
+// Extrapolates one plane from update to update. Stops (grasp, turn) are extrapolated by velocity
+// only.
 class SurfaceTrack {
 public:
     // Starts with the first update, or with another surface of the same id.
     void begin(const ContactPlane &plane) noexcept;
-    // Takes the next update of the same surface. apart_s: time since the last update on the game's
-    // clock (0: unknown). from: the surface rendered at this moment. pivot_m: the point about which
-    // a turn of the plane leaves it in place.
+    // Takes the next update of the same surface. apart_s: time between the last update and this one
+    // on the game's clock (0: unknown). from: the surface as it is rendered now. pivot_m: point of
+    // the plane that does not move when the plane turns.
     void renew(const ContactPlane &plane, const ContactSurface &from, double apart_s,
                const Vec3 &pivot_m) noexcept;
     // Returns the surface at the present time of `clock`.
@@ -41,8 +42,8 @@ private:
     ContactSurface from_;
     bool fading_in_ = false;
     Vec3 pivot_m_{0.0};
-    // Turn rate and acceleration between the last two updates (seen_) and those used, from the last
-    // three updates.
+    // seen_: turn rate and acceleration between the last two updates. The others are used to
+    // extrapolate: what seen_ and the seen_ before it have in common.
     Vec3 seen_turn_rad_s_{0.0};
     Vec3 turn_rad_s_{0.0};
     double seen_acceleration_m_s2_ = 0.0;

@@ -1,7 +1,8 @@
-// The god-object under one-sided constraints in seven DOF: the nearest pose that violates none of
-// them, in the metric of the stiffnesses, and the push of each constraint (Zilles and Salisbury
-// 1995; Ortega, Redon and Coquillart 2007). The forces are the gradient of one energy, so that no
-// path gains energy.
+// Computes the god-object in seven DOF: of all poses that violate no one-sided constraint, the one
+// nearest to the device, and the push of each constraint (Zilles and Salisbury 1995; Ortega, Redon
+// and Coquillart 2007). Distance is measured by the energy of the springs from the device to the
+// god-object. The pushes are the gradient of that energy: a closed path of the device along
+// constraints at rest gains no energy.
 #pragma once
 
 #include <array>
@@ -11,26 +12,27 @@
 
 namespace spidar {
 
-inline constexpr int kMaxConstraints = 8;                    // of contact planes
-inline constexpr int kMaxPoints = 24;                        // contact points of shapes
-inline constexpr int kMaxLimits = 6;                         // of joints
-inline constexpr int kMaxRows = kMaxPoints + 1 + kMaxLimits; // with the stop of the jaws
-static_assert(kMaxRows <= 32);                               // bits of RowPushes::active_mask
+inline constexpr int kMaxConstraints = 8; // largest number of contact planes
+inline constexpr int kMaxPoints = 24;     // largest number of contact points of shapes
+inline constexpr int kMaxLimits = 6;      // largest number of limits of joints
+// contact points, the stop of the jaws, limits of joints
+inline constexpr int kMaxRows = kMaxPoints + 1 + kMaxLimits;
+static_assert(kMaxRows <= 32); // bits of RowPushes::active_mask
 
-// Constraint i requires row . move + compliance * push >= depth. `move` is in units of
-// sqrt(energy): the energy of a move is its squared length / 2. Lane 7 is zero.
+// One constraint: row . move + compliance * push >= depth. `move` is in units of sqrt(energy): half
+// its squared length is the energy of the springs. Element 7 of `row` is zero.
 struct ConstraintRow {
     std::array<double, 8> row{};
     double depth = 0.0;
-    // Compliance behind the constraint, in units of depth per push.
+    // How far the constraint gives way, in units of depth per unit of its push.
     double compliance = 0.0;
 };
 
-// Largest push of a constraint relative to what it and the deepest one would push alone. It is
-// reached in a wedge of 50 degrees, and where no pose satisfies all constraints, as in a slot that
-// is too narrow.
+// A push is limited to this multiple of a sum: what the constraint would push alone (own_push()),
+// plus the largest such push of all. The limit acts in wedges of less than about 50 degrees, and
+// where no pose satisfies all constraints, as in a slot that is too narrow.
 inline constexpr double kMostPush = 1.5;
-// Returns the push of this constraint without any other.
+// Returns the push of this constraint without the others and without its compliance.
 [[nodiscard]] double own_push(const ConstraintRow &row) noexcept;
 
 template <int kRows>
@@ -41,17 +43,18 @@ struct RowPushes {
 };
 using GodObjectSolution = RowPushes<kMaxConstraints>;
 
-// Minimizes |move|^2 / 2 under all rows exactly, by an active set; equal rows share equally.
-// first_guess: active set to start with, such as the last one; it does not change the answer beyond
-// rounding. softness: added to the diagonal, relative to it. It lowers the stiffness of a single
-// constraint by this share, and makes dependent rows share. Input that is not finite gives zero
-// pushes. Instantiated for kMaxConstraints and kMaxRows.
+// Finds the shortest move that satisfies all rows, by an active-set method; equal rows get equal
+// pushes. first_guess: bits of the rows that are tried first, such as the last active_mask; they
+// affect the result by rounding only. softness: each row's own element on the diagonal of the
+// system is enlarged by this share. The stiffness of a single constraint falls by the same share,
+// and linearly dependent rows share their push. Returns zero pushes if the input is not finite.
+// Instantiated for kMaxConstraints and kMaxRows.
 template <int kRows>
 [[nodiscard]] RowPushes<kRows> solve_rows(const std::array<ConstraintRow, kRows> &rows, int count,
                                           std::uint32_t first_guess, double softness) noexcept;
 
-// Softness for planes. Eight rows in seven DOF, or equal rows, leave the pushes undetermined; this
-// makes them share.
+// `softness` for contact planes. Without it, the pushes of eight rows in seven DOF, or of equal
+// rows, would not be unique.
 inline constexpr double kPlaneSoftness = 1e-11;
 [[nodiscard]] inline GodObjectSolution
 solve_god_object(const std::array<ConstraintRow, kMaxConstraints> &rows, int count,

@@ -1,5 +1,7 @@
-// Writes every cycle of a servo loop to a file without delaying the loop. The loop copies the cycle
-// into a ring; a writing thread (or, in stepped time, the loop's caller) encodes and writes it.
+// Writes the cycles of a servo loop to a file without delaying the loop. The loop copies each cycle
+// into a ring; a writing thread (or, in stepped time, the loop's caller) encodes and writes it. A
+// cycle that finds the ring full is lost. A segment is a run of cycles without loss: it starts with
+// the stored memory of the servo step.
 #pragma once
 
 #include <atomic>
@@ -21,12 +23,12 @@ namespace spidar {
 
 class ServoStep;
 
-// Time that the ring holds (unit: s): the longest pause of a disk without lost cycles.
+// Time whose cycles fit in the ring (unit: s): a longer pause of the disk loses cycles.
 inline constexpr double kRingTime_s = 4.0;
 
 // Progress of a recording.
 struct RecorderStatistics {
-    std::uint64_t cycles = 0; // cycles passed to the recorder
+    std::uint64_t cycles = 0; // cycles copied into the ring
     std::uint64_t lost = 0;   // cycles lost because the ring was full; marked in the file
     std::uint64_t bytes = 0;  // bytes written
     bool failed = false;      // a write failed and nothing more is written
@@ -40,30 +42,32 @@ struct NumberedTouch {
 
 class Recorder {
 public:
-    // in_time: the loop runs in its own thread and a writing thread empties the ring. Otherwise the
-    // loop's caller empties it, and no cycle is ever lost.
+    // in_time: the loop runs in its own thread, and a writing thread empties the ring. Otherwise
+    // end() empties it.
     Recorder(const ServoSettings &settings, bool in_time);
     ~Recorder(); // calls close()
     Recorder(const Recorder &) = delete;
     Recorder &operator=(const Recorder &) = delete;
 
-    // Controlling thread: opens the file. Returns an empty string or a sentence with the reason.
+    // Opens the file; called from the controlling thread. Returns an empty string, or a text with
+    // the reason of a failure.
     [[nodiscard]] std::string open(const std::string &path);
     // Writes what the ring holds and closes the file; called from the controlling thread. The loop
     // may still call begin() and end(), which then have no effect.
     void close() noexcept;
 
-    // begin() and end() enclose each step in the loop's thread; they neither wait nor allocate.
-    // `step` is the state before the cycle. At the start of a segment the step forgets its memory
-    // of shape pairs, as a replay does.
+    // begin() and end() enclose each step in the loop's thread. If in_time, they neither wait nor
+    // allocate. `step` is the state before the cycle. At the start of a segment, begin() clears the
+    // step's memory of shape pairs, as a replay does.
     void begin(const ServoStep &step) noexcept;
     void end(CycleInput input, const DriveCommand &drive, const ServoSnapshot &snapshot,
              const HapticCommand &command, bool command_is_new) noexcept;
-    // Records what the game has just read. Called from the controlling thread; does not wait.
+    // Records that the game has just read a snapshot. Called from the controlling thread; does not
+    // wait.
     void note(const GameRead &read) noexcept;
     // Records a scene. Called from the controlling thread before the scene's command is published.
     // When a recording starts, all scenes that the loop may still use must be noted first, oldest
-    // first. The shapes are written to the file and stay alive until then.
+    // first. The scene and its shapes are kept alive until they are written.
     void note(NumberedTouch touch);
 
     [[nodiscard]] RecorderStatistics statistics() const noexcept;
@@ -97,9 +101,10 @@ private:
     // Used by the writer.
     RecordingWriter file_;
     HapticCommand command_;
-    // Scenes from the newest that a recorded command had.
+    // Scenes that a command may still refer to: first the one of the newest command written, then
+    // all later ones.
     std::deque<NumberedTouch> touches_;
-    // Numbers of the shapes that the file holds.
+    // Numbers of the shapes that were written to the file.
     std::set<std::uint64_t> shapes_kept_;
     std::uint64_t lost_marked_ = 0;
     std::atomic<std::uint64_t> bytes_{0};

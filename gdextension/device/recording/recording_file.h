@@ -21,7 +21,7 @@ namespace spidar {
 // and the CRC-32 (4 bytes) of all these.
 enum class ChunkKind : std::uint8_t {
     info = 1,   // text of RecordingInfo; the first chunk
-    memory = 2, // memory of the servo step before the next segment
+    memory = 2, // bytes of the ServoStep before the next segment (recorder.h)
     cycles = 3,
     gap = 4, // number of cycles missing here (varint)
     // The recording was closed. Contents: number of cycles, number of missing cycles (varints).
@@ -41,7 +41,7 @@ inline constexpr std::size_t kMostChunkBytes = 4'000'000;
 
 class RecordingWriter {
 public:
-    // Opens the file, writes its head. Returns an empty string or a sentence with path and remedy.
+    // Opens the file and writes its head. Returns an empty string, or a text with path and remedy.
     [[nodiscard]] std::string open(const std::string &path, const RecordingInfo &info);
 
     void memory(std::span<const std::uint8_t> bytes);
@@ -80,7 +80,8 @@ private:
 
 class RecordingReader {
 public:
-    // Opens a file and reads info(). Returns an empty string, or one sentence with the reason.
+    // Opens a file and reads info(). Returns an empty string, or a text with the reason of a
+    // failure.
     [[nodiscard]] std::string open(const std::string &path);
     // Opens a stream; `name` appears in messages.
     [[nodiscard]] std::string open(std::unique_ptr<std::istream> stream, const std::string &name);
@@ -92,11 +93,11 @@ public:
     // recording was ended properly. A reader reads either cycles or game reads: use two readers for
     // both.
     [[nodiscard]] bool next(RecordedCycle &cycle);
-    // Reads the game's next read. Returns false when there is none before the end or the damage.
+    // Reads the next GameRead. Returns false when there is none before the end or the damage.
     [[nodiscard]] bool next(GameRead &read);
 
     [[nodiscard]] const RecordingInfo &info() const noexcept { return info_; }
-    // The memory of the servo step before the segment of the last cycle.
+    // Bytes of the ServoStep before the segment to which the last cycle belongs.
     [[nodiscard]] std::span<const std::uint8_t> memory() const noexcept { return memory_; }
     // The scene of the last cycle's command, as words of codec/touch_words.h.
     [[nodiscard]] std::span<const std::uint64_t> touch_words() const noexcept {
@@ -105,8 +106,8 @@ public:
     [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_; }
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
     [[nodiscard]] bool closed() const noexcept { return closed_; }
-    // At the end of a file that was not closed: one sentence with the place and what was read. Else
-    // empty.
+    // After reading stopped at damage or at the end of a file that was not closed: one sentence
+    // with the place and the number of cycles before it. Else empty.
     [[nodiscard]] const std::string &damage() const noexcept { return damage_; }
 
 private:

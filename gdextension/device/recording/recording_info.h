@@ -30,8 +30,8 @@ struct RecordingInfo {
 
 [[nodiscard]] std::string to_text(const RecordingInfo &info);
 
-// Reads a head. Returns an empty string, or one sentence with the reason. Unknown fields are
-// ignored, and missing fields keep their defaults.
+// Reads a head. Returns an empty string, or a text with the reason of a failure. Unknown fields are
+// ignored. Missing fields keep their defaults; only the format must be there.
 [[nodiscard]] std::string read_text(std::string_view text, RecordingInfo &info);
 
 // Returns an empty string when this build can replay bit for bit, else a reason with remedy.

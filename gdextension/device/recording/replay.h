@@ -1,9 +1,9 @@
-// Plays a recording: gives a servo loop the recorded inputs and compares the outputs bit for bit.
-// No motor is driven, and no command of the game is used.
-// A recording of another build plays as poses. This build's kinematics find the poses from the
-// recorded counts; the snapshot holds the recorded state, grasp, fault and tensions, with zero
+// Plays a recording: feeds a servo loop the recorded inputs and compares a digest of all bits of
+// each cycle's outputs. No motor is driven, and no command of the present game is used.
+// A recording of another build plays as poses: this build's kinematics find the poses from the
+// recorded counts, and the snapshot holds the recorded state, grasp, fault and tensions, without
 // wrenches and contacts. Nothing is compared.
-// A malicious file does no harm.
+// A file may be damaged or malicious: the memory in it is checked before it is used.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct ReplayReport {
     std::uint64_t cycles = 0;          // replayed so far
     std::uint64_t differing = 0;       // cycles whose output differed from the recording
     std::uint64_t first_differing = 0; // tick of the first one; 0: none
-    std::uint64_t lost = 0;            // cycles missing in the recording
+    std::uint64_t lost = 0;            // cycles missing in the recording so far
     bool finished = false;             // no cycle is left
     // Time of the last cycle.
     double time_s = 0.0;
@@ -29,7 +29,8 @@ struct ReplayReport {
 
 class Replay final : public CycleSource {
 public:
-    // Loads a file. Returns an empty string or a sentence: no file, damaged, unusable settings.
+    // Loads a file. Returns an empty string, or a text with the reason: no file, damaged head,
+    // unusable settings.
     [[nodiscard]] std::string load(const std::string &path);
     // Loads the bytes of a file; `name` appears in messages.
     [[nodiscard]] std::string load(const std::string &bytes, const std::string &name);
@@ -43,9 +44,11 @@ public:
     Status open() noexcept override { return Status::ok; }
     void close() noexcept override {}
     [[nodiscard]] bool simulated() const noexcept override { return true; } // runs in its own time
-    // Sets the step's memory to that before the first cycle.
+    // Sets the step's memory to that before the first cycle. Returns false when the recording plays
+    // as poses or when that memory is unusable.
     bool recall(ServoStep &step) noexcept override;
-    // At a segment's start, sets the step's memory as recorded. Returns false at the end.
+    // Gives the inputs of the next cycle. At a segment's start, sets the step's memory as recorded.
+    // Returns false at the end.
     bool next(CycleGiven &given, ServoStep &step, EventLog &events) noexcept override;
     Status write(const DriveCommand &drive) noexcept override;
     // Returns the recorded state when playing as poses, else null.
@@ -54,16 +57,18 @@ public:
     void finish(const ServoSnapshot &snapshot, const DriveCommand &drive,
                 double dt_s) noexcept override;
 
-    // Controlling thread: returns the recorded game's next read; false when there is none.
+    // Reads when the recorded game next read the device; false when there is no more. Called from
+    // the controlling thread.
     [[nodiscard]] bool next_read(GameRead &read) noexcept;
 
-    // Scene of the last cycle's newest command. Loop's thread, or while no cycle runs.
+    // Scene of the newest command up to the last cycle. Called from the loop's thread, or while no
+    // cycle runs.
     [[nodiscard]] const TouchScene &touch() const noexcept { return touch_; }
 
-    // Contacts that the last cycle rendered. Loop's thread, or while no cycle runs.
+    // Number of the contacts in the newest command up to the last cycle. Called as touch().
     [[nodiscard]] std::uint64_t contacts_sequence() const noexcept { return contacts_sequence_; }
 
-    // The last replayed cycle, as recorded. Called from the loop's thread, or while no cycle runs.
+    // The last replayed cycle, as recorded. Called as touch().
     [[nodiscard]] const RecordedCycle &cycle() const noexcept { return cycle_; }
 
     // Called from any thread.
@@ -72,7 +77,7 @@ public:
     [[nodiscard]] std::string damage() const;
 
 private:
-    // Decides how an opened file plays.
+    // Decides how an opened file plays. Returns an empty string, or the problem with its settings.
     [[nodiscard]] std::string prepare();
     // Reads the next cycle. Returns false when there is none.
     bool fetch() noexcept;
@@ -88,7 +93,7 @@ private:
     ServoSnapshot shown_;              // when playing as poses
     std::atomic<bool> unsound_{false}; // a memory was refused
     RecordedCycle cycle_;
-    bool fetched_ = false; // cycle_ is not replayed yet
+    bool fetched_ = false; // cycle_ was read and not replayed yet
     std::uint64_t contacts_sequence_ = 0;
     std::atomic<std::uint64_t> cycles_{0};
     std::atomic<std::uint64_t> differing_{0};

@@ -1,4 +1,5 @@
-// Coupling at servo rate: spring and damper in seven DOF to a proxy extrapolated between updates.
+// Renders a coupling in each servo cycle: a spring and a damper in seven DOF from the grip to a
+// proxy that the game moves. Between two updates the proxy moves on by its velocity.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -16,11 +17,12 @@ public:
     void configure(const ServoSettings &settings) noexcept;
     // Changes the caps for couplings that are accepted from now on; all other state stays.
     void retune(const ServoSettings &settings) noexcept;
-    // Takes a valid coupling (validate_coupling). A jump relative to the last one is spread over a
-    // game frame. now_s: time on the clock of Coupling::state_time_s. Returns the first gain that
-    // was clamped.
+    // Takes a valid coupling (validate_coupling). A jump of the proxy relative to the last coupling
+    // is spread over kCrossFade_s. now_s: present time on the clock of Coupling::state_time_s.
+    // Returns the first value that was clamped.
     GainClamp accept(const Coupling &coupling, double now_s) noexcept;
-    // Takes one cycle, before accept(). Returns true in the cycle in which the coupling expires.
+    // Ages the coupling by one cycle; called before accept(). Returns true in the cycle in which it
+    // expires.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench render(const GripMotion &motion) const noexcept;
     [[nodiscard]] bool at_rest() const noexcept { return !live_; }
@@ -41,7 +43,7 @@ private:
     Coupling coupling_{};
     DofGains from_stiffness_{};
     DofGains from_damping_{};
-    Displacement jump_{}; // the last proxy relative to this one
+    Displacement jump_{}; // from the new proxy to the last one, at the update
     bool live_ = false;
     GameClock clock_;
     RefreshedStrength strength_{0.0};

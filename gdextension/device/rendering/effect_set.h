@@ -1,4 +1,5 @@
-// Effects at servo rate on any DOF: viscous field, force, spring to a point, vibration, detents.
+// Renders effects on any DOF in each servo cycle: viscous field, force, spring to a point,
+// vibration, detents.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +18,15 @@ public:
     void configure(const ServoSettings &settings) noexcept;
     // Changes the caps for effects that are accepted from now on; all other state stays.
     void retune(const ServoSettings &settings) noexcept;
-    // Replaces the effects by a valid set (validate_effects). An effect with the same id and kind
-    // continues. Starts, ends and changes are spread over a game frame. Returns the first gain that
-    // was clamped.
+    // Replaces the effects by a valid set (validate_effects). An effect whose id and kind were in
+    // the last set continues. Starts, changes and removals are spread over kCrossFade_s. Returns
+    // the first value that was clamped.
     GainClamp accept(const HapticCommand &command) noexcept;
-    // Takes one cycle, before accept(). Returns the number of effects that ended in this cycle.
+    // Ages the effects by one cycle; called before accept(). Returns the number of effects that
+    // ended in this cycle.
     int age(double dt_s) noexcept;
     Wrench render(const GripMotion &motion) noexcept;
-    // True when every effect has ended and removed ones have faded.
+    // True when every effect of the set has ended and the removed ones have faded.
     [[nodiscard]] bool at_rest() const noexcept;
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept {
@@ -39,7 +41,7 @@ private:
     struct Track {
         Effect effect;       // as last received, clamped
         DofGains from{};     // gain at the time of the last change
-        double fade_s = 0.0; // time since then
+        double fade_s = 0.0; // time since the last change
         double age_s = 0.0;
         double phase_rad = 0.0;
         bool ended = false;
@@ -53,7 +55,7 @@ private:
     GainCaps caps_{};
     std::array<Track, kMaxEffects> tracks_{};
     std::size_t count_ = 0;
-    // Forces of removed effects, which fall to zero over a game frame.
+    // Forces of removed effects; leaving_part_ falls from 1 to 0 in kCrossFade_s.
     DofLanes leaving_{};
     double leaving_part_ = 0.0;
     // Force of each effect in the last cycle.

@@ -1,5 +1,5 @@
-// Combines all requests to one wrench in each cycle. Contacts, coupling, wrench, effects and the
-// compensated weight of the grip add up; each ages and fades by itself.
+// Adds all requests to one wrench in each cycle: contact planes, shapes, coupling, raw wrench,
+// effects and the compensation of the grip's weight. Each request ages and fades by itself.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -23,32 +23,35 @@ public:
     // Renders shapes; see TouchRenderer.
     [[nodiscard]] TouchRenderer &touch() noexcept { return parts_.touch; }
     [[nodiscard]] const TouchRenderer &touch() const noexcept { return parts_.touch; }
-    // Takes the requests of this command as already seen.
+    // Marks the requests of this command as seen, without rendering them.
     void acknowledge(const HapticCommand &command) noexcept;
 
     // Called first in each cycle: ages the present requests, then takes new ones. An invalid
-    // request is counted, and the last valid one stays. now_s: ServoSnapshot::time_s of this cycle.
+    // request is counted, and the last valid one stays until it expires. now_s:
+    // ServoSnapshot::time_s of this cycle.
     void take(const HapticCommand &command, double now_s, double dt_s,
               ServoCounters &counters) noexcept;
 
-    // Returns the requested wrench before the limits of the sum. moved: displacement in the last
-    // cycle. fingers: those of a rigid grip, which also touch. trusted: the pose is current;
-    // otherwise nothing that depends on speed acts.
+    // Returns the requested wrench, not yet limited by limit_factor(). moved: displacement in the
+    // last cycle. fingers: those of a rigid grip, for shapes. trusted: the pose is current;
+    // otherwise the grip is not predicted and its velocity counts as 0.
     Wrench render(const GripState &grip, const Displacement &moved, const FingerMotion &fingers,
                   bool trusted, double dt_s) noexcept;
-    // Called after render(). scale: share of the returned wrench requested from the strings.
+    // Called after render(): adds the impulses of contacts. scale: share of the returned wrench
+    // that was requested from the strings.
     void given(double scale, double dt_s) noexcept;
-    // Takes the wrench of the commanded tensions, which with the motion gives the energy.
+    // Takes the wrench of the commanded tensions, from which the energy is computed.
     void achieved(const Wrench &wrench) noexcept { parts_.observer.hold(wrench); }
 
-    // The contacts' part of the last render().
+    // The part of planes and shapes in the wrench of the last render().
     [[nodiscard]] const Wrench &contact_push() const noexcept { return contact_push_; }
 
     void report(ServoSnapshot &snapshot) const noexcept;
 
-    // Returns whether this command contains nothing new.
+    // Returns whether this command contains no new request.
     [[nodiscard]] bool has_seen(const HapticCommand &command) const noexcept;
-    // True when at most a raw wrench is requested.
+    // True when no part changes: the grip stands still, and nothing but a raw wrench in full
+    // strength is requested.
     [[nodiscard]] bool at_rest() const noexcept { return all_at_rest(parts_); }
     [[nodiscard]] std::uint32_t awake_parts() const noexcept { return awake_mask(parts_); }
     [[nodiscard]] bool rests_through(double dt_s) const noexcept {

@@ -1,6 +1,6 @@
-// The grip's motion for contacts, coupling and effects: without the oscillation of rotors against
-// grip on the elastic strings, and predicted by the delay of the loop. Feeding back an unfiltered
-// pose would drive that oscillation.
+// The grip's motion as contacts, coupling and effects see it: a notch filter removes the
+// oscillation of rotors against grip on the elastic strings, and the motion is predicted by the
+// delay of the loop. Forces from an unfiltered pose would drive that oscillation.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ public:
 
     [[nodiscard]] Displacement ahead() const noexcept;
     [[nodiscard]] Twist velocity() const noexcept;
-    // Returns the prediction time less the delay of the notch filter (unit: s).
+    // Returns the prediction time minus the delay that the notch filter adds to a steady motion
+    // (unit: s).
     [[nodiscard]] double steady_lead_s() const noexcept { return steady_lead_s_; }
     // True when the grip stood still so long that updates without motion change nothing.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
@@ -38,7 +39,7 @@ private:
     double lead_s_ = 0.0;
     double steady_lead_s_ = 0.0;
     // offset = filtered - measured: offset'' + 2 width w offset' + w^2 offset = -depth speed.
-    double w_ = 0.0; // 0: no notch
+    double w_ = 0.0; // angular frequency of the notch (unit: rad/s); 0: no notch
     double depth_ = 0.0;
     // Warps time so that the trapezoidal rule is exact at w.
     double warp_ = 1.0;

@@ -1,6 +1,6 @@
-// Energy at the grip per DOF. An observer measures the work of all requests on the hand. A
-// controller takes back energy that a wrench or coupling, held between two game frames, gives in
-// excess (Hannaford and Ryu 2002).
+// Energy at the grip per DOF. An observer measures the work of the achieved wrench on the hand. A
+// controller takes back the energy that a coupling gives in excess because the game updates it only
+// once a frame (Hannaford and Ryu 2002).
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -9,8 +9,8 @@
 
 namespace spidar {
 
-// Observes the work of the requests. The work is exact for a wrench held over each cycle: force of
-// the last cycle times the displacement since.
+// Sums force of the last cycle times displacement since then: the exact work of a wrench that is
+// held over each cycle.
 class EnergyObserver {
 public:
     // moved: displacement in the cycle in which the last held wrench acted.
@@ -30,16 +30,17 @@ private:
     bool moving_ = false; // in the last update()
 };
 
-// Damps a DOF while the changing part of its force has given the hand more energy than it took. A
-// slow force, such as a weight, is intended by the game and left alone: only changes within kSlow_s
-// are watched.
+// Damps a DOF while the changing part of its force has given the hand more energy than it took
+// back. A slow force, such as a weight, is intended by the game and is left alone: a low-pass
+// filter with the time constant kSlow_s separates it from the changing part.
 class PassivityController {
 public:
     // Time constant that separates slow forces from changing ones.
     static constexpr double kSlow_s = 0.2;
-    // Largest energy kept from the hand: a long hold must not pay for a later jolt.
+    // Limit of the balance that is kept, for energy taken and for energy given: energy that was
+    // taken in a long hold must not allow a later jolt.
     static constexpr double kStore_j = 0.005;
-    // Time over which energies are forgotten, so that each tap is judged by itself.
+    // Time constant with which the balance is forgotten, so that each tap is judged by itself.
     static constexpr double kMemory_s = 0.2;
 
     // most_damping: largest damping that may be added; all zero switches the controller off.
@@ -48,7 +49,7 @@ public:
     // Returns the wrench to render in place of `asked`.
     Wrench correct(const Wrench &asked, const Displacement &moved, const Twist &velocity,
                    double dt_s) noexcept;
-    // True when nothing changes while nothing is requested, wherever the grip moves.
+    // True if correct() would return a request of zero unchanged, however the grip moves.
     [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept { return are_flags(at_rest_); }
@@ -56,7 +57,7 @@ public:
 private:
     DofGains most_{};
     DofLanes slow_{};
-    DofLanes changing_{}; // held since the last cycle
+    DofLanes changing_{}; // force of the last cycle minus slow_
     DofLanes store_j_{};
     bool at_rest_ = true;
 };

@@ -1,5 +1,5 @@
-// Compensates the losses of a string's pull by rotors, bearings and back-EMF: a calibrated option,
-// off by default.
+// Makes up for the pull that a string loses to friction of rotor and bearings and to back-EMF, not
+// to the rotor's inertia. A calibrated option, off by default.
 #pragma once
 
 #include "core/geometry/wrench_matrix.h"
@@ -7,10 +7,11 @@
 
 namespace spidar {
 
-// String speed over which the Coulomb friction rises, so that noise does not toggle the tension of
-// a string at rest.
+// String speed at which the compensation of Coulomb friction is full; it rises linearly from 0 m/s,
+// so that noise does not toggle the tension of a string at rest.
 inline constexpr double kFrictionBand_m_s = 0.02;
-// Returns the tension to add to each string (unit: N). Negative: subtracted. twist: filtered.
+// Returns the tension to add to each string (unit: N): positive while the string is wound in,
+// negative while it is paid out. twist: the filtered one.
 [[nodiscard]] StringArray rotor_compensation(const RenderSettings &settings,
                                              const WrenchMatrix &matrix,
                                              const Twist &twist) noexcept;

@@ -1,5 +1,5 @@
-// The raw wrench of a game in seven DOF, besides contacts and coupling: in full for the requested
-// duration, then faded. Also the limits of the sum of all requests.
+// The raw wrench that a game requests in seven DOF: it acts in full for the requested duration and
+// then fades. Also the limits of the sum of all requests.
 #pragma once
 
 #include "core/base/sound_state.h"
@@ -8,9 +8,9 @@
 
 namespace spidar {
 
-// Returns the factor (0..1] that brings force, moment and grasp torque within their limits. One
-// factor for all seven DOF keeps the wrench's direction. Valid for every finite wrench, even 1e308;
-// 0 for a wrench that is not finite.
+// Returns the largest factor up to 1 that brings force, moment and grasp torque within their
+// limits. One factor for all seven DOF keeps the wrench's direction. Works for finite wrenches of
+// any size; 0 for a wrench that is not finite.
 [[nodiscard]] double limit_factor(const Wrench &wrench, const SafetySettings &safety) noexcept;
 
 class WrenchRequest {
@@ -20,7 +20,8 @@ public:
     void retune(const SafetySettings &safety) noexcept { safety_ = safety; }
     // Takes a valid request (validate_wrench). Returns what was clamped.
     GainClamp accept(const Wrench &wrench, double duration_s) noexcept;
-    // Takes one cycle, before accept(). Returns true in the cycle in which the request ends.
+    // Ages the request by one cycle; called before accept(). Returns true in the cycle in which it
+    // ends.
     bool age(double dt_s) noexcept;
     [[nodiscard]] Wrench value() const noexcept;
     // True when nothing is requested, or the request acts in full.

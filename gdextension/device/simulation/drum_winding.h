@@ -1,5 +1,5 @@
-// A drum whose radius shrinks as string is paid out, so that a turn pays out less and less. The
-// paper's Table 1 fits 4.6 % over 0.7 m.
+// A drum whose radius shrinks as string is paid out, so that each turn pays out less than the one
+// before. A fit of the paper's Table 1 gives 4.6 % of the radius over 0.7 m.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@ inline constexpr double kFullWrap_m = 0.7;
 struct DrumWinding {
     double growth = 0.0; // relative change of the radius over kFullWrap_m; 0: constant radius
 
-    // Returns the drum's radius, relative to that at the zero, after this much string was paid out.
+    // Returns the drum's radius, relative to the one at wound_m = 0. wound_m: length of string paid
+    // out since then.
     [[nodiscard]] double radius_share(double wound_m) const noexcept {
         return std::sqrt(std::max(kLeastSquare, 1.0 - 2.0 * growth / kFullWrap_m * wound_m));
     }
@@ -24,7 +25,7 @@ struct DrumWinding {
     }
 
 private:
-    // Radius squared of an empty drum; no frame is large enough to reach it.
+    // Lower limit of the squared relative radius, so that the root is real.
     static constexpr double kLeastSquare = 0.01;
 };
 

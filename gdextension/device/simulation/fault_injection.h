@@ -1,4 +1,4 @@
-// Faults that a simulated device can be given, with start and duration in simulated time.
+// Faults that can be injected into a simulated device, with start and duration in simulated time.
 #pragma once
 
 #include <array>
@@ -15,22 +15,24 @@ enum class SimulatedFault : std::uint8_t {
     stuck_encoder = 5, // one string's count stands still
     broken_string = 6, // one string no longer pulls
     hand_released = 7, // nobody holds the grip
-    jammed_drum = 8,   // one drum is blocked: its string slackens or holds the grip back
-    // One count drifts off by kSlip_m and stays off while the fault lasts.
+    jammed_drum = 8,   // one drum is blocked, so its string slackens or holds the grip back
+    // The count of one string drifts off by kSlip_m and stays off while the fault lasts.
     slipped_string = 9,
-    // The device restarts: counts and clock start anew, and stay so.
+    // The device restarts: counts and clock start from 0. The end of the fault does not restore
+    // them.
     counts_reset = 10,
-    reversed_encoder = 11, // one string's count runs backwards from here on
+    reversed_encoder = 11, // one string's count runs backward while the fault lasts
     swapped_encoders = 12, // the counts of this string and the next are exchanged
     reports_lost = 13,     // one report in a hundred is lost
-    reports_repeated = 14, // one report in a hundred arrives twice
-    reports_swapped = 15,  // one report in fifty arrives after the next
-    late_output = 16,      // currents act 4 ms later
-    blocked_output = 17,   // new currents do not arrive; the last ones stay
+    reports_repeated = 14, // in place of one report in a hundred, the one before arrives again
+    // one report in fifty arrives after the next one; the one after that is lost
+    reports_swapped = 15,
+    late_output = 16,    // currents act 4 ms later
+    blocked_output = 17, // new currents do not arrive; the last ones stay
 };
 inline constexpr int kSimulatedFaultCount = 18;
 
-// Final error of a slipped string (unit: m).
+// Error of a slipped string's length when the drift has ended (unit: m).
 inline constexpr double kSlip_m = 0.020;
 // Speed of the drift of a slipped string.
 inline constexpr double kSlipSpeed_m_s = 0.2;
@@ -40,7 +42,8 @@ inline constexpr std::int32_t kCountJump = 1000; // 25 mm with the paper's pulle
 // Largest number of faults that are pending or active.
 inline constexpr int kMaxFaults = 8;
 
-// A fault with its time. start_s counts from the call. duration_s <= 0: without end.
+// A fault with its time. start_s counts from when the device takes the fault over
+// (SimulatedTransport::inject). duration_s <= 0: without end.
 struct FaultInjection {
     SimulatedFault fault = SimulatedFault::output_cut;
     int string = 0; // 0-7, for faults of one string
@@ -60,7 +63,7 @@ using FaultList = std::array<NumberedFault, kMaxFaults>;
 
 struct ActiveFaults {
     std::array<std::uint8_t, kSimulatedFaultCount> strings{}; // per fault; bit i: string i
-    std::array<double, 8> slip_m{};                           // error of each slipped string
+    std::array<double, 8> slip_m{}; // present error of each slipped string
 
     // Returns the strings with this fault (bit i: string i). For a fault without a string some bit
     // is set.

@@ -1,5 +1,5 @@
 // A hand that holds the simulated grip: a spring and damper in all seven DOF, with the hand's mass,
-// that moves the grip towards a target.
+// that moves the grip toward a target.
 #pragma once
 
 #include <cstdint>
@@ -39,11 +39,12 @@ struct HandImpedance {
     double grasp_damping_nm_s_rad;
 };
 
-// Masses and springs of three hands. Translation: the hands with which the contact gains were
-// tested; a measured arm (0.55 kg, 6.5 N s/m, 135 N/m) lies between them. Rotation: mass and
-// stiffness of the same hand times (40 mm)^2, the pole's half length. Grasp: a quarter of that,
-// since each pole turns by half the grasp angle. Rotation and grasp are damped at 0.7 of critical
-// with the default grip, since a turning hand does not oscillate.
+// Masses and springs of three hands. Translation: the hands with which the gains of contacts were
+// tested; a measured arm (0.55 kg, 6.5 N s/m, 135 N/m) lies between the light and the firm one.
+// Rotation: mass and stiffness of the same hand times (40 mm)^2; 40 mm is the pole's half length.
+// Grasp: a quarter of the rotation's values, since each pole turns by half the grasp angle. With
+// the default grip, rotation and grasp are damped at 0.7 of critical, since a turning hand does not
+// oscillate.
 inline constexpr HandImpedance kLightHand{0.05,   50.0, 1.0,  8.0e-5, 0.08,
                                           4.3e-3, 2e-5, 0.02, 1.1e-3};
 inline constexpr HandImpedance kNormalHand{0.3,    300.0,  5.0,  4.8e-4, 0.48,
@@ -56,14 +57,14 @@ inline constexpr HandImpedance kFirmHand{0.8,    700.0,  12.0, 1.28e-3, 1.12,
 
 // Largest speed of a hand that follows a target: a jump of the target must not throw the grip.
 inline constexpr double kHandMaxSpeed_m_s = 1.0;
-// Same for rotation and grasp angle.
+// The same for rotation and grasp angle.
 inline constexpr double kHandMaxTurnRate_rad_s = 6.0;
-// Largest acceleration of the path. It is just above what stopping from full speed needs (speed *
-// path rate / e), so that the limit causes no overshoot.
+// Largest acceleration of the path. It is above what stopping from full speed needs (speed *
+// kHandPathRate_rad_s / e), so that the limit causes no overshoot.
 inline constexpr double kHandMaxAcceleration_m_s2 = 30.0;
 inline constexpr double kHandMaxTurnAcceleration_rad_s2 = 180.0;
-// Bandwidth of the critically damped path (unit: rad/s). A target in 60 Hz steps is followed
-// smoothly, 2 / 60 s behind.
+// Bandwidth of the critically damped path (unit: rad/s). The path follows a target that is updated
+// at 60 Hz smoothly, 2 / 60 s behind it.
 inline constexpr double kHandPathRate_rad_s = 60.0;
 
 // Position, velocity and acceleration of the hand's path in all seven DOF.
@@ -84,13 +85,15 @@ public:
     // Sets the target of the path. An unusable target changes nothing.
     void set_target(const HandTarget &target) noexcept;
     void set_firmness(HandFirmness firmness) noexcept;
-    // True: the hand lets go, without spring, damper and almost without mass, until it holds again.
+    // True: the hand lets go of the grip: no spring, no damper, almost no mass. False: it holds the
+    // grip again.
     void set_released(bool released) noexcept;
 
     // Advances the path.
     void advance(double dt_s) noexcept;
 
-    // Returns the wrench on the grip: spring and damper between path and grip, no hand mass.
+    // Returns the wrench on the grip from spring and damper between path and grip, without the
+    // hand's mass.
     [[nodiscard]] Wrench wrench(const Vec3 &position_m, const Quat &rotation,
                                 double grasp_angle_rad, const Twist &twist) const noexcept;
     // Returns the energy in the hand's springs (unit: J).

@@ -1,5 +1,5 @@
-// The link between a simulated device and its host: delays currents; loses, repeats or swaps
-// reports. Deterministic: equal settings and calls give equal delays.
+// The link between a simulated device and its host: it delays currents, and loses, repeats or swaps
+// reports. Deterministic: equal settings and calls give equal results.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace spidar {
 
 class SimulatedLink {
 public:
-    // Largest number of commands in transit: 64 ms at 4 kHz.
+    // Largest number of commands in transit (64 ms at 4 kHz); one more discards the oldest.
     static constexpr std::size_t kMostOnTheWay = 256;
 
     void configure(const PlantSettings &settings) noexcept;
 
     // Sends currents. extra_s: additional delay by a fault.
     void send(const StringArray &currents_a, double now_s, double extra_s) noexcept;
-    // Unplugged: discards everything in transit.
+    // Discards all currents in transit, as when the device is unplugged.
     void cut() noexcept { count_ = 0; }
     // Returns the arrival time of the next currents (unit: s); infinity when none are in transit.
     [[nodiscard]] double next_s() const noexcept;
     // Returns the currents that arrive next and removes them.
     StringArray receive() noexcept;
 
-    // Passes a report on to the host, changed by the faults. Returns false when none arrives.
+    // Passes a report on to the host; faults may replace it. Returns false when no report arrives.
     bool deliver(DeviceReading &report, const ActiveFaults &faults) noexcept;
 
 private:

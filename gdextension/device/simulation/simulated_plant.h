@@ -1,6 +1,6 @@
 // Physics of a simulated SPIDAR-G: eight strings (elastic or not) with motors, the grip with its
-// hinge, and a hand. Independent of core's kinematics and wrench matrix, so that it can reveal
-// errors in them. Semi-implicit Euler at kPlantRate_hz.
+// hinge, and a hand. It does not use core's forward kinematics and wrench matrix, so that it can
+// reveal errors in them. Integrated by the semi-implicit Euler method at kPlantRate_hz.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-// Rate of the integration: stable up to EA = 30 kN.
+// Rate of the integration, which is stable up to string_stiffness_ea_n = 30 kN.
 inline constexpr double kPlantRate_hz = 40000.0;
 inline constexpr double kPlantStep_s = 1.0 / kPlantRate_hz;
 
@@ -25,18 +25,19 @@ struct PlantSettings {
     GripGeometry grip;
     MotorCalibration motors; // true motor parameters
     // count = round((length * (1 + gain error) + offset error) / metres_per_count). The length is
-    // what the rotor has paid out (elastic) or the true distance (not elastic).
+    // what the rotor has paid out (elastic) or the true distance (not elastic); a drum with
+    // winding_growth shows DrumWinding::turned_m().
     double metres_per_count = kPaperMetresPerCount;
-    StringArray length_offset_error_m{}; // to be found by a calibration
+    StringArray length_offset_error_m{}; // which a calibration has to find
     StringArray length_gain_error{};     // relative: 0.01 = 1 %
-    // False: strings do not stretch and rotors have no mass. The tension is then exactly the motor
-    // tension plus the friction of the moving string.
+    // False: strings do not stretch and rotors have no mass. The tension is then the motor tension
+    // plus the friction of the moving string, but at least 0.
     bool elastic = true;
     double string_stiffness_ea_n = 3000.0; // stiffness k = EA / length
     double string_damping_n_s_m = 0.3;
     // Relative growth of a string under a constant 10 N after a long time. Elastic strings only.
     // Estimate for a braid: 0.002.
-    double creep = 0.0; // an estimate for a braid: 0.002
+    double creep = 0.0;
     // Time constant of the creep.
     double creep_time_s = 60.0;
     // See DrumWinding::growth; the paper's drums: 0.046.
@@ -48,12 +49,12 @@ struct PlantSettings {
     double grip_mass_kg = 0.06;
     double grip_inertia_kg_m2 = 4e-5;  // isotropic
     double grasp_inertia_kg_m2 = 1e-5; // about grasp_angle
-    // Hinge stop in grasp_angle, open side.
+    // Grasp angle of the hinge's stop on the open side.
     double hinge_open_rad = -80.0 * 0.017453292519943295;
-    // Hinge stop in grasp_angle, closed side.
+    // Grasp angle of the hinge's stop on the closed side.
     double hinge_closed_rad = 80.0 * 0.017453292519943295;
     HandFirmness firmness = HandFirmness::normal;
-    // Link to the host: constant delay of currents.
+    // Constant delay of currents on the link from the host.
     double output_latency_s = 0.0;
     // Mean of an additional random delay of currents.
     double output_jitter_s = 0.0;
@@ -61,7 +62,7 @@ struct PlantSettings {
     double report_loss = 0.0;
 };
 
-// The true state, besides what the encoders show.
+// The true state of the plant, of which the encoders show a part.
 struct PlantTruth {
     GripPose pose;
     GripFrame frame;
@@ -77,17 +78,17 @@ struct PlantTruth {
     std::uint64_t resets = 0;
 };
 
-// Force with which each spool takes up slack string. A real slack string sags and its counts are
-// lost; here the pose stays true with the motors off. It acts on the rotor only, and only while
-// there is slack, so that the hand does not feel it.
-// Lets the spool follow a hand at 1 m/s against friction and rotor mass (unit: N).
+// Largest force with which a drum takes up slack string (unit: N): enough to follow a hand at 1 m/s
+// against friction and rotor mass. A real slack string sags, and its count no longer shows its
+// length; here the pose stays right with the motors off. The force acts on the rotor only, and only
+// while its string is slack, so that the hand does not feel it.
 inline constexpr double kTakeUpForce_n = 1.0;
-// Stiffness of the take-up: 0.1 N of friction leaves 5 um of slack, less than half a count.
+// Take-up force per slack. A friction of 0.1 N leaves 5 um of slack, less than half a count.
 inline constexpr double kTakeUpStiffness_n_m = 2.0e4;
 // Returns the position clamped to the reach of the hand's arm: the motors' bounding box less a
 // pole's half length, per axis.
 [[nodiscard]] Vec3 clamped_to_reach(const PlantSettings &settings, const Vec3 &position_m) noexcept;
-// Longest time step (unit: s); longer ones are clamped.
+// Longest time that one advance() runs (unit: s); a longer one is clamped.
 inline constexpr double kMaxAdvance_s = 1.0;
 
 // Returns an empty string when usable, else a sentence with field, value, unit and remedy.
@@ -105,13 +106,15 @@ public:
     // An unusable target changes nothing.
     void set_hand_target(const HandTarget &target) noexcept;
     void set_hand_firmness(HandFirmness firmness) noexcept { hand_.set_firmness(firmness); }
-    // Sets currents until the next call, clamped to max_current_a. NaN or negative gives 0 A.
+    // Sets the currents, which act until the next call. They are clamped to max_current_a; NaN or a
+    // negative value gives 0 A.
     void set_currents(const StringArray &currents_a) noexcept;
-    // True: the hand exerts nothing on the grip, until it holds it again.
+    // See SimulatedHand::set_released().
     void set_hand_released(bool released) noexcept { hand_.set_released(released); }
     // Bit i: the drum of string i is blocked and neither pays out nor winds in.
     void set_jammed_strings(std::uint8_t mask) noexcept { jammed_ = mask; }
-    // Bit i: string i is broken. It does not pull, and its motor winds the loose end in.
+    // Bit i: string i is broken. It does not pull, and its motor winds the loose end in. A string
+    // whose bit is cleared is tied on again, taut.
     void set_broken_strings(std::uint8_t mask) noexcept;
 
     // Runs dt_s in whole steps of 1 / kPlantRate_hz and carries the remainder. Ignores a time that
@@ -123,8 +126,8 @@ public:
     [[nodiscard]] double time_s() const noexcept;
     // Kinetic energy of grip, hand and rotors plus energy in strings and hand springs (unit: J).
     [[nodiscard]] double mechanical_energy_j() const noexcept;
-    // Work of motors and take-up on the rotors since the start (unit: J). With a hand at rest the
-    // mechanical energy grows by no more than this (elastic only).
+    // Work of motors and take-up on the rotors since the start (unit: J). While the hand's path is
+    // at rest, the mechanical energy grows by no more than this (elastic only).
     [[nodiscard]] double supplied_energy_j() const noexcept { return supplied_energy_j_; }
 
 private:
@@ -159,7 +162,7 @@ private:
 
     // Precomputed constants.
     StringArray newtons_per_ampere_{};
-    // String lengths at which nothing has been paid out.
+    // String lengths at the rest pose, from which DrumWinding counts what is paid out.
     StringArray home_lengths_m_{};
     // Share of the way to the commanded tension in one step.
     double current_gain_ = 1.0;

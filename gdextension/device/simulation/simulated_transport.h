@@ -1,5 +1,6 @@
-// A Transport made of a simulated plant and hand, without hardware. One other thread sets the
-// hand's target and the faults, and reads the true state wait-free.
+// A Transport made of a simulated plant and hand, without hardware. One other thread (the
+// controlling thread) may set the hand's target and the faults, and read the true state; it never
+// waits.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,8 @@
 
 namespace spidar {
 
-// Index of the sensor that measures how far the hand closes the fingers of a rigid grip.
+// Index of the sensor that shows the grasp angle of a rigid grip, which its strings do not measure:
+// HandTarget::grasp_angle_rad.
 inline constexpr std::size_t kSqueezeSensor = 0;
 // Sensor units per radian of HandTarget::grasp_angle_rad.
 inline constexpr double kSqueeze_1_rad = 1e4;
@@ -24,7 +26,7 @@ public:
     Status open() noexcept override;
     // Sets the currents to zero. Hand and grip continue to move while advance() is called.
     void close() noexcept override;
-    // Returns one report after open() and one after each advance(), else read_timeout.
+    // Returns at most one report after open() and one after each advance(), else read_timeout.
     Status read(DeviceReading &reading) noexcept override;
     Status write(const DriveCommand &command) noexcept override;
     void advance(double dt_s) noexcept override;
@@ -33,12 +35,12 @@ public:
     // Returns the counts of an ideal device at the home pose (rest_pose), for calibrate_at_home().
     [[nodiscard]] CountArray home_counts() const noexcept;
 
-    // Called from the controlling thread, like the next three functions.
+    // Called from the controlling thread, like all functions below.
     void set_hand_target(const HandTarget &target) noexcept; // ignored when not finite
     void set_hand_firmness(HandFirmness firmness) noexcept;
     void set_buttons(std::uint8_t buttons) noexcept; // bit i: button i is pressed
-    // Adds a fault whose time starts at the next advance(), open() or read(). Returns false without
-    // effect when the fault is unusable or kMaxFaults are pending or active.
+    // Adds a fault, which the device takes over in its next advance(), open() or read(). Returns
+    // false without effect when the fault is unusable or kMaxFaults are pending or active.
     bool inject(const FaultInjection &fault) noexcept;
     void clear_faults() noexcept;
     // Returns the plant's state after the last finished advance().

@@ -1,5 +1,5 @@
-// The shapes of the scene near the tool, as a game publishes them once per tick. Device frame, SI
-// units, with the workspace scale removed.
+// The shapes of the scene near the tool, as a game publishes them once per physics tick. Device
+// frame, SI units of the device: the workspace scale is removed.
 #pragma once
 
 #include <array>
@@ -20,20 +20,21 @@ struct ScenePart {
     Vec3 velocity_m_s{0.0}; // of at.origin_m
     Vec3 angular_rad_s{0.0};
     // Velocity at at.origin_m of a surface that runs along itself while the shape stands still,
-    // such as a conveyor belt or a turntable. It adds to the motion above and is felt by friction
-    // only.
+    // such as a conveyor belt or a turntable. It adds to the motion above and is felt through
+    // friction only.
     Vec3 belt_m_s{0.0};
-    // Turn rate of such a surface.
+    // Turn rate of such a surface about at.origin_m.
     Vec3 belt_rad_s{0.0};
-    // Stiffness of this part's surface, in series with the tool's. 0: rigid.
+    // Stiffness that the hand feels when it presses this part, the springs between device and proxy
+    // included; these are its upper limit. 0: rigid.
     double stiffness_n_m = 0.0;
     double damping_n_s_m = 0.0;
     // Coulomb coefficient of a sliding contact.
     double friction = 0.0;
     SurfaceTraits traits;
-    // Persistent id of this shape of this body.
+    // Id of this shape of this body, the same in every scene.
     std::int32_t id = 0;
-    // Groups of tool parts that touch this part.
+    // Collision groups: a tool part can touch this part only if the two share a bit.
     std::uint8_t groups = kAllGroups;
 };
 
@@ -47,7 +48,8 @@ struct ScenePart {
     return part.velocity_m_s + glm::cross(part.angular_rad_s, point_m - part.at.origin_m);
 }
 
-// Returns the velocity of the surface at point_m. Only its component along the surface acts.
+// Returns the velocity of the surface at point_m, belt included. Friction uses only its component
+// along the surface.
 [[nodiscard]] inline Vec3 rubbing_velocity(const ScenePart &part, const Vec3 &point_m) noexcept {
     return surface_velocity(part, point_m) + part.belt_m_s +
            glm::cross(part.belt_rad_s, point_m - part.at.origin_m);

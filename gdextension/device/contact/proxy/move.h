@@ -1,4 +1,5 @@
-// A move of the tool in units of sqrt(energy), as in god_object.h: seven DOF and a lane of zero.
+// A move of the tool in units of sqrt(energy), as in god_object.h: seven DOF and an eighth element
+// that is zero.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ inline void add(Move &to, double factor, const Move &what) noexcept {
     }
 }
 
-// Converts a displacement or velocity to a move. root: square root of the stiffnesses.
+// Converts a displacement or velocity to a move. root: square root of the stiffness per DOF.
 [[nodiscard]] inline Move times(const DofLanes &row, const Move &root) noexcept {
     Move move{};
     for (std::size_t dof = 0; dof < row.size(); ++dof) {

@@ -1,4 +1,4 @@
-// Memory of the closest points of many pairs of shapes, from cycle to cycle.
+// Memory from cycle to cycle for the closest points of many pairs of a tool part and a scene part.
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace spidar {
 
-// It saves time and changes no answer (see PairMemory). Large: allocate it outside the servo loop.
+// It saves time; without it, answers change by less than the errors in closest_points.h. It
+// allocates 3 MB: create it outside the servo loop.
 class ProxyMemory {
 public:
     ProxyMemory();
-    // Returns the memory of a pair. When all are in use, another pair is forgotten. The memory
-    // restarts when a shape of the pair has changed.
+    // Returns the memory of a pair. If all memories are in use, the pair that was not used for
+    // longest is forgotten. If a part of the pair has got another shape, the memory is emptied.
     [[nodiscard]] PairMemory &of(const ToolPart &tool, const ScenePart &scene) noexcept;
 
     // Forgets all pairs.

@@ -1,4 +1,4 @@
-// Springs, dampers and motors along rows of one problem: computes the move that they cause.
+// Computes the move that springs, dampers and motors cause together, each along a row of seven DOF.
 #pragma once
 
 #include <array>
@@ -9,17 +9,18 @@
 namespace spidar {
 
 // Each row requires of the move m (in units of sqrt(energy)) row . m = way - compliance * force,
-// with |force| <= most. The move is the sum of force * row and costs its squared length / 2, the
-// energy of the springs that hold the tool to the device.
+// unless that takes |force| > most; its force is then limited. The move is the sum of force * row.
+// Half its squared length is the energy of the springs that hold the tool to the device.
 class RowForces {
 public:
     static constexpr int kMost = 24;
 
-    // Adds a row; rows beyond kMost are ignored.
+    // Adds a row. Ignores rows beyond kMost, rows of zeros and rows that are not finite.
     void add(const Move &row, double way, double compliance,
              double most = std::numeric_limits<double>::infinity()) noexcept;
-    // Returns the exact move: a linear system for the rows below their limits, solved again when a
-    // row reaches its limit. Rows that are not finite have no force.
+    // Returns the move. Solves a linear system for the rows below their limits, and again after a
+    // row has reached its limit, where the row's force then stays. Zero if the result is not
+    // finite.
     [[nodiscard]] Move solve() const noexcept;
 
 private:

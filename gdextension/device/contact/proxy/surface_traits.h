@@ -8,31 +8,33 @@
 
 namespace spidar {
 
-// Valleys in the surface, with crests flush with the shape: a cosine.
+// Valleys in the surface; the crests are flush with the shape. Grooves and pits have the shape of a
+// cosine.
 struct SurfaceTexture {
     double wavelength_m = 0.0; // 0: no texture
     double depth_m = 0.0;      // from crest to valley
     // Unit vector in the part's frame, perpendicular to the grooves. Zero: pits, with this
     // wavelength along the part's three axes.
     Vec3 across{0.0};
-    // In place of grooves and pits: an image of heights, whose width along the surface is wavelength_m. It is laid on the
-    // part from the three axes of its frame, each counted as far as the surface faces along it. Of kind relief; the game
-    // keeps it alive. Null: none.
+    // A shape of kind relief in place of grooves and pits; null: none. A tile of it is wavelength_m
+    // wide. It is projected on the part along each axis of the part's frame; a projection counts by
+    // the square of the normal's component along its axis. The game keeps it alive.
     const CookedShape *relief = nullptr;
 };
 
 struct SurfaceTraits {
-    // Coulomb coefficient of a sticking contact; ScenePart::friction is that of a sliding one. A
-    // smaller value counts as equal to the sliding one.
+    // Coulomb coefficient of a sticking contact. A value below ScenePart::friction, the coefficient
+    // of a sliding contact, counts as equal to it.
     double static_friction = 0.0;
-    // True: a sliding contact may stick again (stick-slip). False: it slides until it stands still.
+    // True: a sliding contact sticks again after some milliseconds, even in motion (stick-slip).
+    // False: it sticks again only when it is almost at rest.
     bool catches_again = false;
     // Pull at which a contact that has touched the surface comes off (unit: N).
     double adhesion_n = 0.0;
-    // Attraction at the surface (unit: N), which falls linearly to 0 at the range.
+    // Attraction at the surface (unit: N). It falls linearly to 0 at magnet_range_m.
     double magnet_n = 0.0;
-    // Range of the attraction. It is enlarged where the pull would rise more steeply than the
-    // stiffness between grip and proxy.
+    // Distance at which the attraction ends. It is raised to magnet_n / (stiffness between grip and
+    // proxy), so that the pull rises no more steeply than the force of those springs.
     double magnet_range_m = 0.0;
     SurfaceTexture texture;
 };

@@ -13,15 +13,15 @@ namespace spidar {
 // to the frame on the other body, along or about the axes of the latter. Units: m, N/m, N s/m, m/s,
 // N; or rad, N m/rad, N m s/rad, rad/s, N m.
 struct JointAxis {
-    // Lower limit. Equal limits lock the axis; lower above upper means no limit.
+    // Limits of the coordinate. Equal limits lock the axis; lower above upper means no limit.
     double lower = 0.0;
     double upper = 0.0;
-    double stiffness = 0.0; // towards rest
+    double stiffness = 0.0; // of a spring toward `rest`
     double rest = 0.0;
     double damping = 0.0;
     // Speed of a motor.
     double motor_speed = 0.0;
-    // Largest force or moment of the motor.
+    // Largest force or moment of the motor; 0: no motor.
     double motor_most = 0.0;
 
     [[nodiscard]] static JointAxis free() noexcept {
@@ -35,13 +35,13 @@ struct JointAxis {
 };
 
 struct ToolJoint {
-    std::int32_t id = 0;    // persistent
+    std::int32_t id = 0;    // the same in every scene
     Placement base;         // the joint's frame on the other body
     Vec3 velocity_m_s{0.0}; // of base.origin_m
     Vec3 angular_rad_s{0.0};
     Placement in_grip; // frame on the held body, in the grip's frame
-    // Translations along x, y, z, then turns about them. Turns about several axes are the
-    // components of the rotation vector.
+    // Translations along x, y, z, then turns about them. Unless exactly one turn is unlocked, the
+    // turns are the components of the rotation vector.
     std::array<JointAxis, 6> axes{};
 };
 

@@ -184,8 +184,9 @@ bool ToolProxy::step_towards(const Tool &tool, const ContactScene &scene, const 
     return cut || anticipated;
 }
 
-// How far the tool gives way per newton of a push that all its contacts with a part of the scene share. Two pads that press side
-// by side do not turn the tool, so that it is stiffer than at each of them.
+// Returns how far the tool gives way per newton of a push that its contacts with a part of the
+// scene share equally. Two pads that press side by side do not turn the tool, so that it gives way
+// less than at one of them.
 double ToolProxy::softness_together(const Rows &rows, int scene_part) const noexcept {
     Move sum{};
     int pushing = 0;

@@ -1,11 +1,12 @@
 // The god-object of a tool in a scene of shapes, in seven degrees of freedom
-// (docs/why/contact_engine.md). The proxy follows the device as far as no surface is in its way,
-// and never enters a surface at any speed. The wrench is the pull of the springs from the device to
-// the proxy, damped along the contacts, with Coulomb friction at each point.
+// (docs/why/contact_engine.md). The proxy follows the device until a surface is in its way, and
+// stops at the surface however fast the hand moves. The wrench is the pull of the springs from the
+// device to the proxy, with damping and Coulomb friction at each contact.
 //
-// In each cycle the closest points of tool and scene at the proxy give one-sided rows n . J dq >=
-// -gap. The pose nearest to the device under all rows is the next proxy (god_object.h). No step is
-// longer than the closest points guarantee to be free.
+// A cycle has one to three passes. In each, the closest points of tool and scene give one-sided
+// rows n . J dq >= -gap: the move dq of the proxy may bring such a point (motion J dq) closer to
+// the surface by the gap and no further. The next proxy is the pose nearest to the device under all
+// rows (god_object.h). No step is longer than the search distance guarantees to be free.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +23,11 @@
 
 namespace spidar {
 
-// Time for which a sliding contact must stick before it counts as sticking: where the encoders step
-// back, it sticks for single cycles.
+// Time without slip after which a contact that slid counts as sticking (unit: s). A slow slide
+// sticks for single cycles, whenever an encoder steps back.
 inline constexpr double kHolds_s = 0.03;
 
-// A point at which tool and scene are within the margin.
+// A pair of close points of a tool part and a scene part.
 struct ProxyContact {
     // Indices into Tool::parts and ContactScene::parts.
     std::uint8_t tool_part = 0;
@@ -39,17 +40,18 @@ struct ProxyContact {
     double gap_m = 0.0;
     double push_n = 0.0;   // along the normal; 0 without touch
     Vec3 friction_n{0.0};  // on the tool
-    Vec3 stretch_m{0.0};   // of the friction's spring
+    Vec3 stretch_m{0.0};   // of the friction spring, along the surface
     double slip_m_s = 0.0; // along the surface; 0: friction holds
     // Time since the friction last gave way, up to kHolds_s.
     double held_s = kHolds_s;
-    // Time since it began to slide; negative: it does not slide.
+    // Time since the contact began to slide; negative: it does not slide.
     double slips_s = -1.0;
-    // Time for which it has been pulled beyond its static limit.
+    // Time for which the friction spring has been stretched beyond its static limit.
     double strained_s = 0.0;
-    // Some contact of the same pair pushes: the friction spring continues.
+    // Some contact of the same tool part and scene part pushes: the friction spring of this one
+    // continues, even if this one does not push.
     bool rubs = false;
-    // The pair has touched and was not pulled apart since (adhesion).
+    // Tool part and scene part have touched and were not pulled apart since (adhesion).
     bool sticks = false;
     // Slope of a texture's height at the contact, along the surface.
     Vec3 slope{0.0};
@@ -66,11 +68,11 @@ struct PartForce {
 struct ProxySettings {
     // Stiffness between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
     DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
-    // Damping of each contact and of the jaws' stop, as a share of its own stiffness (unit: s),
-    // along its normal and along its surface: 2 N s/m for 1000 N/m.
+    // Damping divided by stiffness (unit: s): of each contact, along its normal and its surface, of
+    // the jaws' stop and of joints. The default is 2 N s/m at 1000 N/m.
     double damping_s = 0.002;
-    // Distance within which surfaces are searched in a cycle; more where something moves. A hand at
-    // 2 m/s moves by 2 mm in three searches.
+    // Distance within which surfaces are searched; it is enlarged while scene parts move. The proxy
+    // follows a hand at 2 m/s: three searches in a cycle of 1 ms let it move by 2.25 mm.
     double margin_m = 0.001;
 };
 
@@ -80,12 +82,13 @@ public:
     // Places the proxy, which must lie outside all surfaces.
     void put(const ToolPose &pose) noexcept;
 
-    // Takes the joints of a new scene, as they will be in later_s.
+    // See JointTie::accept().
     void tie(const Tool &tool, double later_s) noexcept { tie_.accept(tool, later_s, pose_); }
     [[nodiscard]] const JointTie &joints() const noexcept { return tie_; }
 
-    // Takes one cycle of dt_s. device: filtered and predicted pose with its velocity. `scene` is at
-    // the end of the last cycle; its parts are moved through this cycle by their velocities.
+    // Computes one cycle of dt_s. device, velocity: pose (filtered and predicted) and velocity of
+    // the device. scene: as at the end of the last cycle; its parts are moved on by their
+    // velocities.
     void update(const Tool &tool, ContactScene &scene, const ToolPose &device,
                 const Twist &velocity, double dt_s, ProxyMemory &memory) noexcept;
 
@@ -99,11 +102,12 @@ public:
     [[nodiscard]] const std::array<PartForce, kMaxSceneParts> &given() const noexcept {
         return given_;
     }
-    // Grasp torque of the jaws' stop (unit: N m), against each other or a held body. 0 when open.
+    // Grasp torque with which the jaws' stop resists closing (unit: N m): the jaws press on each
+    // other or on a held body. 0 when they do not.
     [[nodiscard]] double stop_push_nm() const noexcept { return stop_push_nm_; }
     // Number of closest-point queries in the last cycle.
     [[nodiscard]] int queries() const noexcept { return queries_; }
-    // Number of solver passes in the last cycle.
+    // Number of passes (a search and a step) in the last cycle.
     [[nodiscard]] int passes() const noexcept { return passes_; }
     // Checks restored memory: see core/base/sound_state.h.
     [[nodiscard]] bool is_sound() const noexcept;
@@ -116,16 +120,17 @@ private:
     // Cosine of 3e-3 rad: normals further apart belong to different surfaces.
     static constexpr double kTurned = 1.0 - 4.5e-6;
     static constexpr double kOpen = -1.0; // depth of a row that never pushes
-    // Softness of the rows: points of a face depend on each other and share the push. This share of
-    // the stiffness is lost.
+    // `softness` of solve_rows(). The rows of several points of a face are linearly dependent: with
+    // it they share the push. The stiffness falls by this share.
     static constexpr double kRowSoftness = 1e-7;
 
     // Nothing is in reach: puts the proxy at the device.
     void follow(const ToolPose &device) noexcept;
-    // Adds the effect of a force on a point of the tool on the hand, as far as the joints allow.
+    // Adds to `sum` what the hand feels of a force on a point of the tool: the part that the joints
+    // do not carry.
     void add_force(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m, const Vec3 &force_n,
                    std::array<double, kDofCount> &sum) const noexcept;
-    // Adds the forces of joints besides their limits.
+    // Adds the forces of joints to wrench_, except those of their limits, which are rows.
     void add_joints(const Move &pull, const Move &pushed, const Twist &velocity) noexcept;
     [[nodiscard]] double part_at_levers(const Tool &tool, const ContactScene &scene,
                                         double all_n) const noexcept;
@@ -133,12 +138,13 @@ private:
     // god_object.h.
     [[nodiscard]] Move unit_move(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m,
                                  const Vec3 &direction) const noexcept;
-    // Returns the search distance for a part.
+    // Returns the search distance for a part: margin_m, or the reach of its traits if that is
+    // larger.
     [[nodiscard]] double look_m(const ScenePart &part, double margin_m) const noexcept {
         return has_traits_ ? std::max(margin_m, reach_m(part.traits)) : margin_m;
     }
-    // Returns the search distance of a cycle. The tool may move by kPartOfMargin of it, while
-    // moving parts approach.
+    // Returns the search distance of a cycle. The tool may move by kPartOfMargin of it; the rest
+    // allows for the approach of moving parts.
     [[nodiscard]] double margin_for(const ContactScene &scene, double dt_s) const noexcept;
     void find_contacts(const Tool &tool, const ContactScene &scene, double margin_m,
                        ProxyMemory &memory) noexcept;
@@ -148,23 +154,23 @@ private:
     // Returns the target shifted by the pushes of the rows.
     [[nodiscard]] Move nearest_to(const Move &target, const Rows &rows,
                                   const RowPushes<kMaxRows> &pushes) const noexcept;
-    // Returns a bound of the movement of the tool's points.
+    // Returns an upper bound of how far a move displaces any point of the tool (unit: m).
     [[nodiscard]] double length_of(const Move &move, const Tool &tool) const noexcept;
-    // Returns a move near `step` that violates no row and is at most most_m long. least: required
-    // move along each row.
+    // Returns a move toward `step` that is at most most_m long (length_of()). It violates no row,
+    // unless the way out of a surface is longer. least: required move along each row.
     [[nodiscard]] Move shortened(const Move &step, const std::array<double, kMaxRows> &least,
                                  const Tool &tool, double most_m) const noexcept;
-    // Takes one step towards the device. Returns true when another search from the new proxy may
-    // bring it nearer. margin_m: that of find_contacts(). dt_s: remaining time of the scene's
-    // motion.
+    // Moves the proxy one step toward the device. Returns true if another search, from the new
+    // proxy, may bring it closer. margin_m: as passed to find_contacts(). dt_s: time for which
+    // scene parts still move in this cycle.
     bool step_towards(const Tool &tool, const ContactScene &scene, const ToolPose &device,
                       double margin_m, double dt_s, ProxyMemory &memory) noexcept;
-    // Solves rows_ without the edges at seams.
+    // Solves rows_ after open_seams().
     [[nodiscard]] RowPushes<kMaxRows> solve_over_seams(const Tool &tool, const ContactScene &scene,
                                                        double margin_m, double dt_s,
                                                        ProxyMemory &memory) noexcept;
-    // Opens pushing rows that belong to an edge flush with the surface on which the tool rests.
-    // Returns false when there is none.
+    // Sets to kOpen the pushing rows of edges that are flush with the surface on which the tool
+    // rests. Returns false when there is none.
     bool open_seams(const Tool &tool, const ContactScene &scene, const RowPushes<kMaxRows> &solved,
                     double margin_m, double dt_s, ProxyMemory &memory) noexcept;
     [[nodiscard]] bool is_flush(const ProxyContact &edge, const ProxyContact &floor,
@@ -174,9 +180,9 @@ private:
               const Twist &velocity, double dt_s) noexcept;
     void rub(const Tool &tool, const ContactScene &scene, const ToolPose &device,
              const Twist &velocity, double dt_s) noexcept;
-    // Returns the nearest contact of the last cycle on the same scene part with nearly the same
-    // normal, or null. touching: only one of the same tool part that pushed. Otherwise one that
-    // rubs, of the same tool part if there is one.
+    // Returns the nearest contact of the last cycle on the same scene part whose normal is within
+    // 45 degrees, or null. touching true: only contacts of the same tool part that pushed count.
+    // False: only contacts with `rubs` count, those of the same tool part first.
     [[nodiscard]] const ProxyContact *nearest_before(const ProxyContact &contact,
                                                      bool touching) const noexcept;
     // Returns the mean stretch of the friction springs of the last cycle on the surface of this
@@ -187,15 +193,17 @@ private:
     [[nodiscard]] bool pair_pushes(const ProxyContact &contact) const noexcept;
     // Updates slips_s and strained_s of the contact from `last`, the contact one cycle before (may
     // be null), and returns the friction coefficient of this cycle. stretch_m: of the friction
-    // spring. m_per_coefficient: stretch at which a coefficient of 1 slides.
+    // spring. m_per_coefficient: stretch at which a contact with a coefficient of 1 slides.
+    // slides_m_s: speed along the surface.
     double friction_now(ProxyContact &contact, const ScenePart &other, const ProxyContact *last,
                         double stretch_m, double m_per_coefficient, double slides_m_s,
                         double dt_s) const noexcept;
-    // Surface traits (tool_proxy_surface.cpp): distances at which they act.
+    // Return the distances up to which the magnet (magnet_range_m) and any trait (reach_m) act.
     [[nodiscard]] double magnet_range_m(const SurfaceTraits &traits) const noexcept;
     [[nodiscard]] double reach_m(const SurfaceTraits &traits) const noexcept;
-    // Sets the contact's slope and the damping along it. Returns the height of the texture below
-    // it, at most 0. push_n: push without the texture.
+    // Sets the contact's slope, and drawn_n to the damping of the texture. Returns the height of
+    // the texture at the contact (unit: m): 0 at a crest, negative in a valley. push_n: push
+    // without the texture. speed_m_s: of the tool's point relative to the surface.
     double press_into(ProxyContact &contact, const ScenePart &other, double push_n,
                       const Vec3 &speed_m_s, double dt_s) const noexcept;
     [[nodiscard]] bool stuck_before(const ProxyContact &contact) const noexcept;
@@ -205,7 +213,7 @@ private:
     void act_by_traits(const Tool &tool, const ContactScene &scene) noexcept;
 
     ProxySettings settings_;
-    Move root_{}; // of the stiffnesses
+    Move root_{}; // square root of the stiffness per DOF
     JointTie tie_;
     Move bent_{}; // shift by the joints' springs and motors in the last pass
     ToolPose pose_;

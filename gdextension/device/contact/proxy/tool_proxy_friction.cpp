@@ -40,8 +40,8 @@ const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact,
     };
     for (int i = 0; i < before_count_; ++i) {
         const ProxyContact &other = before_[static_cast<std::size_t>(i)];
-        // Two fingers that stand side by side on ribs take turns in touching: the one that comes back goes on with the
-        // other's friction.
+        // Of two fingers side by side on ribs, now one touches and now the other: the one that
+        // touches again continues with the friction of the other.
         const bool counts =
             touching ? other.push_n > 0.0 && other.tool_id == contact.tool_id : other.rubs;
         if (counts && other.scene_id == contact.scene_id &&

@@ -52,8 +52,8 @@ Relief relief_at(const SurfaceTexture &texture, const Vec3 &local_m, const Vec3 
     return relief;
 }
 
-// How a relief lies on the plane across an axis: the part's axes along which its columns and rows run. Its rows run downwards
-// in an image, so along -Y where the surface stands upright.
+// How a relief lies on the plane perpendicular to an axis: the part's axes along which its columns
+// and rows run. The rows of an image run downward, so along -Y where the surface stands upright.
 struct Lay {
     int u;
     int v;
@@ -115,7 +115,7 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
         const ReliefLevels &levels = texture.relief->relief();
         const double curvature =
             bends_n_m > 0.0 ? most_n_m / bends_n_m : std::numeric_limits<double>::infinity();
-        // Its finest crests are two heights apart.
+        // The closest crests of a relief are two heights apart.
         const double coarseness = relief_coarseness(levels, 0.5 * passing_share, curvature);
         relief = mapped_relief(texture, coarseness, local_m, normal);
         const ReliefLevel &coarsest = levels.back();
@@ -127,7 +127,8 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
         relief = relief_at(texture, local_m, normal);
         stiffens_n_m = 0.5 * k * k * bends_n_m;
     }
-    // A relief has been made coarser first; what even its coarsest level is too fine for is flattened.
+    // A relief was made coarser first. It is flattened as far as even its coarsest level is too
+    // fine.
     const double kept = std::clamp(2.0 - passing_share, 0.0, 1.0) *
                         std::min(1.0, most_n_m / std::max(stiffens_n_m, most_n_m));
     // The stiffness that a texture adds along the surface is damped like a contact.

@@ -10,7 +10,8 @@ namespace spidar {
 
 namespace {
 
-// A level with fewer columns or rows is not halved: a cubic B-spline has four heights in reach.
+// Smallest number of columns or rows of a coarser level: twice the four heights that a point of a
+// cubic B-spline depends on.
 constexpr int kFewest = 8;
 
 int wrapped(int index, int count) noexcept {
@@ -24,8 +25,8 @@ double height_of(const ReliefLevel &level, int column, int row) noexcept {
                       static_cast<std::size_t>(wrapped(column, level.columns))]);
 }
 
-// The second derivative of a cubic B-spline is linear between its heights, so its largest value stands at one of them; the
-// average over the other direction does not enlarge it.
+// The second derivative of a cubic B-spline is linear between its heights, so it is largest at one
+// of them. The average over the other direction does not enlarge it.
 void measure_curvature(ReliefLevel &level) {
     for (int row = 0; row < level.rows; ++row) {
         for (int column = 0; column < level.columns; ++column) {
@@ -49,7 +50,8 @@ ReliefLevel halved(const ReliefLevel &finer) {
                           static_cast<std::size_t>(level.rows));
     for (int row = 0; row < level.rows; ++row) {
         for (int column = 0; column < level.columns; ++column) {
-            // The kernel (1 2 1) / 4 in both directions, centred on the height that both levels share.
+            // The kernel (1 2 1) / 4 in both directions, centered on the height that both levels
+            // share.
             double sum = 0.0;
             for (int dr = -1; dr <= 1; ++dr) {
                 for (int dc = -1; dc <= 1; ++dc) {
@@ -64,11 +66,12 @@ ReliefLevel halved(const ReliefLevel &finer) {
     return level;
 }
 
-// Of a cubic B-spline that repeats: the four heights in reach, and what each adds to value and slope.
+// The four heights on which a point of a repeating cubic B-spline depends, and the weight of each
+// in value and slope.
 struct Weights {
     std::array<int, 4> index{};
     std::array<double, 4> value{};
-    std::array<double, 4> slope{}; // for one spacing
+    std::array<double, 4> slope{}; // per spacing of the heights
 };
 
 Weights weights_at(double position, int count) noexcept {
@@ -89,7 +92,7 @@ Weights weights_at(double position, int count) noexcept {
 }
 
 ReliefPoint point_of_level(const ReliefLevel &level, double u, double v) noexcept {
-    const double spacings = level.columns; // in a tile width, along both directions
+    const double spacings = level.columns; // per tile width, along both directions
     const Weights wu = weights_at(u * spacings, level.columns);
     const Weights wv = weights_at(v * spacings, level.rows);
     ReliefPoint point;
@@ -120,7 +123,7 @@ ReliefLevels make_relief_levels(int columns, int rows, std::vector<float> height
     measure_curvature(finest);
     ReliefLevels levels;
     levels.push_back(std::move(finest));
-    // Odd counts would move the heights of the coarser copy against the finer one's.
+    // With an odd count, the heights of the coarser copy would not lie on heights of the finer one.
     while (levels.back().columns >= 2 * kFewest && levels.back().rows >= 2 * kFewest &&
            levels.back().columns % 2 == 0 && levels.back().rows % 2 == 0) {
         levels.push_back(halved(levels.back()));

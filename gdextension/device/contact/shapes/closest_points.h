@@ -1,7 +1,7 @@
-// Finds where a tool and a shape of the scene are closest, so that the proxy of the servo loop does
-// not pass through. All functions are servo-safe: no allocation, lock or exception.
+// Finds where a tool and a shape of the scene are closest, so that the servo loop's proxy stops
+// there. All functions are servo-safe: no allocation, lock or exception.
 //
-// Errors while the cores are apart: 1e-7 m on spheres, else 1e-5 m; normals within 0.1 degree.
+// Largest errors while the cores are apart: 1e-7 m on spheres, else 1e-5 m; 0.1 degree for normals.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace spidar {
 
 inline constexpr int kMaxContactPoints = 24; // of one tool on one shape
-// Largest number of points for one pair of faces.
+// Largest number of points with one direction of the normal.
 inline constexpr int kPointsPerFace = 4;
 
 struct ContactPoint {
@@ -24,28 +24,29 @@ struct ContactPoint {
     Vec3 normal{0.0};     // unit, from the shape to the tool, device frame
     // (on_tool - on_shape) . normal. Negative when the skin penetrates the shape.
     double gap_m = 0.0;
-    // Triangle of a mesh or height map, else face of the shape: identifies a contact over cycles.
+    // Number of the triangle (mesh, height map) or of the face (other shapes).
     std::uint32_t face = 0;
-    // True when the tool's core is inside the shape. The gap then leads out but is not the exact
-    // distance: for recovery only.
+    // True when the tool's core is inside the shape. The normal then leads out, but the gap is not
+    // the exact distance: for recovery only.
     bool core_inside = false;
 };
 
 struct ClosestPoints {
     std::array<ContactPoint, kMaxContactPoints> points;
     int count = 0;
-    // More points lie within the margin than were listed or gathered.
+    // More points lie within the margin than `points` or the memory of triangles can hold.
     bool left_out = false;
 };
 
 // A triangle of a mesh that was near the tool when the triangles were gathered.
 struct NearTriangle {
     std::uint32_t index = 0;
-    // Place in the list of the triangle across edge i, or kNoTriangle.
+    // Index in PairMemory::triangles of the triangle across edge i, or kNoTriangle.
     std::array<std::uint16_t, 3> neighbour{};
     std::array<float, 3> middle_m{}; // center of a ball around the triangle
     float radius_m = 0.0F;
-    // Bit i: edge i is convex or a border. Bit 4 + i: by more than 3 degrees.
+    // Bit i: edge i is sharp: a border, convex, or (of a two-sided shape) concave. Bit 4 + i: a
+    // border, or sharp by more than 3 degrees.
     std::uint8_t sharp_edges = 0;
 };
 
@@ -58,7 +59,8 @@ inline constexpr std::uint16_t kNoTriangle = 0xffff;
 struct PairMemory {
     // Direction of the last answer in the shape's frame, where the next search starts.
     Vec3 axis{0.0};
-    // Meshes: `triangles` holds all that can come within the margin for slack_m of tool motion.
+    // Meshes: `triangles` holds all that can come within margin_m while the tool moves by slack_m,
+    // unless `full`.
     Placement gathered_at; // tool in the shape's frame
     double slack_m = -1.0; // below 0: nothing is gathered
     double margin_m = 0.0;
@@ -79,9 +81,10 @@ struct PairMemory {
 [[nodiscard]] bool is_far(const ToolShape &tool, const Vec3 &tool_m, const CookedShape &shape,
                           double margin_m) noexcept;
 
-// Finds all contact points with a gap of at most margin_m, up to four per pair of faces, the
-// nearest first. No points: the tool may move by margin_m without touching. Returns not_finite for
-// a placement or margin that is not finite; `out` is then empty.
+// Finds contact points with a gap of at most margin_m: the nearest first, then others, at most
+// kPointsPerFace per direction of the normal and kMaxContactPoints in all. No points: the tool may
+// move by margin_m without touching. Returns not_finite for a placement or margin that is not
+// finite; `out` is then empty.
 [[nodiscard]] Status closest_points(const ToolShape &tool, const Placement &tool_at,
                                     const CookedShape &shape, const Placement &shape_at,
                                     double margin_m, PairMemory &memory,

@@ -1,5 +1,6 @@
-// Selects contact points from many candidates: the nearest, then those farthest from the selected
-// ones, up to four per direction of the normal.
+// Selects contact points from many candidates. For each direction of the normal (within 3 degrees),
+// it selects the nearest, then again and again the one that is farthest from those selected, up to
+// four.
 #pragma once
 
 #include <array>
@@ -18,13 +19,14 @@ struct Candidate {
     double gap_m;
     std::uint32_t face;
     bool core_inside;
-    // Already selected, or redundant behind a selected point.
+    // Selected, or rejected because enough points with its normal are selected.
     bool done;
 };
 
 class ContactCandidates { // NOLINT(cppcoreguidelines-pro-type-member-init)
 public:
-    // Adds a candidate from points of both cores and their skins. A full list keeps nearer ones.
+    // Adds a candidate, from points of both cores and the skins. A full list drops its farthest
+    // candidate.
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;

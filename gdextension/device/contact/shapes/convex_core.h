@@ -18,7 +18,7 @@ enum class CoreKind : std::uint8_t { point, segment, disc, box, cylinder, points
 struct HullFace {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    Vec3 normal{0.0}; // unit vector, outwards
+    Vec3 normal{0.0}; // unit vector, outward
     double offset_m = 0.0;
 };
 
@@ -33,7 +33,7 @@ struct ConvexCore {
     std::vector<Vec3> face_points; // corners of all faces in order
 };
 
-// Like ConvexCore without its own memory. Also used for a single triangle.
+// A ConvexCore whose lists belong to another object. Also used for a single triangle.
 struct CoreView {
     CoreKind kind = CoreKind::point;
     Vec3 half_m{0.0};
@@ -117,7 +117,7 @@ inline void bounds_of(const CoreView &core, const Mat3 &rotation, Vec3 &lower_m,
     return 0.0; // hulls are tested by their bounding box elsewhere
 }
 
-// Returns the radius about the core's origin that contains the core.
+// Returns the radius of the smallest ball about the core's origin that contains the core.
 [[nodiscard]] inline double reach_of(const CoreView &core) noexcept {
     switch (core.kind) {
     case CoreKind::point:

@@ -28,13 +28,13 @@ enum class ShapeKind : std::uint8_t {
     mesh = 5,
     height_map = 6, // heights_m over a grid in X and Z
     half_space = 7, // solid below the plane normal . x = offset_m
-    // Not a solid: heights_m of a texture, from 0 to 1, that repeats (relief_map.h).
+    // Not a solid: heights_m of a texture, from 0 to 1, in columns and rows (relief_map.h).
     relief = 8,
 };
 
-// What to cook, in the shape's frame (unit: m) with the scale applied. Only the fields that
-// ShapeKind names are read. A recording stores the description; cooking it again gives the same
-// shape.
+// What to cook, in the shape's frame (unit: m) with the scale applied. Each kind reads only its own
+// fields, which are named here and at ShapeKind. A recording stores the description; cooking it
+// again gives the same shape.
 struct ShapeDescription {
     ShapeKind kind = ShapeKind::box;
     Vec3 half_extents_m{0.0};
@@ -70,7 +70,8 @@ public:
     CookedShape &operator=(const CookedShape &) = delete;
 
     [[nodiscard]] ShapeKind kind() const noexcept;
-    // True for every kind but mesh, height_map and relief.
+    // False for mesh and height_map; true for all other kinds, relief included, although it is no
+    // solid.
     [[nodiscard]] bool convex() const noexcept;
     // Bounding box in the shape's frame (unit: m). A half space is infinite in all directions; the
     // box of a relief has no size.
@@ -84,7 +85,8 @@ public:
     // Empty for all kinds but relief.
     [[nodiscard]] const ReliefLevels &relief() const noexcept;
 
-    // Unique among all cooked and tool shapes of this process: remembered data fits no other shape.
+    // Unique among all cooked and tool shapes of this process, so that data stored under a number
+    // cannot be taken for another shape's.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
 
 private:
@@ -101,8 +103,8 @@ struct CookResult {
     int dropped_triangles = 0;
 };
 
-// Cooks a shape. Returns not_finite, or invalid_shape for a shape without volume or triangles: no
-// size, a flat or empty hull, or an index without a point. A flat hull must be given as a mesh.
+// Cooks a shape. Refuses with not_finite or invalid_shape a description that makes no shape, such
+// as a size of 0, a flat hull, or an index without a point. Give a flat hull as a mesh.
 [[nodiscard]] CookResult cook(ShapeDescription description);
 
 } // namespace spidar

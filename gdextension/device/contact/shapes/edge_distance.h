@@ -1,4 +1,5 @@
-// Distance of a triangle's edge and a core: closed form for points and flat discs, else GJK.
+// Distance between a triangle's edge and a core: in closed form for points, by a root search for
+// flat discs, else by GJK (gjk.h).
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
@@ -8,7 +9,7 @@ namespace spidar {
 
 struct EdgeDistance {
     enum End : std::uint8_t { inner, from, to }; // where on the edge
-    // The distance exceeds the limit; the fields below are not set.
+    // The distance exceeds limit_m; the fields below are not set.
     bool beyond = false;
     // Edge and core meet; the fields below are not set.
     bool overlap = false;

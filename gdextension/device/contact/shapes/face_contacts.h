@@ -1,4 +1,5 @@
-// Overlap of two faces that face each other. The corners of the overlap carry a flat contact.
+// Overlap of two faces that face each other. The corners of the overlap are the points of a flat
+// contact.
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 
 namespace spidar {
 
-// Largest number of corners per face; of a face with more corners evenly spread ones are used.
+// Largest number of corners per face. Of a face with more corners, evenly spread ones are used.
 inline constexpr int kMaxFaceCorners = 16;
 
 // A corner, an edge or a face of a core.
@@ -24,7 +25,8 @@ struct CoreFace { // NOLINT(cppcoreguidelines-pro-type-member-init)
     }
 };
 
-// Returns the core's face towards `way` (unit vector): a line at a round side, a corner at a rim.
+// Returns the core's face in the direction `way` (unit vector): a line at a round side, a corner at
+// a rim.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Vec3 &way) noexcept;
 // Same for a placed core.
 [[nodiscard]] CoreFace face_towards(const CoreView &core, const Placement &at,

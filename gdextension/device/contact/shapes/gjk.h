@@ -1,4 +1,4 @@
-// Distance of two convex cores by Gilbert, Johnson and Keerthi (1988) in double precision. In
+// Distance between two convex cores by Gilbert, Johnson and Keerthi (1988) in double precision. In
 // single precision, as in Jolt, a core 1 mm from a floor of 40 m counts as touching
 // (docs/why/accuracy_and_speed.md).
 #pragma once
@@ -9,7 +9,7 @@
 namespace spidar {
 
 struct CoreDistance {
-    // The distance exceeds the limit; the fields below are not set.
+    // The distance exceeds limit_m; the fields below are not set.
     bool beyond = false;
     // The cores meet: there is no normal and no distance.
     bool overlap = false;
@@ -20,8 +20,8 @@ struct CoreDistance {
     Vec3 normal{0.0}; // unit vector from the shape to the tool
 };
 
-// tool_at: placement in the shape's frame. axis: start direction from shape to tool (zero: use the
-// origins); receives the direction found.
+// tool_at: placement in the shape's frame. axis: direction from shape to tool in which the search
+// starts (zero: from origin to origin); receives the direction found.
 [[nodiscard]] CoreDistance core_distance(const CoreView &tool, const Placement &tool_at,
                                          const CoreView &shape, double limit_m,
                                          Vec3 &axis) noexcept;

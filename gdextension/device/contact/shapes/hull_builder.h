@@ -1,4 +1,5 @@
-// Convex hulls, also with all faces moved inwards, by Jolt's builder. Not for the servo thread.
+// Builds convex hulls, also with all faces moved inward, by Jolt's builder. Not for the servo
+// thread.
 #pragma once
 
 #include <span>
@@ -7,12 +8,12 @@
 
 namespace spidar {
 
-// Builds corners and faces of `core`. Returns false when the points span no volume.
+// Builds corners and faces of `core`. Returns false when that fails, as for points in one plane.
 [[nodiscard]] bool build_hull(std::span<const Vec3> points, ConvexCore &core);
 
-// Builds `core` as the hull with every face moved inwards by skin_m. A thin hull allows less,
-// namely half the distance from its center to its nearest face; skin_m receives the distance used.
-// Returns false when rounding left no volume.
+// Builds `core` as the hull with every face moved inward by skin_m, but by at most half the
+// distance from the hull's center to its nearest face; skin_m receives the distance used. Returns
+// false when that fails, as when rounding leaves no volume.
 [[nodiscard]] bool shrink_hull(const ConvexCore &hull, double &skin_m, ConvexCore &core);
 
 } // namespace spidar

@@ -1,4 +1,5 @@
-// Contacts of a tool with the gathered triangles of a mesh or height map.
+// Finds the contacts of a tool with a mesh or height map, from the triangles near the tool
+// (near_triangles.h).
 #pragma once
 
 #include "device/contact/shapes/contact_choice.h"

@@ -12,7 +12,8 @@ namespace spidar {
 
 class TriangleSource;
 
-// Merges corners at the same place. Returns the number of dropped triangles.
+// Merges corners at the same place and drops triangles without area. Returns the number of dropped
+// triangles.
 int weld(ShapeDescription &mesh);
 
 // Returns, per triangle, the neighbor across edge i (from corner i to the next). 0xffffffff at a

@@ -7,7 +7,8 @@
 
 namespace spidar {
 
-// Returns true when the memory still holds all triangles within margin_m of the tool.
+// Returns true while gathering anew would not help: the memory holds all triangles within margin_m
+// of the tool, or it is full and the tool has hardly moved.
 [[nodiscard]] bool still_near(const PairMemory &memory, const ToolShape::Data &tool,
                               const Placement &tool_at, double margin_m) noexcept;
 

@@ -1,4 +1,4 @@
-// Result of cooking, used within this folder only.
+// Results of cooking. Used within this folder only.
 #pragma once
 
 #include "device/contact/shapes/convex_core.h"
@@ -9,11 +9,11 @@
 namespace spidar {
 
 struct CookedShape::Data {
-    // Holds the points of a mesh and the heights of a height map.
+    // The servo loop too reads a mesh's points and a height map's heights here.
     ShapeDescription description;
     Vec3 lower_m{0.0};
     Vec3 upper_m{0.0};
-    ConvexCore core; // convex kinds only
+    ConvexCore core; // box to hull only
     double skin_m = 0.0;
     TriangleTree tree;                     // mesh only
     std::vector<std::uint8_t> sharp_edges; // mesh only: NearTriangle::sharp_edges

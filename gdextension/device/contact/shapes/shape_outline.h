@@ -12,11 +12,12 @@
 
 namespace spidar {
 
-// Largest number of lines per shape; further lines of a large mesh are omitted.
+// Largest number of lines per shape; further lines, as of a large mesh, are omitted.
 inline constexpr std::size_t kMostOutlineLines = 3000;
 
-// Appends two points per line, in the shape's frame (unit: m). Meshes, height maps and hulls give
-// the faces near a ball, a half space gives a square grid near it; other shapes are drawn whole.
+// Appends two points per line, in the shape's frame (unit: m). Of meshes, height maps and hulls,
+// the faces near a ball are drawn; of a half space, a square grid near it; of a relief, nothing.
+// Other shapes are drawn whole.
 void add_outline(const CookedShape &shape, const Vec3 &ball_m, double ball_radius_m,
                  std::vector<Vec3> &lines);
 

@@ -1,6 +1,6 @@
 // A shape that touches the scene: a pad of the grip, or a convex part of a held body. It consists
 // of a core and a skin: all points within skin_m of the core. Skins meet while the cores are still
-// apart, so that distances and normals at touch are exact. A tool with several convex parts has
+// apart, so that distances and normals are accurate at touch. A tool with several convex parts has
 // several ToolShapes, each with its own placement.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-// Default skin (unit: m): a tenth of a pad, and 40 encoder counts.
+// Default skin (unit: m): 40 encoder counts of the paper's device.
 inline constexpr double kDefaultSkin_m = 1e-3;
 
 // The values are stored in recordings: append new kinds.
@@ -22,8 +22,8 @@ enum class ToolKind : std::uint8_t {
     shape = 2,  // shape, skin_m
 };
 
-// Description of a tool. Only the fields that ToolKind names are read. A recording stores it;
-// making the tool again gives the same tool.
+// Description of a tool. Only the fields that ToolKind names for the kind are read. A recording
+// stores it; making the tool again gives the same tool.
 struct ToolDescription {
     ToolKind kind = ToolKind::sphere;
     double radius_m = 0.0;
@@ -42,7 +42,8 @@ public:
     ToolShape &operator=(const ToolShape &) = delete;
 
     [[nodiscard]] double skin_m() const noexcept;
-    // Radius about the tool's origin that contains the tool with its skin (unit: m).
+    // Radius of the smallest ball about the tool's origin that contains the tool with its skin
+    // (unit: m).
     [[nodiscard]] double reach_m() const noexcept;
     [[nodiscard]] const Data &data() const noexcept { return *data_; }
     // The description that the tool was made from. Using it again gives the same tool bit for bit,
@@ -69,7 +70,8 @@ struct ToolResult {
 [[nodiscard]] ToolResult make_pad(double radius_m, double half_thickness_m, double skin_m);
 [[nodiscard]] ToolResult make_sphere(double radius_m);
 // Makes a tool from a convex shape, with edges rounded by skin_m and faces unchanged. A shape
-// thinner than 2 skin_m gets a thinner skin. Not for meshes, height maps and half spaces.
+// thinner than 4 skin_m gets a thinner skin; a sphere or capsule ignores skin_m. Refuses meshes,
+// height maps and half spaces.
 [[nodiscard]] ToolResult make_tool(const CookedShape &shape, double skin_m = kDefaultSkin_m);
 // Makes the tool of a description.
 [[nodiscard]] ToolResult make_tool(const ToolDescription &description);

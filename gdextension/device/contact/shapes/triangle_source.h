@@ -14,14 +14,14 @@ using Corners = std::array<Vec3, 3>; // counter-clockwise seen from the front
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Returns the unit normal towards the front.
+// Returns the unit normal on the front side.
 [[nodiscard]] inline Vec3 normal_of(const Corners &triangle) noexcept {
     return glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
 }
 
-// A cell of a height map has the two triangles 2 * cell and 2 * cell + 1. They are cut from (column
-// + 1, row) to (column, row + 1), as in the engine's physics. A cell is numbered by its lower
-// corner, in rows of all columns.
+// Cell c of a height map has the triangles 2 c and 2 c + 1. The cut between them runs from the
+// height at (column + 1, row) to the one at (column, row + 1), as in the engine's physics. A cell
+// has the number of its corner with the lowest column and row: row * columns + column.
 class TriangleSource {
 public:
     explicit TriangleSource(const CookedShape::Data &data) noexcept
@@ -119,13 +119,15 @@ public:
 
 private:
     static constexpr unsigned kSharp = 1;
-    static constexpr unsigned kCrease = 16; // sharp by more than 3 degrees
+    static constexpr unsigned kCrease = 16; // sharp, and bent by more than 3 degrees
 
     // Returns the bits of one edge, shifted to edge 0.
     [[nodiscard]] unsigned sharpness(const Corners &triangle, std::uint32_t neighbour,
                                      std::uint32_t first_shared,
                                      std::uint32_t second_shared) const noexcept {
-        // Faces that turn away from each other by less (sine) are one flat face.
+        // An edge is sharp when the other face's far corner lies below this face's plane (of a
+        // two-sided shape, also above it) by more than this share of its distance from corner 0:
+        // about the sine of the bend.
         constexpr double kFlatEdge = 1e-6;
         constexpr double kOneFace = 0.9986; // cosine of 3 degrees
         if (neighbour == kNone) {

@@ -1,4 +1,5 @@
-// Bounding boxes of a mesh's triangles, split by Jolt's builder; traversal needs no stack.
+// A tree of bounding boxes of a mesh's triangles, built by Jolt; its traversal needs no
+// stack.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,7 @@ namespace spidar {
 
 namespace {
 
-constexpr double kPatternChange_s = 0.5 * kFeelFade_s; // before the end
+constexpr double kPatternChange_s = 0.5 * kFeelFade_s; // time before the end of the change
 
 bool same_pattern(const SurfaceTexture &a, const SurfaceTexture &b) noexcept {
     return a.wavelength_m == b.wavelength_m && a.across == b.across && a.relief == b.relief;
@@ -66,7 +66,7 @@ SurfaceFeel approach(const SurfaceFeel &now, const SurfaceFeel &wanted, double l
     }
     const double share = dt_s / left_s;
     SurfaceFeel feel = now;
-    // Under a push the way that a surface gives is its compliance's.
+    // Blends the compliance, to which the depth under a given push is proportional.
     const double gives_m_n =
         between(compliance(now.stiffness_n_m), compliance(wanted.stiffness_n_m), share);
     feel.stiffness_n_m = gives_m_n > 0.0 ? 1.0 / gives_m_n : 0.0;

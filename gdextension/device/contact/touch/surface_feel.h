@@ -1,5 +1,6 @@
-// How a surface of the scene feels, apart from where it is. A game may change it while the hand is on the surface (a material's
-// slider, a pinch that begins): the servo loop then goes over to the new one within kFeelFade_s, so that the hand feels no jolt.
+// How a surface of the scene feels: stiffness, damping, friction and traits. A game may change
+// these while the hand touches the surface, for example when a pinch begins. The servo loop then
+// changes them gradually, in kFeelFade_s, so that the hand feels no jolt.
 #pragma once
 
 #include "device/contact/proxy/contact_scene.h"
@@ -7,7 +8,8 @@
 
 namespace spidar {
 
-// A wall of 1000 N/m that a finger presses by 2 mm then gives way by 0.04 N in a cycle.
+// Time from the old feel to the new one (unit: s). A push of 2 N that ends in this time falls by
+// 0.04 N per cycle of 1 ms on average.
 inline constexpr double kFeelFade_s = 0.05;
 
 struct SurfaceFeel {
@@ -21,12 +23,13 @@ struct SurfaceFeel {
 void set_feel(const SurfaceFeel &feel, ScenePart &part) noexcept;
 [[nodiscard]] bool same(const SurfaceFeel &a, const SurfaceFeel &b) noexcept;
 
-// The feel one cycle of dt_s further on its way from `now` to `wanted`, which is reached in left_s (at most kFeelFade_s). A
-// texture with another pattern comes when the old one has become flat, half way; one with another relief comes at once, as
-// nobody keeps the old relief alive, and rises from flat.
+// Returns the feel after one more cycle of dt_s on the way from `now` to `wanted`, which is reached
+// in left_s (at most kFeelFade_s). If the pattern of the texture changes, the old one flattens in
+// the first half of kFeelFade_s, and the new one rises in the second. If the relief changes, the
+// old one ends at once, because nobody keeps it alive, and the new one rises from flat.
 [[nodiscard]] SurfaceFeel approach(const SurfaceFeel &now, const SurfaceFeel &wanted, double left_s,
                                    double dt_s) noexcept;
-// The same for the springs between grip and proxy.
+// The same two functions for the springs between grip and proxy.
 [[nodiscard]] bool same(const ProxySettings &a, const ProxySettings &b) noexcept;
 [[nodiscard]] ProxySettings approach(const ProxySettings &now, const ProxySettings &wanted,
                                      double left_s, double dt_s) noexcept;

@@ -1,5 +1,6 @@
-// What the tool can touch and what it carries, published by a game once per tick. The servo loop
-// renders it until the next one arrives (touch_renderer.h). Device frame, SI units.
+// What the tool can touch and what it carries, published by a game once per physics tick. The servo
+// loop renders a scene until the next one arrives or the scene expires (touch_renderer.h). Device
+// frame, SI units.
 #pragma once
 
 #include <memory>
@@ -15,14 +16,13 @@ namespace spidar {
 struct TouchScene {
     Tool tool;
     ContactScene scene; // at the time state_time_s
-    // Stiffness between the grip and the tool's proxy. 0 in a DOF: automatic, kAutomaticShare of
-    // the cap for latency and rate.
+    // Stiffness between the grip and the tool's proxy. 0 in a DOF: kAutomaticShare of the cap.
     DofGains stiffness{};
     double damping_n_s_m = 2.0; // of each contact
-    // Wrench of what the tool carries, about P0: weight and inertia of a held body, springs on it.
-    // It acts on the proxy, so that the hand feels what no surface carries.
+    // Wrench about P0 of what the tool carries: weight and inertia of a held body, springs on it.
+    // It acts on the proxy, so that the hand feels only what no surface carries.
     Wrench load;
-    // DOF in which contacts reach the hand. The load is felt in all DOF.
+    // Bit i: the hand feels contacts in DOF i. The load is felt in all DOF.
     std::uint8_t felt = kAllDof;
     // See Coupling::state_time_s.
     double state_time_s = -1.0;
@@ -32,10 +32,11 @@ struct TouchScene {
     std::vector<std::shared_ptr<const ToolShape>> tool_shapes;
 };
 
-// Share of the caps (gain_caps) that contacts use as their automatic stiffness.
+// The automatic stiffness of contacts, as a share of the cap (gain_caps).
 inline constexpr double kAutomaticShare = 0.6;
 
-// Returns ok, or invalid_request / not_finite. A bad scene is ignored; the last valid one stays.
+// Returns ok, invalid_request or not_finite. HapticRenderer ignores a scene that is not ok; the
+// last valid one stays until it expires.
 [[nodiscard]] Status validate(const TouchScene &touch) noexcept;
 
 } // namespace spidar

@@ -14,7 +14,7 @@ namespace spidar {
 [[nodiscard]] std::uint32_t crc32(std::span<const std::uint8_t> bytes,
                                   std::uint32_t before = 0) noexcept;
 
-// Maps small numbers of either sign to small unsigned ones: 0, -1, 1, -2 to 0, 1, 2, 3.
+// Maps signed numbers near 0 to small unsigned ones: 0, -1, 1, -2 to 0, 1, 2, 3.
 [[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) noexcept {
     return (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63U);
 }
@@ -31,7 +31,8 @@ public:
     // Writes 7 bits per byte: 1 byte below 128, at most 10.
     void varint(std::uint64_t value);
     void signed_varint(std::int64_t value) { varint(zigzag(value)); }
-    // Writes a 64-bit word of mostly zero bytes: one byte for the nonzero range, then that range.
+    // Writes a 64-bit word that has many zero bytes: one byte that states which bytes follow, then
+    // the bytes from the first to the last nonzero one.
     void sparse_word(std::uint64_t value);
     void raw(std::span<const std::uint8_t> bytes);
 
@@ -39,7 +40,7 @@ private:
     std::vector<std::uint8_t> &bytes_;
 };
 
-// Reads what ByteWriter wrote. Past the end it returns zeros, and good() stays false.
+// Reads what ByteWriter wrote. Bytes past the end count as zero, and good() is false from then on.
 class ByteReader {
 public:
     ByteReader() noexcept = default;

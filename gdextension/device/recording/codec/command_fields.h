@@ -1,5 +1,5 @@
-// List of all fields of a HapticCommand. A new field must be added here; recording, reading and
-// comparing then include it.
+// List of the fields of a HapticCommand, without its scene (touch_words.h). A new field must be
+// added here; recording, reading and comparing then include it.
 #pragma once
 
 #include "device/contract/haptic_command.h"

@@ -1,4 +1,5 @@
-// Encodes cycles compactly, each as its difference from the one before.
+// Encodes cycles compactly, each as its difference from the one before; the first of a segment is
+// encoded in full.
 #pragma once
 
 #include <span>
@@ -20,15 +21,16 @@ struct RecordedCycle : CycleState {
     // The last recorded command as words (command_fields.h).
     std::vector<std::uint64_t> command_words;
     MillinewtonArray tensions_mn{};
-    // Digest of the whole output.
+    // digest_of() the whole output.
     std::uint32_t digest = 0;
 };
 
 class CycleEncoder {
 public:
     CycleEncoder();
-    // Encodes a cycle. command: the command in force. The command and its scene are read only when
-    // the record starts a segment or its command is new; the scene also needs a new number.
+    // Encodes a cycle. command: the command in force, which is read only if the record starts a
+    // segment or its command is new. Its scene is then read only if a segment starts or the scene's
+    // number is new.
     void encode(const CycleRecord &record, const HapticCommand &command, ByteWriter &to);
 
 private:
@@ -46,9 +48,9 @@ private:
 
 class CycleDecoder {
 public:
-    // Numbers of words per command, per rest of a reading and per scene in the recording. From
-    // readings with unknown fields the known ones are kept, since new fields are only added at the
-    // end of the list.
+    // Numbers of words of a command, of a reading without its counts, and of a scene in the
+    // recording. Words of a reading beyond the fields of this build are dropped, since new fields
+    // are only added at the end of the list.
     CycleDecoder(std::size_t command_words, std::size_t reading_words, std::size_t touch_words);
     // Returns false when the bytes are not a cycle; `cycle` is then undefined.
     bool decode(ByteReader &from, RecordedCycle &cycle);

@@ -26,8 +26,8 @@ struct CycleState {
 // Outputs that a replay must reproduce bit for bit: commands to the motors and values for the game.
 struct CycleOutput : CycleState {
     static constexpr std::size_t kValues = 42;
-    // Order: currents_a 8, tensions_n 8, pose 9, twist 7, requested wrench 7, grasp angle, force
-    // scale, time_s.
+    // Order: currents_a 8, tensions_n 8, pose 9 (position_m, r1_m, r2_m), twist 7, requested wrench
+    // 7, grasp angle, force scale, time_s.
     std::array<double, kValues> values{};
 };
 
@@ -40,11 +40,11 @@ void fill_output(const ServoSnapshot &snapshot, const DriveCommand &drive,
 // Returns a hash of all bits of an output.
 [[nodiscard]] std::uint32_t digest_of(const CycleOutput &output) noexcept;
 
-// Tensions that can be read without a replay (unit: mN).
+// Rounded tensions, which can be read without a replay (unit: mN).
 using MillinewtonArray = std::array<std::int32_t, kStringCount>;
 [[nodiscard]] MillinewtonArray millinewtons_of(const CycleOutput &output) noexcept;
 
-// A read of the device by the game: the game saw the snapshot of this cycle.
+// A read of the device by the game: the game saw the snapshot of the cycle `tick`.
 struct GameRead {
     std::uint64_t tick = 0; // of the cycle, as CycleRecord::tick
     // True for the read of a physics tick, false for one between two ticks.
@@ -61,8 +61,9 @@ struct CycleRecord {
     std::uint64_t lost_before = 0;
     // Cycles since the device was opened, including this one.
     std::uint64_t tick = 0;
-    bool segment_start = false;  // the memory of the step is stored before it
-    bool command_is_new = false; // the command differs from the last cycle's
+    bool segment_start = false; // first of a segment (recorder.h)
+    // the command is recorded with this cycle: it is new, or a segment starts
+    bool command_is_new = false;
 };
 
 } // namespace spidar

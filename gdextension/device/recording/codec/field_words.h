@@ -35,7 +35,8 @@ void from_word(std::uint64_t word, T &value) noexcept {
     }
 }
 
-// Counts a plain struct's members at compile time: a list that lacks one does not compile.
+// Counts a plain struct's members at compile time, so that a static_assert beside a list fails when
+// the struct gets another member.
 struct AnyMember {
     template <typename T>
     operator T() const noexcept; // never defined: only its type is used
@@ -90,8 +91,8 @@ template <typename Struct>
     return count;
 }
 
-// Returns a hash of names, order and kinds (floating-point or integer) of a list. Equal hashes mean
-// that words have the same meaning.
+// Returns a hash of names, order and kinds (floating-point or integer) of a list. If two hashes are
+// equal, the words have the same meaning.
 template <typename Struct>
 [[nodiscard]] std::uint64_t schema_of(const Struct &value) noexcept {
     std::uint64_t hash = 0xCBF29CE484222325U; // FNV-1a

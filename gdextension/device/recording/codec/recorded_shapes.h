@@ -1,4 +1,5 @@
-// Shapes in a recording. Each description is stored once, with a number, and cooked on reading.
+// Shapes in a recording. Each description is stored once, with a number, and is cooked again when
+// it is read.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Lists of the fields of shape and tool descriptions, except points, indices and heights.
+// Lists of the fields of shape and tool descriptions, except points, indices, heights and the shape
+// of a tool.
 #pragma once
 
 #include <type_traits>
