@@ -70,8 +70,7 @@ public:
     CookedShape &operator=(const CookedShape &) = delete;
 
     [[nodiscard]] ShapeKind kind() const noexcept;
-    // False for mesh and height_map; true for all other kinds, relief included, although it is no
-    // solid.
+    // False for mesh, height_map and relief.
     [[nodiscard]] bool convex() const noexcept;
     // Bounding box in the shape's frame (unit: m). A half space is infinite in all directions; the
     // box of a relief has no size.
