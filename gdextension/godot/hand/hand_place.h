@@ -16,8 +16,8 @@ public:
     // Called when the hand enters the scene tree. Warns in a running scene if the parent is no
     // SpidarG.
     void entered(const SpidarGHand &hand);
-    // Called in each physics tick of a hand under a SpidarG. Returns whether the hand acts; warns
-    // once when it stops acting.
+    // Called in each physics tick of a hand under a SpidarG. Returns whether the hand acts. Warns
+    // in the first tick in which it does not.
     [[nodiscard]] bool may_act(const SpidarGHand &hand);
 
 private:

@@ -183,7 +183,7 @@ private:
 
     spidar::Pinch pinch_;
     double pinch_age_s_ = 0.0; // time since the pads last pressed a body
-    double resting_s_ = 0.0;   // time since the pinched width last changed
+    double resting_s_ = 0.0;   // time for which the pinched width has hardly changed
     double squeeze_nm_ = 0.0;
     spidar::GraspJudge judge_;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Not part of the godot-cpp API: which C++ types have the same bytes on both sides of the border.
+// Not part of the godot-cpp API: the C++ types whose bytes are the same here and in the engine.
 
 #include <godot_cpp/core/defs.hpp>
 
