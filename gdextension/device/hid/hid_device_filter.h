@@ -9,9 +9,8 @@
 
 namespace spidar {
 
-// A field that is 0 or empty accepts every device. Whatever the filter says, matches() rejects a
-// device whose usage page is reported and is not 0xFF00 (vendor-defined), and the ids 04D8:003F of
-// a demonstration that many unrelated boards use.
+// A field that is 0 or empty accepts every device. matches() always rejects a reported usage page
+// other than 0xFF00, and the ids 04D8:003F, which many unrelated boards share.
 struct HidDeviceFilter {
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
@@ -27,8 +26,8 @@ struct HidDeviceFilter {
 // Returns the serial number, or the path of a device without one.
 [[nodiscard]] const std::string &name_of(const HidDeviceInfo &device) noexcept;
 
-// Returns the name under which the device is claimed and its motor heat is stored. Empty for a
-// device with neither serial number nor path.
+// Returns the name under which the device is claimed and its motor heat is stored. Empty without
+// serial number and path.
 [[nodiscard]] std::string claim_name(const HidDeviceInfo &device);
 
 // Finds the matching devices, ordered by serial number, each path once. Returns ok, no_device when

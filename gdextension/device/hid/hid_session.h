@@ -19,8 +19,8 @@ struct HidSession {
     HidLimits limits; // as the device reports them back
 };
 
-// Opens the handles, reads the capabilities and sets the limits. On failure returns no_permission,
-// open_failed, hid_unavailable or protocol_mismatch, with a sentence in `problem` and all closed.
+// Opens the handles, reads the capabilities and sets the limits. On failure all handles are closed,
+// and `problem` holds a sentence.
 [[nodiscard]] Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &limits,
                                   HidSession &session, std::string &problem);
 

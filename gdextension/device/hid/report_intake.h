@@ -26,9 +26,9 @@ public:
     // True when the current epoch began with a restart of the device.
     [[nodiscard]] bool restarted() const noexcept { return restarted_; }
 
-    // Writes the newest report to `reading`. zero_number: how often the encoders were zeroed. After
-    // a change of it, reading.zeroed is false for 0.1 s of device time, so that reports from before
-    // the zeroing have left the queue. zero_counts: false makes reading.zeroed false.
+    // Writes the newest report to `reading`. zero_number: how often the encoders were zeroed. For
+    // 0.1 s of device time after it changes, reading.zeroed is false, since older reports may still
+    // arrive. zero_counts: false makes reading.zeroed false.
     void fill(DeviceReading &reading, std::uint32_t zero_number, bool zero_counts) noexcept;
 
 private:

@@ -1,5 +1,5 @@
-// The connection to a bus of boards, from one plug-in to the loss of the port. A handshake finds
-// the boards, sends each board the command lengths of all boards, and sets all currents to zero.
+// The connection to a bus of boards, until the port is lost. A handshake finds the boards, tells
+// them each other's command lengths, and sets all currents to zero.
 #pragma once
 
 #include <atomic>
@@ -23,11 +23,11 @@ struct BoardSession {
     std::string remarks; // problems that do not prevent operation, one sentence each
 };
 
-// Opens the port and finds the boards by asking ids 0 to 7 in turn, 10 ms for each id without a
-// board, until two scans in a row agree. Returns ok, or no_device, no_permission, device_in_use,
-// open_failed or protocol_mismatch with a sentence in `problem` and the port closed.
-// protocol_mismatch: no board answers, or one does not answer CURRENT. give_up: another thread may
-// set it to end the call early.
+// Opens the port and finds the boards by asking ids 0 to 7 in turn, until two scans agree. Takes
+// 10 ms for each id without a board. Returns ok, or no_device, no_permission, device_in_use,
+// open_failed or protocol_mismatch (no board answers, or one does not answer CURRENT), with a
+// sentence in `problem` and the port closed. give_up: another thread may set it to end the call
+// early.
 [[nodiscard]] Status open_session(const std::string &path, std::uint32_t baud,
                                   const std::atomic<bool> &give_up, BoardSession &session,
                                   std::string &problem);

@@ -33,9 +33,8 @@ using SerialMotorTable = std::array<SerialMotor, kStringCount>;
 [[nodiscard]] std::array<std::size_t, kStringCount>
 boards_of(const SerialMotorTable &motors, std::span<const BoardLayout> boards) noexcept;
 
-// Board units of current per ampere if 4096 / 3.3 units stand for one volt, as in the published
-// host programs. Follows from the published voltages for the motors of the SPIDAR X5R and from this
-// project's default motor.
+// Board units per ampere if 4096 / 3.3 units stand for one volt, as in the usual host program.
+// Follows from the published voltages for the X5R's motors and this project's default motor.
 inline constexpr double kUsualUnitsPerAmpere = 618.0;
 
 // Returns a current in board units: rounded, at most `most`, times sign. A negative current and NaN

@@ -223,7 +223,7 @@ public:
     [[nodiscard]] bool is_replaying() const;
     [[nodiscard]] godot::Dictionary get_replay_statistics() const;
 
-    // Simulated device (spidar_g_simulated.cpp).
+    // Simulated device (spidar_g_simulated.cpp, spidar_g_device.cpp).
     bool set_simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
@@ -349,12 +349,12 @@ private:
     spidar::PlantSettings plant_;
     std::string problem_;              // why the device is not or cannot be opened
     std::string problem_when_refused_; // reason of the last failed try to open a real device
-    bool trying_again_ = false;        // the next opening is such a try
+    bool trying_again_ = false;        // the next opening is a later try, see refuse_device()
     bool restart_pending_ = false;
     bool forces_wanted_ = false;
     bool release_on_focus_loss_ = true;
     bool is_connected_told_ = false;
-    std::uint8_t stale_buttons_ = 0; // down since before the device opened
+    std::uint8_t stale_buttons_ = 0; // bits of buttons that are down since before the opening
     bool panic_key_down_ = false;
     std::atomic<bool> panicked_{false}; // set by panic_stop(), cleared by clear_fault()
     bool waits_for_arm_ = false;        // after a panic: a device that opens does not arm itself
@@ -380,9 +380,9 @@ private:
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;
     std::uint64_t opened_revision_ = 0; // revision of config and calibration when the device opened
-    spidar::LiveLimits limits_from_;    // limits move smoothly from here
-    spidar::LiveLimits limits_wanted_;  // to here
-    double limits_share_ = 1.0;         // progress, 0..1
+    spidar::LiveLimits limits_from_;    // the limits move smoothly from these
+    spidar::LiveLimits limits_wanted_;  // to these
+    double limits_share_ = 1.0;         // share of that way that is done, 0 to 1
     spidar::HapticCommand command_;
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()
     std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot times

@@ -88,7 +88,7 @@ public:
     // Reports a refused value or argument in the output.
     void refuse(const std::string &message) const;
 
-    // The held body.
+    // The device and the held body.
     [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
     [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
     [[nodiscard]] double get_held_width() const;
@@ -129,7 +129,7 @@ private:
     [[nodiscard]] double checked_number(const char *name, double value, double old, double least,
                                         double most, const char *unit) const;
 
-    // Parts of a tick, in this order (spidar_g_hand_tick.cpp).
+    // Steps of a physics tick (spidar_g_hand_tick.cpp).
     void read_device(double since_s);
     void watch_pinch(double since_s);
     void watch_hold();

@@ -24,7 +24,7 @@ class SpidarGCalibration : public godot::Resource {
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_scales);  // m per count, signed
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, zero_counts);
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, winding_curvatures);   // 1/m
-    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_stiffnesses);   // N, EA
+    SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, string_stiffnesses);   // EA in N
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, hidden_lengths);       // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, calibration_tensions); // N
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, effective_radii);      // m

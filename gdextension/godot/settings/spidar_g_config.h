@@ -87,7 +87,7 @@ public:
     SPIDAR_G_LIVE_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
     SPIDAR_G_LIVE_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
 
-    // Grasp. Radians in code, degrees in the inspector.
+    // Grasp. Angles are in radians here and in degrees in the inspector.
     SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
     SPIDAR_G_FIELD(double, grasp_leave_angle, spidar::GraspSettings{}.leave_rad);
     SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
@@ -111,7 +111,7 @@ public:
     SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
     SPIDAR_G_LIVE_FIELD(int, simulated_hand_firmness,
                         static_cast<int>(spidar::HandFirmness::normal));
-    // Errors that a calibration has to find: 8 values, or none.
+    // Errors of the simulated device, which a calibration measures: 8 values, or none.
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_tension_gains); // real / commanded

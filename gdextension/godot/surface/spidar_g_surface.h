@@ -1,5 +1,5 @@
-// SpidarGSurface: gives its parent body a SpidarGMaterial, and emits signals when a hand touches
-// the body and slips on it. Main thread only. The class reference is
+// SpidarGSurface: gives its parent body a SpidarGMaterial, and emits signals when a hand begins and
+// ends to touch the body or to slip on it. Main thread only. The class reference is
 // gdextension/doc_classes/SpidarGSurface.xml.
 #pragma once
 

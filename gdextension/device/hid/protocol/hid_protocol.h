@@ -14,12 +14,12 @@ inline constexpr std::uint8_t kHidProtocolVersion = 1;
 inline constexpr std::uint16_t kHidUsagePage = 0xFF00; // vendor defined
 
 enum class HidReportId : std::uint8_t {
-    state = 0x01,          // IN, once per control cycle of the device
-    command = 0x02,        // OUT
-    capabilities = 0x10,   // FEATURE, read only
-    limits = 0x11,         // FEATURE
-    zero = 0x12,           // FEATURE
-    device_control = 0x13, // FEATURE
+    state = 0x01,          // input report, sent once per control cycle of the device
+    command = 0x02,        // output report
+    capabilities = 0x10,   // feature report, read only
+    limits = 0x11,         // feature report
+    zero = 0x12,           // feature report
+    device_control = 0x13, // feature report
 };
 
 // Sizes of the reports in bytes, with the report id and the two CRC bytes.

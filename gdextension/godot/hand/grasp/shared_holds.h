@@ -1,5 +1,5 @@
-// List of the held bodies with the target of each hand that holds them, so that several hands can
-// hold one body. Scene coordinates. Main thread only.
+// Stores the target of each hand for its held body, so that several hands can hold one body. Scene
+// coordinates. Main thread only.
 #pragma once
 
 #include <cstdint>

@@ -88,7 +88,7 @@ Variant call_engine_vararg(const EngineMethod &method, GodotObject *owner, const
     std::array<GDExtensionConstVariantPtr, sizeof...(Args)> addresses{};
     std::transform(values.begin(), values.end(), addresses.begin(),
                    [](const Variant &value) { return value._native_ptr(); });
-    Variant result; // null holds nothing, so the engine may construct over it
+    Variant result; // owns nothing while null, so that the engine may construct a value in place
     GDExtensionCallError error{GDEXTENSION_CALL_OK, 0, 0};
     api.object_method_bind_call(method.bind, owner, addresses.data(),
                                 static_cast<GDExtensionInt>(addresses.size()), result._native_ptr(),

@@ -100,7 +100,7 @@ public:
     }
     ~Variant() { internal::api.variant_destroy(bytes_.data()); }
 
-    // Converts as GDScript does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
+    // Converts as the engine does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
     template <class T>
     requires internal::Arithmetic<T>
     explicit operator T() const {
@@ -120,7 +120,7 @@ public:
     template <class T>
     requires internal::Plain<T>
     explicit operator T() const {
-        // The engine constructs over what is there: a default value, which owns nothing lasting.
+        // The engine constructs the value in this memory, so that none may exist there before.
         union Uninitialized {
             Uninitialized() {}
             ~Uninitialized() {}
