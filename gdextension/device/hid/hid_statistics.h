@@ -13,9 +13,9 @@ namespace spidar {
 template <typename Count>
 struct HidCountersOf {
     Count reports{0}; // reports that are valid and newer than the last one
-    // Those of them that were not used, because a newer one was already waiting.
+    // Such reports that were not used, because a still newer one was already waiting.
     Count superseded{0};
-    Count lost{0};         // reports missing from the device's sequence of numbers
+    Count lost{0};         // reports whose sequence numbers are missing
     Count wrong_length{0}; // too short or too long
     Count corrupt{0};      // wrong report id, CRC or value
     Count replayed{0};     // ReportMonitor::Verdict, like the next four

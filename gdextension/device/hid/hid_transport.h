@@ -18,8 +18,8 @@ namespace spidar {
 
 struct HidTransportSettings {
     HidDeviceFilter filter;
-    // Sent to the device when it is opened. Of each of these and its own limits, the device keeps
-    // the stricter one.
+    // Sent to the device when it is opened. For each limit, the device keeps the stricter of this
+    // value and its own.
     HidLimits limits{.max_tension_mn = 10000,
                      .tension_rate_mn_ms = 1000,
                      .string_speed_mm_s = 5000,

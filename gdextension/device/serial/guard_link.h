@@ -33,7 +33,8 @@ public:
     [[nodiscard]] bool allows() const noexcept {
         return guard_.alive() && !tripped_.load(std::memory_order_acquire);
     }
-    // Lets the motors pull again if the guard runs. Called when faults are cleared, motors off.
+    // Lets the motors pull again if the guard runs. Called with the motors off, when a fault is
+    // cleared.
     void allow() noexcept {
         if (guard_.alive()) {
             tripped_.store(false, std::memory_order_release);

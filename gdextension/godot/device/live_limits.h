@@ -18,7 +18,7 @@ namespace spidar {
 }
 
 // Returns live_limits() with the stiffness limits lowered to what settings.render.latency_s and
-// settings.rate_hz allow. For an open device that was configured with a shorter latency.
+// settings.rate_hz allow. Used when the link of the open device is slower than its config says.
 [[nodiscard]] inline LiveLimits limits_by_latency(const ServoSettings &settings) noexcept {
     const GainCaps caps = gain_caps(settings.render, settings.rate_hz);
     LiveLimits limits = live_limits(settings);

@@ -103,7 +103,7 @@ public:
     SpidarG();
     ~SpidarG() override;
 
-    // Set-up.
+    // Properties and warnings.
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
     [[nodiscard]] godot::Ref<SpidarGConfig> get_effective_config() const;
@@ -129,7 +129,7 @@ public:
     // Reports a refused call, by the signal request_rejected and in the output.
     void refuse(const std::string &message) const;
 
-    // Device (spidar_g.cpp).
+    // Arming, faults and stepping (spidar_g.cpp).
     void arm();
     void disarm();
     void clear_fault();

@@ -23,7 +23,7 @@ struct HandFeel {
     // True while no force can center the hand on the body that it closes on: softer springs across
     // the jaws then let the pads center themselves.
     bool centres_itself = false;
-    std::uint64_t pinched = 0; // RID of the body between the pads, which pushed_n_m_kg spares
+    std::uint64_t pinched = 0; // RID of the body between the pads; pushed_n_m_kg does not limit it
     // Largest stiffness per kilogram of a body that physics moves (unit: N/m/kg). A larger one
     // would make a light body bounce between a push and its answer a frame later.
     double pushed_n_m_kg = 0.0;

@@ -48,7 +48,7 @@ public:
     SPIDAR_G_FIELD(int, device_product_id, 0);
     // Serial motor boards.
     SPIDAR_G_ARRAY_FIELD(godot::String, serial_port);
-    // Per string: board, motor, sign of the counts, sign of the current. Empty: in order.
+    // For each string: board, motor, sign of the counts, sign of the current. Empty: in order.
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors);
     SPIDAR_G_FIELD(double, serial_units_per_ampere, 0.0); // 0: the preset's value
     SPIDAR_G_FIELD(int, serial_most_units, spidar::SerialTransportSettings{}.most_units);
@@ -137,7 +137,7 @@ public:
     [[nodiscard]] spidar::PlantSettings plant_settings() const;
     // Returns the filter that selects the USB device.
     [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
-    // Returns port, motors and units. The path of the guard is empty, which means its default.
+    // Returns port, motors and units. The guard's path stays empty: guard_beside_library().
     [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
     // Returns how far grasp_action is pressed, 0 to 1; 0 if the fingers do not follow the action.
     [[nodiscard]] double grasp_action_strength() const;

@@ -20,7 +20,7 @@ struct TouchedBody {
     Placement at; // pose of the shape when it was last near; device frame
     std::int64_t tick = 0;
 
-    // Returns whether the node of the body was freed, and the server no longer knows the RID.
+    // Returns whether the node of the body was freed, so that the server does not know the RID.
     [[nodiscard]] bool is_gone() const {
         return collider != 0 && godot::ObjectDB::get_instance(collider) == nullptr;
     }

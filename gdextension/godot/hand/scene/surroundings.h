@@ -58,8 +58,8 @@ struct NearShape {
     godot::RID body;
     std::uint64_t collider = 0; // instance id; 0: a body without an object
     int shape_index = 0;
-    // Identifies this shape of this body while the body stays near. Another shape never gets it,
-    // unless 2^31 - 1 ids were used.
+    // Identifies this shape of this body while the body stays near. Another shape gets the same id
+    // only after 2^31 - 1 newer ids.
     std::int32_t id = 0;
     std::shared_ptr<const CookedShape> shape;
     Placement at;            // device frame

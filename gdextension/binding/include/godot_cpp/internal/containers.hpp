@@ -18,7 +18,7 @@ public:
         return made;
     }
 
-    // Requires an index from 0 to size() - 1; another one crashes, as in godot-cpp.
+    // Requires an index from 0 to size() - 1; any other index crashes, as in godot-cpp.
     Variant &operator[](int64_t index);
     const Variant &operator[](int64_t index) const;
     bool operator==(const Array &other) const { return equals(other); }
