@@ -1,7 +1,8 @@
-// spidar_g_guard: holds the serial port of a game's motor boards beside the game, and brings their currents to zero when
-// the game dies, hangs or is stopped: the boards themselves would pull for ever. Started by device/serial/port_guard.cpp
-// with the port and a socket as descriptors 3 and 4, and as its argument the bytes to send, in hexadecimal. Ends with the
-// game: when its end of the socket closes, or when this process has another parent.
+// spidar_g_guard: a process that holds the serial port of a game's motor boards beside the game. It
+// sends zero currents when the game dies, hangs or is stopped, since the boards alone would keep
+// their last currents. device/serial/port_guard.cpp starts it with the port and a socket as file
+// descriptors 3 and 4, and with the bytes to send, in hexadecimal, as its argument. It ends on a
+// message or SIGTERM, when the game's end of the socket closes, or when its parent process changes.
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -22,11 +23,11 @@ namespace {
 
 using namespace spidar::guard;
 
-constexpr int kPriority = 41; // one above the servo loop's
+constexpr int kPriority = 41; // one above that of the servo loop
 constexpr int kFirstOfOthers = 5;
 constexpr int kMostDescriptors = 4096;
 constexpr int kPatience_ms =
-    500; // before the game says its first word, between looks whether it still is there
+    500; // interval of checks of the parent process before the game's first message
 
 volatile std::sig_atomic_t told_to_end = 0;
 
@@ -40,7 +41,7 @@ int digit(char letter) {
     return found != nullptr ? static_cast<int>(found - kDigits) : -1;
 }
 
-// Empty when the text is not hexadecimal.
+// Returns an empty vector when the text is not hexadecimal.
 std::vector<std::uint8_t> bytes_of(const char *text) {
     std::vector<std::uint8_t> bytes;
     for (; text[0] != '\0'; text += 2) {
@@ -55,18 +56,18 @@ std::vector<std::uint8_t> bytes_of(const char *text) {
 }
 
 void prepare() {
-    // What ends a game from its terminal must not end this before the game.
+    // Signals from the terminal that end the game must not end the guard before the game.
     for (const int ignored : {SIGINT, SIGHUP, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU, SIGQUIT}) {
         (void)std::signal(ignored, SIG_IGN);
     }
     (void)std::signal(SIGTERM, note_end);
-    // Nothing of the game's is kept open by this process.
+    // Closes all other files that this process inherited from the game.
     for (int other = kFirstOfOthers; other < kMostDescriptors; ++other) {
         (void)close(other);
     }
     sched_param priority{};
     priority.sched_priority = kPriority;
-    (void)sched_setscheduler(0, SCHED_FIFO, &priority); // where it is granted
+    (void)sched_setscheduler(0, SCHED_FIFO, &priority); // fails without the permission
     (void)mlockall(MCL_CURRENT | MCL_FUTURE);
 }
 
@@ -74,7 +75,7 @@ void send_to_game(char word) {
     (void)send(kSocket, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
-// Never waits. What the game had queued may stand in the way: it is thrown away.
+// Never waits. If the output queue is full of the game's bytes, discards them.
 void zero_currents(const std::vector<std::uint8_t> &off) {
     std::size_t done = 0;
     for (int tries = 0; tries < 3 && done < off.size(); ++tries) {
@@ -140,7 +141,7 @@ int main(int count, char **words) {
     const pid_t game = getppid();
     const std::vector<std::uint8_t> off = bytes_of(count == 2 ? words[1] : "");
     if (off.empty()) {
-        return 2; // started by hand
+        return 2; // not started by the game
     }
     prepare();
     guard_port(off, game);

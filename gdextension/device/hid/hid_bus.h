@@ -1,4 +1,4 @@
-// Interface to the system's HID access: hidapi in the add-on, a model in tests.
+// Interface to the system's HID access: hidapi implements it in the add-on, a model in tests.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct HidDeviceInfo {
     std::string product;
 };
 
-// An open device; the destructor closes it. Each handle may be used by one thread at a time.
-// Several handles on one device may be used by different threads.
+// A handle on an open device; the destructor closes the handle. Only one thread at a time may use a
+// handle. Different threads may use different handles on one device.
 class HidHandle {
 public:
     HidHandle() = default;
@@ -30,7 +30,7 @@ public:
     virtual ~HidHandle() = default;
 
     // Reads the next input report with its id. Returns its length, 0 when none arrives within
-    // timeout_ms (0: no waiting), or -1 when the device is gone.
+    // timeout_ms (0: no waiting), or -1 when the device is gone or fails.
     virtual int read(std::span<std::uint8_t> bytes, int timeout_ms) noexcept = 0;
     // Writes an output report, id first. Returns its length or -1. May block for seconds.
     virtual int write(std::span<const std::uint8_t> bytes) noexcept = 0;
@@ -47,15 +47,17 @@ public:
     HidBus &operator=(const HidBus &) = delete;
     virtual ~HidBus() = default;
 
-    // Lists all HID devices. Returns hid_unavailable when the system's HID access does not start.
+    // Lists all HID devices. Returns ok, or hid_unavailable when the system's HID access does not
+    // start.
     virtual Status enumerate(std::vector<HidDeviceInfo> &devices) = 0;
-    // Returns null on failure; `status` is no_permission, open_failed or hid_unavailable.
+    // Opens a handle. On failure returns null, with no_permission, open_failed or hid_unavailable
+    // in `status`.
     virtual std::unique_ptr<HidHandle> open(const std::string &path, Status &status) = 0;
     // Monotonic clock (unit: us).
     [[nodiscard]] virtual std::uint64_t now_us() noexcept = 0;
 };
 
-// Returns the system's HID access through hidapi, shared by all transports of the process.
+// Returns the HID access through hidapi, which all transports of the process share.
 [[nodiscard]] std::shared_ptr<HidBus> system_hid_bus();
 
 } // namespace spidar

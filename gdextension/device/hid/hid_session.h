@@ -1,4 +1,4 @@
-// One plug-in of a device: its handles, its capabilities and its limits.
+// The connection to a device from one plug-in to its loss: handles, capabilities and limits.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-// There is one handle per thread, since two threads must not use the same handle at once.
+// Each thread has its own handle, since two threads must not use one handle at the same time.
 struct HidSession {
     std::shared_ptr<HidHandle> reader;  // servo loop
     std::shared_ptr<HidHandle> writer;  // writer thread
@@ -19,7 +19,8 @@ struct HidSession {
     HidLimits limits; // as the device reports them back
 };
 
-// Opens handles, reads capabilities, sets limits. Failure leaves nothing open; see `problem`.
+// Opens the handles, reads the capabilities and sets the limits. On failure all handles are closed,
+// and `problem` holds a sentence.
 [[nodiscard]] Status open_session(HidBus &bus, const HidDeviceInfo &device, const HidLimits &limits,
                                   HidSession &session, std::string &problem);
 

@@ -1,4 +1,5 @@
-// Looks for devices plugged in later, in a thread: listing them may take many milliseconds.
+// Looks for devices that are plugged in later. It does so in a thread, since listing devices may
+// take many milliseconds.
 #pragma once
 
 #include <atomic>
@@ -17,14 +18,15 @@ namespace spidar {
 
 class HidWatch {
 public:
-    // Devices in `known` were already tried and are skipped while they stay plugged in.
+    // known: devices that were already tried. They are skipped while they stay plugged in.
     HidWatch(std::shared_ptr<HidBus> bus, HidDeviceFilter filter, std::vector<HidDeviceInfo> known,
              std::chrono::milliseconds period = std::chrono::milliseconds(500));
     ~HidWatch();
     HidWatch(const HidWatch &) = delete;
     HidWatch &operator=(const HidWatch &) = delete;
 
-    // True once a new matching device that nobody in this process owns has been seen.
+    // True once a matching device has been seen that is not in `known` and that nobody in this
+    // process has claimed. The search then ends.
     [[nodiscard]] bool found() const noexcept { return found_.load(); }
 
 private:

@@ -1,4 +1,4 @@
-// Opens one of the plugged-in devices that nobody in this process owns.
+// Opens one of the plugged-in devices that nobody in this process has claimed.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace spidar {
 
-// Opens the first device that matches settings.filter, is free and can be opened; `claim` then owns
-// it in the name of `owner`. Returns null with `status` and `problem` otherwise. For
-// invalid_settings, `problem` begins with the name of a filter field.
+// Opens the first device that matches settings.filter, is not claimed and can be opened; `claim`
+// then holds it in the name of `owner`. On failure returns null with `status` and `problem`. For
+// invalid_settings, `problem` begins with the name of a SpidarGConfig property.
 [[nodiscard]] std::unique_ptr<HidTransport> open_free_device(const std::shared_ptr<HidBus> &bus,
                                                              HidTransportSettings settings,
                                                              const std::string &owner,

@@ -1,6 +1,6 @@
-// Checks whether a decoded report is the next one. Detects gaps, replays, reports out of order,
-// jumps of the device's clock, and reports that waited too long in a queue. SampleGuard later
-// checks the counts themselves.
+// Checks whether a decoded report is newer than the last good one. Detects missing, repeated and
+// late reports, reports out of order and jumps of the device's clock. SampleGuard later checks the
+// counts themselves.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,33 @@ class ReportMonitor {
 public:
     enum class Verdict : std::uint8_t {
         fresh,
-        replayed,     // the sequence number of the last good report
-        out_of_order, // older than the last good report
-        // The device's clock stood still, went back or jumped.
+        replayed,     // has the sequence number of the last good report
+        out_of_order, // is older than the last good report
+        // The device's clock stood still, went back or jumped by more than kLongestSilence_us.
         implausible_time,
-        // Older on arrival, by kStale_us, than the freshest reports.
+        // The way from the device took over kStale_us longer than that of the fastest reports.
         stale,
-        // Accepted as the new reference after kResyncReports refused in a row: the device
-        // restarted, so that its zero is void.
+        // The last of kResyncReports reports in a row that were replayed, out_of_order or
+        // implausible_time. It is accepted: the device has restarted and lost its zero.
         restarted,
     };
 
-    // Largest extra age of a report (unit: us).
+    // A report that is older than this on arrival, relative to the fastest, is stale (unit: us).
     static constexpr std::uint32_t kStale_us = 10'000;
     // Longest plausible gap between two reports (unit: us).
     static constexpr std::uint32_t kLongestSilence_us = 2'000'000;
     static constexpr int kResyncReports = 20;
-    // Stale reports in a row (more than any queue holds) that mean the clocks have drifted apart.
+    // After this many stale reports in a row, more than the system's queue holds, the clocks are
+    // taken to have drifted apart, and the report is fresh.
     static constexpr int kStaleReports = 256;
 
     void reset() noexcept { *this = ReportMonitor(); }
-    // host_us: the host's monotonic clock on arrival.
+    // host_us: the host's monotonic clock when the report is read.
     Verdict check(const StateReport &report, std::uint64_t host_us) noexcept;
 
-    // Number of reports missing before the last one when that was fresh or stale, else 0.
+    // Number of reports missing just before the last checked one, if it was fresh or stale; else 0.
     [[nodiscard]] std::uint32_t lost() const noexcept { return lost_; }
-    // Device time of the last good report, unwrapped (unit: us).
+    // Device time of the last fresh, stale or restarted report, in 64 bits (unit: us).
     [[nodiscard]] std::uint64_t device_time_us() const noexcept { return device_us_; }
 
 private:
@@ -52,7 +53,7 @@ private:
     std::uint32_t last_time_us_ = 0;
     std::uint64_t device_us_ = 0;
     std::uint64_t last_host_us_ = 0;
-    double offset_us_ = 0.0; // host clock minus device clock for the freshest reports
+    double offset_us_ = 0.0; // host clock minus device clock for the fastest reports
     std::uint32_t lost_ = 0;
     int refused_in_row_ = 0;
     int stale_in_row_ = 0;

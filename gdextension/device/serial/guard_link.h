@@ -1,5 +1,6 @@
-// The guard process as the transport's threads share it. The writer sends its beats, the watcher
-// starts a new guard when it is lost, and both decide whether the motors may pull.
+// Shares the guard process (port_guard.h) between the threads of SerialTransport. The writer calls
+// beat(); the watcher starts a new guard when the old one is lost. allows() says whether the motors
+// may pull.
 #pragma once
 
 #include <atomic>
@@ -16,21 +17,24 @@ class GuardLink {
 public:
     explicit GuardLink(SerialStatistics &statistics) noexcept : statistics_(statistics) {}
 
-    // Returns an empty string when the guard runs, else a sentence. Not for the writer: may wait.
+    // Starts a guard, which replaces the old one. Returns an empty string when it runs, else a
+    // sentence. May wait, so the writer must not call it.
     [[nodiscard]] std::string start(const std::string &program, int port,
                                     std::span<const BoardLayout> boards);
     void end() noexcept;
-    // True when the guard was lost and start() must be called.
+    // True from the loss of a guard to the next start().
     [[nodiscard]] bool is_wanted() const noexcept { return is_wanted_.load(); }
 
     // Called by the writer once per write. Tells the guard that this process is alive, and checks
-    // the guard. pulled: the last currents were not zero.
+    // the guard. pulled: the last write let the motors pull.
     void beat(std::int64_t now_ns, bool pulled) noexcept;
-    // True when the guard runs and has not stepped in since allow(). Called from any thread.
+    // True when the guard runs and, since allow(), was not lost and did not set pulling motors to
+    // zero current. Called from any thread.
     [[nodiscard]] bool allows() const noexcept {
         return guard_.alive() && !tripped_.load(std::memory_order_acquire);
     }
-    // Called when faults are cleared, with the motors off.
+    // Lets the motors pull again if the guard runs. Called with the motors off, when a fault is
+    // cleared.
     void allow() noexcept {
         if (guard_.alive()) {
             tripped_.store(false, std::memory_order_release);
@@ -44,7 +48,7 @@ private:
 
     SerialStatistics &statistics_;
     PortGuard guard_;
-    // Whoever sets it may use the guard.
+    // The thread that sets it owns guard_ until that thread clears it.
     std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
     std::atomic<bool> is_wanted_{false};
     std::atomic<bool> tripped_{false};

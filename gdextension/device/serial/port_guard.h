@@ -1,5 +1,6 @@
-// The guard: a small process that also holds the port, and sends zero currents when this process
-// dies, hangs or is stopped. Without a guard the boards would keep their last currents. Linux only.
+// Starts the guard: a small process that also holds the port. The guard sends zero currents when
+// this process dies, hangs or is stopped; the boards alone would keep their last currents. Linux
+// only.
 #pragma once
 
 #include <atomic>
@@ -12,7 +13,7 @@ namespace spidar {
 
 class PortGuard {
 public:
-    // Silence after which a guard counts as lost (unit: ns).
+    // A guard that sends no message for this time counts as lost (unit: ns).
     static constexpr std::int64_t kSilent_ns = 40'000'000;
 
     PortGuard() = default;
@@ -20,20 +21,21 @@ public:
     PortGuard(const PortGuard &) = delete;
     PortGuard &operator=(const PortGuard &) = delete;
 
-    // Starts `program` with this port and the bytes that set all currents to zero. Returns an empty
-    // string when the guard runs and answers, else one sentence. May wait for half a second. Must
-    // not run while beat() runs.
+    // Ends the old guard and starts `program`. port: file descriptor; off: bytes that set all
+    // currents to zero. Returns an empty string when the guard runs and answers, else one sentence.
+    // May wait for half a second, and as long for the old guard's end. Must not run during beat().
     [[nodiscard]] std::string start(const std::string &program, int port, BoardBytes off);
-    // The guard sets the currents to zero once more and ends.
+    // Makes the guard send zero currents and end. May wait for half a second.
     void end() noexcept;
 
-    // Signals that this process is alive. Writer thread, once per write; never waits.
+    // Tells the guard that this process is alive, and reads the guard's messages. Called by the
+    // writer thread once per write; never waits.
     void beat(std::int64_t now_ns) noexcept;
-    // Called from any thread.
+    // True while the guard runs and answers. Called from any thread.
     [[nodiscard]] bool alive() const noexcept { return alive_.load(std::memory_order_acquire); }
-    [[nodiscard]] int process() const noexcept { return process_.load(); }
-    // Returns true when, since the last call, the guard set the currents to zero because this
-    // process was silent. Called from beat()'s thread.
+    [[nodiscard]] int process() const noexcept { return process_.load(); } // -1: no guard
+    // Returns true if, since the last call, the guard reported that it sent zero currents because
+    // this process was silent. Called from beat()'s thread.
     bool take_tripped() noexcept {
         const bool tripped = tripped_;
         tripped_ = false;
@@ -48,14 +50,15 @@ private:
     std::int64_t answered_ns_ = 0;
 };
 
-// File name of the guard. One folder holds the libraries and guards of both Linux processors.
+// File name of the guard. One folder holds the files for both processor types of Linux.
 #if defined(__aarch64__)
 inline constexpr char kGuardFile[] = "spidar_g_guard.arm64";
 #else
 inline constexpr char kGuardFile[] = "spidar_g_guard.x86_64";
 #endif
 
-// Returns the path of kGuardFile beside the library or program that contains this code.
+// Returns the path of kGuardFile beside the library or program that contains this code; empty on
+// systems other than Linux.
 [[nodiscard]] std::string guard_beside_library();
 
 } // namespace spidar

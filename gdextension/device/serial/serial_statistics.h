@@ -8,23 +8,25 @@
 
 namespace spidar {
 
-// Counters over all plug-ins. They only grow, except `lost`, which a late answer lowers.
+// Counters since the transport was created. They only grow, except `lost`, which a late answer
+// lowers.
 template <typename Count>
 struct SerialCountersOf {
     Count asked{0};         // rounds of CURRENT commands sent to all boards
     Count rounds{0};        // rounds answered in full and accepted
-    Count lost{0};          // rounds not answered in full
-    Count superseded{0};    // readings not used: a newer one was there
+    Count lost{0};          // rounds not answered in full, without the newest ones
+    Count superseded{0};    // complete rounds not used, because a newer one had arrived
     Count bytes{0};         // received
-    Count garbage_bytes{0}; // bytes that belong to no accepted reply
-    Count implausible{0};   // complete replies with impossible counts
-    Count damaged{0};       // incomplete, run together, or in pieces
-    Count unasked{0};
-    Count postponed{0}; // commands dropped because the wire was still busy
+    Count garbage_bytes{0}; // bytes dropped one by one in search of a reply
+    Count implausible{0};   // complete replies with impossible speeds or steps
+    Count damaged{0};       // incomplete, run together, in pieces, or the first after garbage
+    Count unasked{0};       // replies that were not requested
+    // Commands dropped because the wire was busy or this process had been stopped.
+    Count postponed{0};
     Count write_failures{0};
-    Count losses{0};       // device unplugged or failed
-    Count replugs{0};      // device found again
-    Count guard_trips{0};  // the guard set currents to zero: this process was silent
+    Count losses{0};       // connections lost: port unplugged or failed, board silent or restarted
+    Count replugs{0};      // connections made again
+    Count guard_trips{0};  // the guard stopped pulling motors, because this process was silent
     Count guard_losses{0}; // the guard died or hung
 };
 using SerialCounters = SerialCountersOf<std::uint64_t>;
@@ -34,7 +36,8 @@ public:
     static void add(std::atomic<std::uint64_t> &counter, std::uint64_t count = 1) noexcept {
         counter.fetch_add(count, std::memory_order_relaxed);
     }
-    // Adds the reader's counts since `before`, then sets `before` to `now`. Reader's thread only.
+    // Adds the differences between `now` and `before`, then sets `before` to `now`. Only the
+    // thread that reads the port calls it.
     void take(const ReplyCounters &now, ReplyCounters &before) noexcept {
         add(rounds, now.rounds - before.rounds);
         add(bytes, now.bytes - before.bytes);

@@ -1,4 +1,5 @@
-// Shared and private state of SerialTransport's threads: reader, writer, watcher, controlling.
+// State of SerialTransport's threads: the reader (servo loop), the writer, the watcher, which looks
+// for a lost device, and the controlling thread, which opens and closes.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ namespace spidar {
 struct SerialTransport::Impl {
     explicit Impl(const SerialTransportSettings &settings_in) : settings(settings_in) {}
 
-    // Handles and boards of the present plug-in for one thread; null handles without a plug-in.
+    // One thread's copy of the present connection; `port` is null without a connection.
     struct Borrowed {
         std::shared_ptr<SerialPort> port;
         std::uint32_t session = 0;
@@ -42,13 +43,14 @@ struct SerialTransport::Impl {
     const SerialTransportSettings settings;
     std::string problem; // used by the controlling thread
 
-    // Locked only to copy or swap. A port handle's last owner closes the port without the lock.
+    // Locked only to copy or swap the members up to session_number, and by the watcher's wait. A
+    // port handle's last owner closes the port after unlocking.
     mutable std::mutex mutex;
     BoardSession session;
     SerialMotorTable motors{};
     std::string guard_remark;
     std::uint32_t session_number = 0;
-    // Counts connects and losses: a change means that threads must borrow again.
+    // Counts connections, losses and closings. After a change, each thread must borrow() again.
     std::atomic<std::uint32_t> link_number{0};
     bool connected = false;
     std::atomic<bool> stop_watcher{false};
@@ -58,7 +60,7 @@ struct SerialTransport::Impl {
 
     SerialStatistics statistics;
     GuardLink guard{statistics};
-    std::atomic<std::uint64_t> asked{0}; // rounds requested in this session
+    std::atomic<std::uint64_t> asked{0}; // rounds requested in this connection
 
     // Used by the reader.
     Borrowed reader;
@@ -67,10 +69,10 @@ struct SerialTransport::Impl {
     ReplyReader replies;
     ReplyCounters replies_seen;
     std::uint64_t lost_seen = 0;
-    std::uint64_t lost_before = 0; // rounds lost in earlier sessions
+    std::uint64_t lost_before = 0; // rounds lost in earlier connections
     std::uint64_t asked_seen = 0;
-    DeviceReading first; // reading that open() received
-    bool first_waits = false;
+    DeviceReading first;      // reading that open() or keep_asking() received
+    bool first_waits = false; // read() has not yet returned `first`
 
     // Used by the writer.
     std::atomic<bool> write_busy{false};

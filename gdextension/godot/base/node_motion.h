@@ -1,5 +1,6 @@
-// Motion of the node through the scene. Objects that move with the node are at rest for the device.
-// The node's velocity is therefore subtracted from scene velocities before they reach the device.
+// Measures how the SpidarG node moves through the scene. Objects that move with the node are at
+// rest for the device, so the node's velocity is subtracted from velocities in the scene before
+// they reach the device.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -12,7 +13,7 @@ namespace spidar {
 
 class NodeMotion {
 public:
-    // Takes the newest pose of the node, tick_s after the previous one.
+    // Called once per physics tick with the node's pose. tick_s: time since the previous call.
     void note(const WorldFrame &place, double tick_s) noexcept {
         if (known_) {
             const Mat3 turn = place.rotation * glm::transpose(place_.rotation);
@@ -30,8 +31,9 @@ public:
     [[nodiscard]] const Vec3 &angular_rad_s() const noexcept { return angular_.steady; }
 
 private:
-    // The part of a velocity that two consecutive ticks share. A node that a script teleports has a
-    // velocity in one tick only, which is ignored.
+    // steady: the velocity of the newest tick, with at most the magnitude of the tick before; zero
+    // if the two directions differ by 90 degrees or more. When a script teleports a resting node,
+    // the node has a velocity in one tick only, so that `steady` stays zero.
     struct Rate {
         Vec3 seen{0.0};
         Vec3 steady{0.0};

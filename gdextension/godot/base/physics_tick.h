@@ -1,4 +1,5 @@
-// Returns the project's physics ticks per second, or the engine's default when it reports none.
+// The rate of physics ticks in this project; 60 per second, the engine's default, if it reports
+// none.
 #pragma once
 
 #include <cstdint>

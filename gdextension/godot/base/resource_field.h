@@ -1,13 +1,12 @@
-// Macros for fields of a Resource with setter and getter. Setting an unchanged value returns early;
-// a changed value emits `changed`. They are macros because ClassDB::bind_method needs named
-// members.
+// Macros for fields of a Resource. Each defines a member with setter and getter. The setter emits
+// `changed`. They are macros because ClassDB::bind_method needs named members.
 #pragma once
 
 #include <cstdint>
 
 #include "godot/base/strict.h"
 
-// Placed in the class before its fields. Counts changes that an open device cannot take over: it
+// Placed in the class before its fields. revision() counts the changes after which an open device
 // must be opened again.
 #define SPIDAR_G_REVISION                                                                          \
 public:                                                                                            \
@@ -18,6 +17,7 @@ public:                                                                         
 private:                                                                                           \
     std::uint64_t revision_ = 0
 
+// A field whose setter ignores an unchanged value. m_counts: added to revision() by a change.
 #define SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, m_counts)                                    \
 public:                                                                                            \
     void set_##m_name(m_type p_value) {                                                            \
@@ -35,12 +35,14 @@ public:                                                                         
 private:                                                                                           \
     m_type m_name##_ = m_default
 
+// A field after whose change the device must be opened again.
 #define SPIDAR_G_FIELD(m_type, m_name, m_default) SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 1U)
-// A field whose changes an open device takes over at once.
+// A field whose change applies while the device stays open.
 #define SPIDAR_G_LIVE_FIELD(m_type, m_name, m_default)                                             \
     SPIDAR_G_ANY_FIELD(m_type, m_name, m_default, 0U)
 
-// A field that is passed by reference (packed arrays, strings). Every set counts as a change.
+// A field that is passed by reference (packed arrays, strings). Setting it counts as a change even
+// if the value is the same; the device must be opened again.
 #define SPIDAR_G_ARRAY_FIELD(m_type, m_name)                                                       \
 public:                                                                                            \
     void set_##m_name(const m_type &p_value) {                                                     \

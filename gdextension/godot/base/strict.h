@@ -1,7 +1,7 @@
-// Arguments of bound methods, checked by the add-on. A binding may convert a script's argument to
-// the method's type: the text "off" becomes true, null becomes a force of zero. That is unsafe
-// where motors can move. Strict<T> sees the original value and describes it when its type does not
-// fit.
+// Checks the types of the arguments that scripts pass to bound methods. Without this check, a
+// binding may convert an argument to the method's type: the text "off" becomes true, null becomes a
+// force of zero. Such a conversion is unsafe where motors can move. Strict<T> keeps a text on an
+// argument whose type does not fit T.
 #pragma once
 
 #include <cmath>
@@ -29,11 +29,11 @@ template <class T>
 struct Strict {
     using BoundAs = T;
     T value{};
-    // Empty, or the passed value with its type when it does not fit.
+    // Empty if the argument fits, else the passed value and its type.
     std::string misfit;
 };
 
-// Returns a value for messages: short, with its type, strings in quotes.
+// Returns a text for messages: the value, cut after 100 characters, and its type.
 [[nodiscard]] std::string describe_value(const godot::Variant &value);
 
 namespace strict {
@@ -61,14 +61,16 @@ template <class T>
     return true;
 }
 
-// True for int and float. all_int32() below also requires whole numbers in range.
+// True for int and float.
 [[nodiscard]] inline bool is_number(const godot::Variant &value) {
     return value.get_type() == godot::Variant::INT || value.get_type() == godot::Variant::FLOAT;
 }
 [[nodiscard]] bool all_numbers(const godot::Array &values);
+// True if all values are whole numbers (int or float) that fit into 32 bits.
 [[nodiscard]] bool all_int32(const godot::Array &values);
 [[nodiscard]] bool all_vectors(const godot::Array &values);
 
+// Sets `value` and returns true if the type of `given` fits T; else returns false.
 template <class T>
 [[nodiscard]] bool take(const godot::Variant &given, T &value) {
     using godot::Variant;
@@ -177,7 +179,7 @@ struct FixedText {
 // Returns "forces_enabled" for the setter "set_forces_enabled", else "method: argument".
 [[nodiscard]] std::string name_of(std::string_view method, std::string_view argument,
                                   bool is_setter);
-// Returns " in N" for "0,40,0.1,suffix:N"; empty when the hint has no unit.
+// Returns " in N" for "0,40,0.1,suffix:N" and " in rad" for angles; empty if the hint has no unit.
 [[nodiscard]] std::string unit_of(std::string_view hint);
 
 template <class M>
@@ -233,9 +235,10 @@ private:
 
 } // namespace strict
 
-// Binds a method whose arguments Strict checks. The class needs SPIDAR_G_CHECKED_CALLS and a member
-// refuse(const std::string &). kHint: hint string of the property that a setter sets, for its unit;
-// else "".
+// Binds a method whose arguments Strict checks. After a misfit the method is not called and the
+// object's refuse() gets a message. The class needs SPIDAR_G_CHECKED_CALLS and a member
+// refuse(const std::string &). kHint: for a setter, the hint string of its property, which holds
+// the unit; else "".
 template <auto kMethod, strict::FixedText kHint, strict::FixedText kName,
           strict::FixedText... kArguments, class... Defaults>
 void bind_checked(const Defaults &...defaults) {
@@ -259,7 +262,8 @@ struct VariantCaster<spidar::Strict<T>> {
     }
 };
 
-// Conversion of typed calls: the engine has checked the type, but passes whole numbers as 64 bits.
+// Converts the arguments of calls from typed GDScript. The engine has checked their types already,
+// but passes whole numbers as 64 bits.
 template <class T>
 struct PtrToArg<spidar::Strict<T>> {
     static spidar::Strict<T> convert(const void *address) {
@@ -276,8 +280,8 @@ struct PtrToArg<spidar::Strict<T>> {
     }
 };
 
-// The method appears with the underlying type, but the type check of the binding is disabled: its
-// message would not name the argument.
+// Scripts see the method with arguments of type T. VARIANT_TYPE 0 disables the binding's own type
+// check, whose message would not name the argument.
 template <class T>
 struct GetTypeInfo<spidar::Strict<T>> : GetTypeInfo<T> {
     static constexpr auto VARIANT_TYPE =
@@ -286,7 +290,7 @@ struct GetTypeInfo<spidar::Strict<T>> : GetTypeInfo<T> {
 
 } // namespace godot
 
-// Placed in a class: lets bind_checked() put its check before a method of the class.
+// Placed in a class: adds the functions that bind_checked() binds in place of the class's methods.
 #define SPIDAR_G_CHECKED_CALLS                                                                     \
 public:                                                                                            \
     template <class Call, class Result, class... Values>                                           \

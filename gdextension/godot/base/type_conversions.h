@@ -1,4 +1,4 @@
-// All conversions between Godot's types and the core's.
+// Conversions between Godot's types and those of core/.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Conversion between scene coordinates and the device frame: x_world = origin + scale * rotation *
-// x_device. Forces and moments are rotated but not scaled.
+// Converts between scene coordinates ("world") and the device frame: x_world = origin + scale *
+// rotation * x_device. Forces and moments are rotated but not scaled.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct WorldFrame {
     Vec3 origin{0.0};
     double scale = 1.0; // scene meters per device meter
 
-    // Returns false for a flat node and for an origin that is not finite.
+    // Returns false for a node with a scale of zero, and for an origin that is not finite.
     [[nodiscard]] bool usable() const noexcept {
         constexpr double kRoundingOfFloats = 1e-3;
         const double turn = std::abs(glm::determinant(rotation));
@@ -38,9 +38,9 @@ struct WorldFrame {
         }
         return {rotation, to_core(node.origin), workspace_scale};
     }
-    // Returns -1 for a node that is not mirrored. Any of three axes can explain a mirrored node;
-    // the returned axis leaves the smallest remaining rotation, so that a scene that is only
-    // mirrored is not rotated.
+    // Returns -1 for a node that is not mirrored. A mirrored node is a rotated node with one axis
+    // flipped, and each of the three axes can be that one. Returns the axis with which the rotation
+    // is smallest, so that a scene that is only mirrored is not rotated.
     static int mirrored_axis_of(const godot::Transform3D &node) {
         const Mat3 axes = to_core(node.basis.orthonormalized());
         if (!(glm::determinant(axes) < 0.0)) {
@@ -59,7 +59,7 @@ struct WorldFrame {
     [[nodiscard]] Vec3 point_to_device(const Vec3 &world) const noexcept {
         return glm::transpose(rotation) * (world - origin) / scale;
     }
-    // Rotates forces, moments, normals and angular velocities.
+    // For forces, moments, normals and angular velocities, which are not scaled.
     [[nodiscard]] Vec3 turn_to_world(const Vec3 &device) const noexcept {
         return rotation * device;
     }
@@ -84,7 +84,8 @@ struct WorldFrame {
         return lanes(turn_to_world(device.force_n), turn_to_world(device.moment_nm),
                      device.grasp_torque_nm);
     }
-    // Converts a plane dot(normal, x) >= offset from scene to device. A grasp stop is unchanged.
+    // Converts a plane dot(normal, x) >= offset from scene to device. A grasp stop is unchanged; of
+    // a turn stop, axis and angular velocity are rotated.
     [[nodiscard]] ContactPlane contact_to_device(ContactPlane contact) const noexcept {
         if (contact.target == ContactTarget::grasp_stop) {
             return contact;

@@ -1,5 +1,6 @@
-// SpidarGCalibrator: opens a device for calibration alone and turns the measurements into a
-// SpidarGCalibration. The class reference is gdextension/doc_classes/SpidarGCalibrator.xml.
+// SpidarGCalibrator: opens a device for calibration only, without a SpidarG node, and makes a
+// SpidarGCalibration from the measurements. The class reference is
+// gdextension/doc_classes/SpidarGCalibrator.xml.
 #pragma once
 
 #include <atomic>
@@ -46,7 +47,7 @@ public:
 
     ~SpidarGCalibrator() override;
 
-    // Reports an argument of the wrong type, by get_problem() and in the output.
+    // Reports a refused call, by get_problem() and in the output.
     void refuse(const std::string &message) const;
 
     // Device (spidar_g_calibrator.cpp).
@@ -93,7 +94,8 @@ protected:
     static void _bind_methods();
 
 private:
-    // The computation in its own thread, on copies. The results are valid once `done` is set.
+    // The computation of a result, in a thread that works on copies. The results are valid once
+    // `done` is set.
     struct Job {
         spidar::CalibrationWorksheet sheet;
         spidar::SelfCalibrationResult result;
@@ -108,7 +110,7 @@ private:
         }
     };
 
-    // Reads the boards, or writes one number and reads it back, in its own thread.
+    // Reads the boards in a thread, or writes one number and reads it back.
     struct BoardJob {
         bool writes = false;
         std::string port;
@@ -154,9 +156,9 @@ private:
     spidar::MotorCalibration motors_;
     // The calibration passed to open(), until the device is open.
     godot::Ref<SpidarGCalibration> given_;
-    // Corrections of that calibration; they are kept.
+    // Corrections of that calibration. make_calibration() keeps them.
     spidar::LengthCorrections corrections_;
-    // The sheet has begun for the open device.
+    // True once sheet_ has been started for the open device.
     bool began_ = false;
     std::shared_ptr<spidar::CalibrationOpened> opened_;
     std::unique_ptr<spidar::CalibrationRig> rig_;
@@ -174,7 +176,7 @@ private:
     std::unique_ptr<BoardJob> board_job_;
     std::string boards_port_; // the port from which boards_ were read
     std::vector<spidar::BoardFlash> boards_;
-    bool is_proposed_ = false; // proposal_ waits for confirmation
+    bool is_proposed_ = false; // proposal_ is set, and write_board_parameter() may confirm it
     spidar::FlashChange proposal_;
     godot::Dictionary board_result_;
 

@@ -1,4 +1,4 @@
-// Returns the limits that may change while a device is open.
+// The limits that may change while a device is open.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace spidar {
             settings.render.max_grasp_stiffness_nm_rad};
 }
 
-// Returns live_limits() with gains clamped to what latency and rate of the settings allow, since
-// the open device may use another latency.
+// Returns live_limits() with the stiffness limits lowered to what settings.render.latency_s and
+// settings.rate_hz allow. Used when the link of the open device is slower than its config says.
 [[nodiscard]] inline LiveLimits limits_by_latency(const ServoSettings &settings) noexcept {
     const GainCaps caps = gain_caps(settings.render, settings.rate_hz);
     LiveLimits limits = live_limits(settings);
@@ -28,7 +28,7 @@ namespace spidar {
     return limits;
 }
 
-// Interpolates: share 0 gives a, 1 gives b.
+// Interpolates linearly: share 0 gives a, 1 gives b.
 [[nodiscard]] inline LiveLimits between(const LiveLimits &a, const LiveLimits &b,
                                         double share) noexcept {
     return {std::lerp(a.max_force_n, b.max_force_n, share),

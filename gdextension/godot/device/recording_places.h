@@ -1,4 +1,5 @@
-// One recording per file within this process: a second one would destroy the first.
+// Reserves a file for one recording of this process, since a second recording into it would destroy
+// the first.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ public:
     RecordingPlace(const RecordingPlace &) = delete;
     RecordingPlace &operator=(const RecordingPlace &) = delete;
 
-    // Returns false when another recording of this process writes to the file; owner_of(path) then
-    // names its owner.
+    // Reserves the file and releases the one reserved before. Returns false when the file is
+    // already reserved; owner_of(path) then returns its owner.
     bool take(const std::string &path, const std::string &owner);
     void release() noexcept;
     [[nodiscard]] static std::string owner_of(const std::string &path);

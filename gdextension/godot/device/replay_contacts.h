@@ -1,5 +1,5 @@
-// Contact ids in a replay. A snapshot identifies contacts by the ids of the recorded game, but a
-// game that runs again assigns new ids. The reports of a replay get the ids of the running game.
+// Replaces contact ids in a replay. A recorded snapshot identifies contacts by the ids of the
+// recorded game, but a game that runs again assigns new ids.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace spidar {
 
 class ReplayContacts {
 public:
-    // Called after each set of contacts that the game requests.
+    // Called whenever the running game has requested a set of contacts.
     void note(const HapticCommand &command) noexcept {
         Set &set = sets_[command.contacts_sequence % kSets];
         set.sequence = command.contacts_sequence;
@@ -22,8 +22,10 @@ public:
         }
     }
 
-    // The snapshot belongs to the set that was `sets_ago` sets old when the recorded game read it.
-    // A scene that repeats has requested the same contacts so many sets ago, in the same order.
+    // Gives the contacts in `snapshot` the ids of the running game's set that is `sets_ago` sets
+    // older than newest_sequence. This assumes that the running game has requested the same
+    // contacts in the same order. sets_ago: age of the snapshot's set when the recorded game read
+    // it. Changes nothing if that set is forgotten or has another number of contacts.
     void renumber(std::uint64_t newest_sequence, std::uint64_t sets_ago,
                   ServoSnapshot &snapshot) const noexcept {
         const std::uint64_t sequence = newest_sequence - sets_ago;
@@ -38,8 +40,7 @@ public:
     }
 
 private:
-    // Number of remembered sets. A game reads the newest cycle, whose contacts belong to its last
-    // tick or the one before.
+    // Number of remembered sets. Normally sets_ago is 0 or 1.
     static constexpr std::size_t kSets = 32;
     struct Set {
         std::uint64_t sequence = 0;

@@ -1,6 +1,6 @@
-// Shape ids in a replay. A snapshot identifies touched shapes by the ids of the recorded game, but
-// a game that runs again assigns new ids. Each recorded shape gets the id of the shape that now
-// stands at its place.
+// Replaces shape ids in a replay. A recorded snapshot identifies touched shapes by the ids of the
+// recorded game, but a game that runs again assigns new ids. Each recorded shape gets the id of a
+// similar shape that is now at the same place.
 #pragma once
 
 #include <array>
@@ -18,11 +18,12 @@ namespace spidar {
 
 class ReplayTouches {
 public:
-    // Takes the scene that the running game would have published.
+    // Stores the scene that the running game wants to publish; a replay does not publish it.
     void note(std::shared_ptr<const TouchScene> live) { live_ = std::move(live); }
     void forget() { live_.reset(); }
 
-    // recorded: the scene of the snapshot's report. A part without counterpart has id 0 (no shape).
+    // Gives the parts and points in `report` the ids of the stored scene. recorded: the scene that
+    // `report` belongs to. A part without a similar shape at its place gets id 0 (no shape).
     void renumber(const TouchScene &recorded, TouchReport &report) const noexcept {
         std::array<bool, kMaxSceneParts> used{};
         std::array<std::int32_t, kMaxSceneParts> numbers{};
@@ -46,9 +47,10 @@ public:
     }
 
 private:
-    // Largest distance of two corresponding parts: the scenes are one or two physics ticks apart.
+    // Two parts correspond only if they are closer than this: the scenes are one or two physics
+    // ticks apart.
     static constexpr double kApart_m = 0.03;
-    // Largest difference of the bounding boxes of two corresponding parts.
+    // Two parts correspond only if the corners of their bounding boxes differ by less than this.
     static constexpr double kSameSize_m = 1e-4;
 
     [[nodiscard]] std::int32_t number_of(const ScenePart &part,

@@ -1,5 +1,6 @@
-// Requests by owner. The device renders one wrench and one set of contacts, but a hand and several
-// scripts may request some. Each owner replaces only its own requests; the device gets the sum.
+// Keeps the requests of each owner (a hand or a script). The device renders one wrench and one set
+// of contacts, but several owners may request some. An owner replaces only its own requests. The
+// device gets the sum of all wrenches and the contacts of all owners.
 #pragma once
 
 #include <array>
@@ -13,35 +14,40 @@ namespace spidar {
 
 class RequestOwners {
 public:
-    // Forgets all owners. All times of this class are snapshot times (unit: s).
+    // Forgets all owners. All times in this class are ServoSnapshot::time_s (unit: s).
     void clear() noexcept { owners_.clear(); }
-    // wrench_fade_s: time over which a wrench fades after its duration. contacts_gone_s: age at
-    // which contacts are forgotten. Both equal those of the device.
+    // wrench_fade_s: time in which a wrench fades to zero after its duration. contacts_gone_s: age
+    // after which contacts are forgotten. Pass the values of the device's SafetySettings.
     void configure(double wrench_fade_s, double contacts_gone_s) noexcept {
         wrench_fade_s_ = wrench_fade_s;
         contacts_gone_s_ = contacts_gone_s;
     }
 
-    // Requires finite values and a duration in range; device frame.
+    // Replaces the owner's wrench (device frame). The caller must have checked that all values are
+    // finite and the duration is in range.
     void set_wrench(const std::string &owner, const Wrench &wrench, double duration_s,
                     double now_s);
-    // Writes the sum of all wrenches to `command`, at full strength for the longest time left.
+    // Writes the sum of all wrenches to `command`. Its duration is the longest time that one of
+    // them still has.
     void write_wrench(HapticCommand &command, double now_s);
-    // True while the sum changes by itself, because one of several wrenches ends or fades.
+    // True while write_wrench() must be called again, because one of several wrenches fades.
     [[nodiscard]] bool wrench_changes(double now_s) const noexcept;
 
-    // Returns how many contacts of the device the other owners leave to `owner`.
+    // Returns how many contacts `owner` may request: kMaxContacts minus those of all other owners.
     [[nodiscard]] int free_contacts(const std::string &owner, double now_s) const noexcept;
-    // Requires at most free_contacts(owner) planes. Each keeps the device id of its own id.
+    // Replaces the owner's contacts. Requires at most free_contacts(owner) planes. A plane whose id
+    // was in the owner's last set keeps its device id.
     void set_contacts(const std::string &owner, const ContactPlane *planes, int count,
                       double now_s);
-    // Writes the contacts of all owners into `command`, extrapolated to now_s by their velocities.
+    // Writes the contacts of all owners to `command`, extrapolated to now_s by their velocities.
     void write_contacts(HapticCommand &command, double now_s);
-    // Finds the owner's id of a device contact. Returns false when the contact is not the owner's.
+    // Sets `id` to the id that the owner uses for a contact of the device. Returns false when the
+    // contact is not the owner's.
     [[nodiscard]] bool id_of(const std::string &owner, std::int32_t device_id,
                              std::int32_t &id) const noexcept;
 
-    // Returns the present wrenches: "script: 2.0 N, SpidarGHand: 1.1 N".
+    // Returns a text on the present wrenches: "Hand requests 2.00 N, 0.010 N m, grasp 0.000 N m",
+    // separated by "; ".
     [[nodiscard]] std::string describe_wrenches(double now_s) const;
 
 private:
@@ -59,7 +65,7 @@ private:
         std::array<ContactPlane, kMaxContacts> planes{};
         int plane_count = 0;
         double planes_at_s = 0.0;
-        // Ids of this set and of the last one, since impulses come back a little later.
+        // Ids of this set and of earlier ones, since the device reports impulses a little later.
         std::vector<Numbered> numbers;
     };
     [[nodiscard]] Owner &owner_named(const std::string &name);

@@ -1,4 +1,4 @@
-// Information about serial motor boards and their ports for a game.
+// What SpidarG.get_device_info() and SpidarG.list_devices() return on serial motor boards.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace spidar {
 
-// Returns "B5M with id 1, B3M with id 2".
+// Returns the boards of an open transport, such as "B5M with id 1, B3M with id 2".
 [[nodiscard]] std::string serial_boards_text(const SerialTransport &transport);
-// Adds the fields of SpidarG.get_device_info() that only serial boards have.
+// Sets the fields of SpidarG.get_device_info() that serial boards have.
 void describe_serial(const SerialTransport &transport, double rate_hz, godot::Dictionary &info);
-// Appends an entry of SpidarG.list_devices() for each port of a USB bridge.
+// Appends an entry to the result of SpidarG.list_devices() for each serial port on USB.
 void list_serial_ports(godot::Array &list);
 
 } // namespace spidar

@@ -1,6 +1,6 @@
-// SpidarG: the node that owns a device. Opens it when the node enters a running tree, drives the
-// servo loop (in a thread, or by the physics tick), passes requests on and publishes snapshots. The
-// class reference is gdextension/doc_classes/SpidarG.xml.
+// SpidarG: the node that owns a device. It opens the device when it enters the tree of a running
+// game, runs the servo loop (in a thread, or by the physics tick), passes requests to the loop and
+// publishes its snapshots. The class reference is gdextension/doc_classes/SpidarG.xml.
 #pragma once
 
 #include <atomic>
@@ -64,7 +64,7 @@ public:
         CONTACT_GRASP_STOP,
         CONTACT_TURN_STOP
     };
-    // Axes of the node.
+    // Bits for the degrees of freedom along and about the axes of the node.
     enum DofMask {
         DOF_X = 1,
         DOF_Y = 2,
@@ -103,7 +103,7 @@ public:
     SpidarG();
     ~SpidarG() override;
 
-    // Set-up.
+    // Properties and warnings.
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
     [[nodiscard]] godot::Ref<SpidarGConfig> get_effective_config() const;
@@ -124,12 +124,12 @@ public:
         return _get_configuration_warnings();
     }
 
-    // Returns a message with the prefix of this node: "SpidarG "name": message".
+    // Returns the message after a prefix that names this node: SpidarG "name": message
     [[nodiscard]] godot::String named(const std::string &message) const;
-    // Reports a refused argument, by request_rejected and in the output.
+    // Reports a refused call, by the signal request_rejected and in the output.
     void refuse(const std::string &message) const;
 
-    // Device (spidar_g.cpp).
+    // Arming, faults and stepping (spidar_g.cpp).
     void arm();
     void disarm();
     void clear_fault();
@@ -178,14 +178,14 @@ public:
     [[nodiscard]] godot::PackedFloat64Array get_injected_energy() const;
 
     // For SpidarGHand, in C++ only: sets what the tool can touch and carry; null: nothing. Sets the
-    // scene's state_time_s. Ignored during a replay.
+    // scene's state_time_s. A replay uses the recorded scenes instead.
     void publish_touch(std::shared_ptr<spidar::TouchScene> touch);
-    // The newest snapshot of the device, device frame.
+    // The newest snapshot of the servo loop, in the device frame.
     [[nodiscard]] const spidar::ServoSnapshot &snapshot() const { return snapshot_; }
     [[nodiscard]] spidar::WorldFrame world() const;
     [[nodiscard]] const spidar::ServoSettings &servo_settings() const { return settings_; }
 
-    // State (spidar_g_state.cpp), in world coordinates.
+    // State (spidar_g_state.cpp). Poses, velocities and wrenches are in world coordinates.
     [[nodiscard]] State get_state() const;
     [[nodiscard]] godot::String get_state_text() const;
     [[nodiscard]] godot::String get_fault_text() const;
@@ -223,7 +223,7 @@ public:
     [[nodiscard]] bool is_replaying() const;
     [[nodiscard]] godot::Dictionary get_replay_statistics() const;
 
-    // Simulated device (spidar_g_simulated.cpp).
+    // Simulated device (spidar_g_simulated.cpp, spidar_g_device.cpp).
     bool set_simulated_hand_target(const godot::Transform3D &target, double grasp_angle);
     void set_simulated_hand_firmness(HandFirmness firmness);
     [[nodiscard]] godot::Dictionary get_simulated_truth() const;
@@ -233,7 +233,7 @@ public:
     bool set_simulated_buttons(int mask);
 
     void _notification(int what);
-    // Watches the project's panic key.
+    // Stops the device when an event of the project's panic key reaches the node.
     void _input(const godot::Ref<godot::InputEvent> &event) override;
 
 protected:
@@ -250,25 +250,25 @@ private:
     static void bind_enums();
 
     void resource_changed();
-    // Applies a changed config to the open device. Returns false when it must be opened again.
+    // Applies changed live fields to the open device. Returns false if it must be opened again.
     bool change_live(const std::string &problem);
     void want_limits(const spidar::LiveLimits &limits);
     void watch_latency();
     void move_limits(double dt_s);
     [[nodiscard]] std::uint64_t resources_revision() const;
-    // Reads the project's settings, which apply from the next opening on.
+    // Reads the project's settings. Called when the node enters the tree and opens a device.
     void read_project();
     // Reads config and calibration into settings_. Returns the problem (settings_ unchanged) or "".
     std::string read_resources();
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
-    // Returns why no device can have the node's transform, or an empty string.
+    // Returns a warning if the node is mirrored or scaled, else "". The device opens all the same.
     [[nodiscard]] std::string transform_problem() const;
     [[nodiscard]] bool may_run() const;
     void open_device();
     void open_replay();
     void close_device(const char *why);
     void forget_player();
-    // Returns null when there is none, with the reason.
+    // Returns the device that the config selects, or null with the reason.
     std::unique_ptr<spidar::Transport> choose_transport(spidar::Status &status,
                                                         std::string &problem);
     std::unique_ptr<spidar::Transport> simulated_transport(spidar::Status &status,
@@ -280,31 +280,33 @@ private:
         hid_ = nullptr;
         serial_ = nullptr;
     }
-    [[nodiscard]] bool looks_for_serial() const; // when no boards were found
+    [[nodiscard]] bool looks_for_serial() const; // if the config selects boards and has a thread
     void watch_serial_search();
     [[nodiscard]] spidar::HidTransportSettings hid_settings() const;
-    // Sets the strings of the opened device. home_counts: its counts at the home pose.
+    // Sets settings_.strings for the opened device. home_counts: its counts at the home pose.
     void use_strings(const spidar::CountArray &home_counts, double metres_per_count);
     void emit_buttons(std::uint8_t before);
     // Ignores buttons that were down when the device opened, until they are released.
     void mask_buttons(const spidar::ServoSnapshot &before);
     void refuse_to_open(spidar::Status status, const std::string &message);
-    // Reports a device that did not open. again: a later try, which reports only a new problem.
+    // Reports a device that did not open. again: true for a later try, which reports a problem only
+    // if it differs from that of the try before.
     void refuse_device(spidar::Status status, const std::string &message, bool again);
     void physics_tick();
-    // Called at the end of a physics tick: stores where the next physics step sees the node.
+    // Called deferred in each physics tick: passes the node's pose to motion_.
     void note_place();
-    // Returns the plane with its velocities relative to the moving node.
+    // Returns the plane with its velocity relative to the moving node.
     [[nodiscard]] spidar::ContactPlane seen_from_node(spidar::ContactPlane plane) const;
-    // Takes the newest snapshot and emits its signals. recorded: the read repeated in a replay.
+    // Takes the newest snapshot and emits its signals. recorded: in a replay, the recorded game's
+    // read that this call repeats.
     void pull_snapshot(bool physics_tick, const spidar::GameRead *recorded = nullptr);
-    // Takes one tick of a replay: repeats the reads of the recorded game since its last tick.
+    // Replays one physics tick: repeats the recorded game's reads up to its next physics tick.
     void replay_tick();
     void emit_edges(const spidar::ServoSnapshot &before, const godot::String &reason);
     void emit_events();
     void tell(const spidar::DeviceEvent &event);
     [[nodiscard]] godot::Dictionary describe_event(const spidar::DeviceEvent &event);
-    [[nodiscard]] std::string limited_request() const; // who requested how much
+    [[nodiscard]] std::string limited_request() const; // owners and their wrenches, or the gain
     void tell_limited(const spidar::ServoSnapshot &before);
     void beat();
     void follow_grasp_action();
@@ -312,16 +314,16 @@ private:
     void set_away(bool away);
     void publish_wrench();
     void publish_contacts();
-    // Looks for devices that are plugged in later; those already tried are skipped.
+    // Starts the search for a device that is plugged in later, if the config wants one.
     void watch_for_devices();
     void tell_choice(const std::string &reason);
     [[nodiscard]] std::string why_simulated() const;
     void watch_panic_key(bool watch);
     void poll_panic_key();
     void publish_forces();
-    // The only function that changes loop_, which panic_stop() may use from another thread.
+    // Only this function changes loop_, which panic_stop() may use from another thread.
     void change_loop(std::unique_ptr<spidar::ServoLoop> loop);
-    // Ends recordings that cannot continue and replays at their end.
+    // Stops a recording that has failed, and emits replay_finished at the end of a replay.
     void watch_recordings();
     void tell_recording_failed();
     bool reject(const std::string &message);
@@ -330,14 +332,14 @@ private:
     [[nodiscard]] std::string name_for_messages() const;
 
     godot::Ref<SpidarGConfig> config_;
-    // Used when config_ is null: the project's, or the paper's device.
+    // Used when config_ is null: the project's default config, or that of the paper's device.
     godot::Ref<SpidarGConfig> default_config_;
-    spidar::ProjectOptions options_; // read when the device was opened
+    spidar::ProjectOptions options_; // see read_project()
     godot::Ref<SpidarGCalibration> calibration_;
     bool enabled_ = true;
     DriveMode drive_mode_ = DRIVE_THREADED;
     double workspace_scale_ = 1.0;
-    // Replaces a transform that cannot be used.
+    // The last usable frame of the node, used while its transform is not usable.
     mutable spidar::WorldFrame last_world_;
     mutable bool world_told_ = false;
     mutable int mirrored_axis_ = -1; // of a mirrored node
@@ -345,20 +347,20 @@ private:
 
     spidar::ServoSettings settings_;
     spidar::PlantSettings plant_;
-    std::string problem_;              // why the device is not open
+    std::string problem_;              // why the device is not or cannot be opened
     std::string problem_when_refused_; // reason of the last failed try to open a real device
-    bool trying_again_ = false;        // the next opening is such a try
+    bool trying_again_ = false;        // the next opening is a later try, see refuse_device()
     bool restart_pending_ = false;
     bool forces_wanted_ = false;
     bool release_on_focus_loss_ = true;
     bool is_connected_told_ = false;
-    std::uint8_t stale_buttons_ = 0; // down since before the device opened
+    std::uint8_t stale_buttons_ = 0; // bits of buttons that are down since before the opening
     bool panic_key_down_ = false;
     std::atomic<bool> panicked_{false}; // set by panic_stop(), cleared by clear_fault()
     bool waits_for_arm_ = false;        // after a panic: a device that opens does not arm itself
     std::mutex loop_guard_;             // guards the pointer loop_ for panic_stop()
     bool away_ = false;                 // the application is in the background
-    double limited_told_s_ = -1.0;      // snapshot time
+    double limited_told_s_ = -1.0;      // snapshot time of the last request_limited; -1: none
     bool stall_told_ = false;           // a stalled loop was reported
     spidar::DeviceClaim claim_;
     std::unique_ptr<spidar::ServoLoop> loop_;
@@ -366,7 +368,7 @@ private:
     spidar::SerialTransport *serial_ = nullptr;             // owned by loop_
     std::unique_ptr<spidar::SerialSearch> serial_search_;   // while the boards are not found
     std::unique_ptr<spidar::SerialTransport> found_serial_; // until the device opens
-    std::vector<spidar::HidDeviceInfo> tried_;              // plugged in when the device was chosen
+    std::vector<spidar::HidDeviceInfo> tried_;              // plugged in at the last opening
     std::string fallback_;                                  // why the simulated device is used
     spidar::SimulatedTransport *simulated_ = nullptr;       // owned by loop_
     std::string replay_path_;          // played instead of a device, unless empty
@@ -378,12 +380,12 @@ private:
     spidar::RecordingPlace recording_place_;
     spidar::RequestOwners requests_;
     std::uint64_t opened_revision_ = 0; // revision of config and calibration when the device opened
-    spidar::LiveLimits limits_from_;    // limits move smoothly from here
-    spidar::LiveLimits limits_wanted_;  // to here
-    double limits_share_ = 1.0;         // progress, 0..1
+    spidar::LiveLimits limits_from_;    // the limits move smoothly from these
+    spidar::LiveLimits limits_wanted_;  // to these
+    double limits_share_ = 1.0;         // share of that way that is done, 0 to 1
     spidar::HapticCommand command_;
     spidar::Coupling coupling_gains_;                         // for the next set_coupling()
-    std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot time
+    std::array<double, spidar::kMaxEffects> effect_ends_s_{}; // snapshot times
     spidar::ServoSnapshot snapshot_;
     double earlier_time_s_ = 0.0; // device time of earlier loops
 };

@@ -1,6 +1,6 @@
-// Device time between a hand's physics ticks. Forces, impulses and velocities refer to device time.
-// It continues when Engine.time_scale slows the game, and does not change between physics ticks
-// that share a drawn frame.
+// Measures the device time between a hand's physics ticks, to which forces, impulses and velocities
+// refer. Device time continues at full speed when Engine.time_scale slows the game. Of physics
+// ticks that share a drawn frame, only the first one gets a new interval.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace spidar {
 
 class DeviceClock {
 public:
-    // Called once per physics tick of tick_s. now_s: device time.
+    // Called once per physics tick. now_s: device time. tick_s: length of a physics tick.
     void read(double now_s, double tick_s) noexcept {
         if (!known_) {
             read_s_ = now_s;
@@ -25,8 +25,8 @@ public:
         read_s_ = now_s;
         apart_s_ = elapsed_s_;
     }
-    // Device time between the pose of this tick and the last one that was read (unit: s). 0: the
-    // pose is the same.
+    // Device time between this tick and the last one with a new interval (unit: s). 0: the pose of
+    // this tick counts as the same as before.
     [[nodiscard]] double elapsed_s() const noexcept { return elapsed_s_; }
 
 private:
@@ -34,7 +34,7 @@ private:
     // or of a physics tick. Ticks that share a drawn frame are milliseconds apart, and differences
     // over so short a time are mostly noise.
     static constexpr double kLeastPart = 0.5;
-    // Longest interval (unit: s): the device fades older scenes.
+    // Longest interval to which kLeastPart refers (unit: s): the device fades older scenes.
     static constexpr double kLongest_s = 0.1;
 
     bool known_ = false;

@@ -1,6 +1,6 @@
-// Lines in the scene for debugging a hand: shapes in reach, contacts with their forces, the tool's
-// proxy and the device. Lines have the same width on the screen at any distance; hidden parts are
-// drawn pale. Main thread only.
+// Draws lines into the scene for debugging a hand: shapes in reach, contacts with their forces, and
+// the tool at the proxy's and at the device's pose. A line has the same width on the screen at any
+// distance; parts behind other objects are pale. Main thread only.
 #pragma once
 
 #include <vector>
@@ -31,26 +31,26 @@ struct HandPicture {
     ToolPose device;
     Jaws jaws;
     const std::vector<HeldShapes::Part> &held; // empty while nothing is held
-    Placement in_grip;                         // of the held body
+    Placement in_grip;                         // pose of the held body in the grip
 };
 
 class HandDrawing {
 public:
-    // Draws into a mesh, an internal child of `hand` that is created when missing.
+    // Draws into a mesh on an internal child of `hand`, which the first call creates.
     void draw(godot::Node3D &hand, const HandPicture &picture);
     void hide();
 
 private:
-    // Look of lines.
     struct Pen {
         godot::Color color;
-        double width_px; // up to a screen height of 720 pixels; proportional above
+        // Width at a viewport height of at most 720 pixels; proportional to a larger height.
+        double width_px;
     };
 
     void prepare(godot::Node3D &hand);
     void line(const Vec3 &from_m, const Vec3 &to_m, const Pen &pen);
     void lines(const Placement &at, const std::vector<Vec3> &ends_m, const Pen &pen);
-    void ring(const Placement &at, double radius_m, const Pen &pen); // about its x axis
+    void ring(const Placement &at, double radius_m, const Pen &pen); // about the x axis of `at`
     void arrow(const Vec3 &from_m, const Vec3 &along_m, const Pen &pen);
     void shapes(const HandPicture &picture);
     void tool(const ToolPose &pose, const Jaws &jaws, const Pen &pen);
@@ -65,7 +65,7 @@ private:
 
     godot::MeshInstance3D *instance_ = nullptr; // owned by the hand
     godot::Ref<godot::ImmediateMesh> mesh_;
-    std::vector<Vec3> ends_m_; // of one outline
+    std::vector<Vec3> ends_m_; // ends of the lines of one outline
     WorldFrame frame_;
     bool shown_ = false;
 };

@@ -1,5 +1,5 @@
-// Decides where in the scene a hand acts: under a SpidarG, as the first hand there. Elsewhere it
-// reports why the hand does not act.
+// Decides whether a hand acts. It acts as the first SpidarGHand under a SpidarG, in the main
+// thread. Otherwise a warning says why not.
 #pragma once
 
 #include <godot_cpp/variant/packed_string_array.hpp>
@@ -13,9 +13,11 @@ public:
     // Returns the warnings for the editor.
     [[nodiscard]] static godot::PackedStringArray warnings(const SpidarGHand &hand);
 
-    // Called in a running scene when the hand gets a new parent.
+    // Called when the hand enters the scene tree. Warns in a running scene if the parent is no
+    // SpidarG.
     void entered(const SpidarGHand &hand);
-    // Called in each physics frame under a device. Reports once what keeps the hand from acting.
+    // Called in each physics tick of a hand under a SpidarG. Returns whether the hand acts. Warns
+    // in the first tick in which it does not.
     [[nodiscard]] bool may_act(const SpidarGHand &hand);
 
 private:

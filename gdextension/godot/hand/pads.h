@@ -8,11 +8,11 @@
 
 namespace spidar {
 
-// Radius in proportion to the open jaws: jaws of 80 mm have pads 24 mm across.
+// The radius is proportional to the opening of the jaws: an opening of 80 mm has pads 24 mm across.
 [[nodiscard]] inline double pad_radius_m(const Jaws &jaws) noexcept {
     return 0.15 * jaws.open_m;
 }
-// Thickness in proportion to the open jaws: 6 mm for jaws of 80 mm.
+// The thickness is proportional to the opening of the jaws: 6 mm for an opening of 80 mm.
 [[nodiscard]] inline double pad_thickness_m(const Jaws &jaws) noexcept {
     return 0.075 * jaws.open_m;
 }
@@ -21,14 +21,15 @@ class Pads {
 public:
     Pads() { fit(Jaws()); }
 
-    // Makes the pads' shape again when the jaws have changed.
+    // Makes the pads' shape again if jaws.open_m has changed.
     void fit(const Jaws &jaws);
     [[nodiscard]] const std::shared_ptr<const ToolShape> &shape() const noexcept { return shape_; }
 
     // Returns the tool that consists of the pads only.
     [[nodiscard]] Tool tool(const Jaws &jaws) const noexcept;
 
-    // Frame of a pad's inner face, x outward from its center. Side 0 lies at -x of the grip.
+    // Returns the frame at the center of a pad's inner face; x points into the pad. Side 0 is the
+    // pad at -x of the grip.
     [[nodiscard]] static Placement face(int side, const Jaws &jaws, const ToolPose &pose) noexcept;
 
 private:

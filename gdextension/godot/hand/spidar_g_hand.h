@@ -1,7 +1,7 @@
-// SpidarGHand: the tool of a SPIDAR-G in a scene, two finger pads that touch, grasp and carry. Each
-// physics tick it reads the device's report on the last scene, decides what is held, and publishes
-// the shapes near the tool, which the servo loop renders. Main thread only. The class reference is
-// gdextension/doc_classes/SpidarGHand.xml.
+// SpidarGHand: the tool of a SPIDAR-G in a scene, two finger pads that touch, grasp and carry. In
+// each physics tick it reads the servo loop's report on an earlier scene, decides what is held, and
+// publishes the shapes near the tool, which the servo loop renders. Main thread only. The class
+// reference is gdextension/doc_classes/SpidarGHand.xml.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@
 #include "godot/hand/surface_news.h"
 #include "godot/hand/touch_scenes.h"
 
-// A number with setter and getter. A value outside of the range is refused with an error.
+// A number with setter and getter. The setter refuses a value outside m_least to m_most.
 #define SPIDAR_G_HAND_NUMBER(m_name, m_default, m_least, m_most, m_unit)                           \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \
@@ -64,7 +64,7 @@ class SpidarGHand : public godot::Node3D {
     GDCLASS(SpidarGHand, godot::Node3D)
     SPIDAR_G_CHECKED_CALLS
 
-    // Accepted ranges. The sliders of the inspector span less; a larger value can be typed.
+    // Name, default, smallest and largest accepted value, unit.
     SPIDAR_G_HAND_NUMBER(contact_margin, 0.04, 0.001, 1.0, "m");
     SPIDAR_G_HAND_NUMBER(contact_stiffness, 0.0, 0.0, 1.0e4, "N/m");
     SPIDAR_G_HAND_NUMBER(contact_damping, 2.0, 0.0, 100.0, "N s/m");
@@ -85,10 +85,10 @@ public:
     void set_debug_draw(bool wanted);
     [[nodiscard]] bool is_debug_draw() const { return debug_draw_; }
 
-    // Reports an argument of the wrong type in the output.
+    // Reports a refused value or argument in the output.
     void refuse(const std::string &message) const;
 
-    // The held body.
+    // The device and the held body.
     [[nodiscard]] SpidarG *get_spidar() const { return spidar_; }
     [[nodiscard]] godot::RigidBody3D *get_held_body() const { return hold_.body(); }
     [[nodiscard]] double get_held_width() const;
@@ -100,13 +100,13 @@ public:
     void detain(const godot::Transform3D &seat);
     void release();
 
-    // Where the tool is shown.
+    // Poses of the shown tool, in world coordinates.
     [[nodiscard]] godot::Transform3D get_proxy_transform() const;
     [[nodiscard]] godot::Transform3D get_pad_transform(int side) const;
     [[nodiscard]] godot::Vector3 get_pad_position(int side) const;
     [[nodiscard]] double get_pad_radius() const;
 
-    // What it touches.
+    // What the tool can touch and touches.
     [[nodiscard]] godot::Array get_shapes_in_reach() const;
     [[nodiscard]] godot::Array get_touch_points() const;
     [[nodiscard]] godot::Dictionary get_touch_statistics() const;
@@ -125,11 +125,11 @@ protected:
 
 private:
     static void bind_properties();
-    // Returns `value`, or `old` with an error when `value` makes no sense.
+    // Returns `value`, or `old` with an error when `value` is not between `least` and `most`.
     [[nodiscard]] double checked_number(const char *name, double value, double old, double least,
                                         double most, const char *unit) const;
 
-    // Parts of a tick, in this order (spidar_g_hand_tick.cpp).
+    // Steps of a physics tick (spidar_g_hand_tick.cpp).
     void read_device(double since_s);
     void watch_pinch(double since_s);
     void watch_hold();
@@ -137,7 +137,8 @@ private:
     void attach(godot::RigidBody3D &body);
     void carry(double delta_s);
     void push_bodies(double since_s);
-    // Returns the held body's target. mine: by this hand alone; other hands may hold it too.
+    // Returns the held body's target: the mean of `mine`, this hand's own target, and those of the
+    // other hands that hold the body.
     [[nodiscard]] godot::Transform3D agree_on(const godot::Transform3D &mine);
     void add_joints(spidar::Tool &tool);
     void remember_place();
@@ -158,9 +159,10 @@ private:
 
     [[nodiscard]] spidar::Jaws jaws() const;
     [[nodiscard]] spidar::ToolPose device_pose() const;
-    // Pose of the shown tool, device frame: outside all surfaces.
+    // Pose of the proxy, which stops at surfaces, in the device frame. Without a scene: the
+    // device's pose.
     [[nodiscard]] spidar::ToolPose proxy_pose() const;
-    // Pose of the shown tool in the world, with what it holds.
+    // Pose of the shown tool in the world: at the held body, else at the proxy.
     [[nodiscard]] godot::Transform3D shown_grip() const;
     [[nodiscard]] bool is_open() const;
     [[nodiscard]] const spidar::WorldFrame &stepped() const { return stepped_ ? *stepped_ : now_; }
@@ -180,8 +182,8 @@ private:
     spidar::SurfaceNews news_;
 
     spidar::Pinch pinch_;
-    double pinch_age_s_ = 0.0; // time since both pads lay on the body
-    double resting_s_ = 0.0;   // time for which the width has rested
+    double pinch_age_s_ = 0.0; // time since the pads last pressed a body
+    double resting_s_ = 0.0;   // time for which the pinched width has hardly changed
     double squeeze_nm_ = 0.0;
     spidar::GraspJudge judge_;
 
@@ -199,7 +201,7 @@ private:
     enum class Published { nothing, empty, scene };
     Published published_ = Published::nothing;
     spidar::Jaws published_jaws_;
-    spidar::HeldLoad::Pull pull_; // in the last scene
+    spidar::HeldLoad::Pull pull_; // as published in the last scene
     struct HeldFeel {
         double weight_n = 0.0;
         double width_m = 0.0;

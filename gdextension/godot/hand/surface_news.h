@@ -1,4 +1,5 @@
-// Notifies SpidarGSurface of bodies that hand or held body touches. Main thread only.
+// Calls SpidarGSurface::note() for each body with a surface that the hand or its held body touches.
+// Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,10 @@ namespace spidar {
 
 class SurfaceNews {
 public:
-    // Called once per physics tick. frame: of the device's node.
+    // Called once per physics tick. frame: the WorldFrame of the device's node.
     void tell(const TouchReport &report, const TouchedBodies &bodies, const WorldFrame &frame,
               godot::Object &hand);
-    // The hand touches nothing from now on.
+    // Ends all touches of this hand.
     void clear(godot::Object &hand);
 
 private:

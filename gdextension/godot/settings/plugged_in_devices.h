@@ -1,4 +1,4 @@
-// The devices that can be chosen now.
+// Lists the plugged-in devices, for SpidarG.list_devices() and for suggestions in the inspector.
 #pragma once
 
 #include <string>
@@ -8,12 +8,11 @@
 
 namespace spidar {
 
-// Returns all devices with the usage page and product name of a SPIDAR-G. The list is at most a
-// second old, since listing takes many milliseconds. For the main thread.
+// Returns the HID devices that match a default HidDeviceFilter. The list may be up to a second old,
+// since listing takes many milliseconds. Call it from the main thread only.
 [[nodiscard]] const std::vector<HidDeviceInfo> &plugged_in_devices();
 
-// Returns the paths of all serial ports, separated by commas, those of USB bridges first:
-// suggestions of the inspector.
+// Returns the paths of list_serial_ports(), separated by commas.
 [[nodiscard]] std::string names_of_serial_ports();
 
 } // namespace spidar

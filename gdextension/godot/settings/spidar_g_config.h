@@ -1,4 +1,4 @@
-// SpidarGConfig: what a device is and how it is driven, as a resource shared between scenes.
+// SpidarGConfig: a resource that describes a device and how it is driven.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@
 #include "device/simulation/simulated_plant.h"
 #include "godot/base/resource_field.h"
 
-// Value of SpidarGConfig.preset for a crossed grip in a box of chosen sizes. Higher values are the
-// devices of core/presets/presets.h.
+// Value of SpidarGConfig.preset for a crossed grip whose sizes frame_size and pole_half_length
+// give. Value k above 0 is the k-th device of core/presets/presets.h.
 inline constexpr int kPresetCustom = 0;
 
 class SpidarGConfig : public godot::Resource {
@@ -40,7 +40,7 @@ public:
     SPIDAR_G_FIELD(double, pole_half_length, spidar::kPaperPoleHalfLength_m);
     SPIDAR_G_ARRAY_FIELD(godot::String, device_name);
 
-    // Selection of the device. A number of 0 and an empty serial match any device.
+    // Selection of the device. A number of 0 and an empty serial accept every device.
     SPIDAR_G_FIELD(int, transport, TRANSPORT_AUTOMATIC);
     SPIDAR_G_FIELD(godot::String, device_product, "SPIDAR-G");
     SPIDAR_G_ARRAY_FIELD(godot::String, device_serial);
@@ -48,7 +48,7 @@ public:
     SPIDAR_G_FIELD(int, device_product_id, 0);
     // Serial motor boards.
     SPIDAR_G_ARRAY_FIELD(godot::String, serial_port);
-    // Four numbers per string, or none.
+    // For each string: board, motor, sign of the counts, sign of the current. Empty: in order.
     SPIDAR_G_ARRAY_FIELD(godot::PackedInt32Array, serial_motors);
     SPIDAR_G_FIELD(double, serial_units_per_ampere, 0.0); // 0: the preset's value
     SPIDAR_G_FIELD(int, serial_most_units, spidar::SerialTransportSettings{}.most_units);
@@ -87,7 +87,7 @@ public:
     SPIDAR_G_LIVE_FIELD(double, max_moment, spidar::SafetySettings{}.max_moment_nm);
     SPIDAR_G_LIVE_FIELD(double, max_grasp_torque, spidar::SafetySettings{}.max_grasp_torque_nm);
 
-    // Grasp. Radians in code, degrees in the inspector.
+    // Grasp. Angles are in radians here and in degrees in the inspector.
     SPIDAR_G_FIELD(double, grasp_enter_angle, spidar::GraspSettings{}.enter_rad);
     SPIDAR_G_FIELD(double, grasp_leave_angle, spidar::GraspSettings{}.leave_rad);
     SPIDAR_G_FIELD(double, over_closed_angle, spidar::GraspSettings{}.over_closed_rad);
@@ -96,7 +96,7 @@ public:
     SPIDAR_G_LIVE_FIELD(double, jaw_open, 0.08);
     SPIDAR_G_LIVE_FIELD(double, jaw_closed_angle, 50.0 * spidar::kDegree_rad);
 
-    // Fingers of a rigid grip. The sensor values are those of open and of closed fingers.
+    // Fingers of a rigid grip. grasp_sensor_open and grasp_sensor_closed: readings of the sensor.
     SPIDAR_G_FIELD(int, grasp_source, GRASP_AUTOMATIC);
     SPIDAR_G_FIELD(int, grasp_button, -1);
     SPIDAR_G_FIELD(godot::String, grasp_action, "spidar_g_grasp");
@@ -111,20 +111,21 @@ public:
     SPIDAR_G_FIELD(double, simulated_friction, spidar::PlantSettings{}.coulomb_friction_n);
     SPIDAR_G_LIVE_FIELD(int, simulated_hand_firmness,
                         static_cast<int>(spidar::HandFirmness::normal));
-    // Errors that a calibration has to find: 8 values, or none.
+    // Errors of the simulated device, which a calibration measures: 8 values, or none.
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_offset_errors); // m
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_gain_errors);   // relative
     SPIDAR_G_ARRAY_FIELD(godot::PackedFloat64Array, simulated_tension_gains); // real / commanded
 
 public:
-    // Returns an empty string when usable, else one sentence with field, value, unit and remedy.
+    // Returns an empty string when the config is usable, else one sentence with field, value, unit
+    // and remedy.
     [[nodiscard]] godot::String get_problem() const;
-    // Size of the device's frame: the preset's, or frame_size (unit: m).
+    // Returns the size of the preset's frame, or frame_size if the preset is Custom (unit: m).
     [[nodiscard]] godot::Vector3 get_effective_frame_size() const;
-    // Pole half length of the device: the preset's, or pole_half_length (unit: m).
+    // Returns the pole half length of the preset, or pole_half_length if it is Custom (unit: m).
     [[nodiscard]] double get_effective_pole_half_length() const;
     [[nodiscard]] bool has_rigid_grip() const;
-    // Reports whether the strings of this frame and grip can hold and move the grip
+    // Returns whether the strings of this frame and grip can hold and move the grip, and why not
     // (core/analysis/geometry_report.h).
     [[nodiscard]] godot::Dictionary check_geometry() const;
 
@@ -134,28 +135,29 @@ public:
     // Returns the settings of the servo loop without the calibration.
     [[nodiscard]] spidar::ServoSettings servo_settings() const;
     [[nodiscard]] spidar::PlantSettings plant_settings() const;
-    // Returns the filter that selects the device.
+    // Returns the filter that selects the USB device.
     [[nodiscard]] spidar::HidDeviceFilter hid_filter() const;
-    // Returns port, motors and units. The guard's path stays empty: beside the library.
+    // Returns port, motors and units. The guard's path stays empty: guard_beside_library().
     [[nodiscard]] spidar::SerialTransportSettings serial_settings() const;
-    // Returns how far grasp_action is pressed, 0..1; 0 when it is not used.
+    // Returns how far grasp_action is pressed, 0 to 1; 0 if the fingers do not follow the action.
     [[nodiscard]] double grasp_action_strength() const;
     // Puts "SpidarGConfig." before a problem that begins with the name of the setting serial_port.
     [[nodiscard]] static std::string told_of(const std::string &problem);
-    // Returns the first problem that only this resource checks; ServoSettings checks the rest.
+    // Returns the first problem that only this resource checks. validate() of ServoSettings and of
+    // PlantSettings check the rest.
     [[nodiscard]] std::string own_problem() const;
 
-    // Returns the jaw opening (unit: device m): linear from jaw_open at angle 0 to 0 at
-    // jaw_closed_angle.
+    // Returns the jaw opening (unit: device m). It falls linearly from jaw_open at angle 0 to 0 at
+    // jaw_closed_angle and stays 0 beyond.
     [[nodiscard]] double jaw_gap(double grasp_angle_rad) const;
-    // Inverse of jaw_gap().
+    // Inverse of jaw_gap() where that is above 0.
     [[nodiscard]] double grasp_angle_for_gap(double gap_m) const;
 
-    // Suggests the serial numbers of plugged-in devices in the editor.
+    // In the editor, adds suggestions for device_serial and serial_port: what is plugged in.
     void _validate_property(godot::PropertyInfo &property) const;
 
 private:
-    // Returns the device of a preset other than Custom; the paper's device when out of range.
+    // Returns the device of preset_, which must not be Custom.
     [[nodiscard]] spidar::DevicePreset preset_device() const;
     [[nodiscard]] std::string serial_problem() const;
     [[nodiscard]] std::string grasp_problem() const;

@@ -1,4 +1,5 @@
-// A texture of Godot as the relief of a surface (device/contact/relief/relief_map.h). Main thread only.
+// Turns a texture of Godot into the relief of a surface (device/contact/relief/relief_map.h). Main
+// thread only.
 #pragma once
 
 #include <memory>
@@ -12,8 +13,9 @@ class Texture2D;
 
 namespace spidar {
 
-// The luminance of each pixel as its height. An image of more than 512 pixels along a side is scaled down to that. Null, with
-// an empty problem, while the texture has no image yet; problem: why the image cannot be used and what to do.
+// Returns a shape whose heights are the luminances of the pixels, 0 to 1. An image with more than
+// 512 pixels along a side is scaled down to 512. Returns null while the texture has no image yet.
+// Returns null with a sentence in `problem` if the image cannot be used.
 [[nodiscard]] std::shared_ptr<const CookedShape> relief_of(const godot::Texture2D &texture,
                                                            std::string &problem);
 

@@ -1,6 +1,6 @@
-// SpidarGMaterial: properties of a surface. Values that are not set come from the body's
-// PhysicsMaterial, the project's default material or the hand, in the order of
-// docs/reference/surfaces.md. The class reference is gdextension/doc_classes/SpidarGMaterial.xml.
+// SpidarGMaterial: how a surface feels. Where other values come from if this material does not set
+// them, docs/reference/surfaces.md says. The class reference is
+// gdextension/doc_classes/SpidarGMaterial.xml.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,8 @@
 #include "device/contact/proxy/surface_traits.h"
 #include "godot/base/strict.h"
 
-// Number with setter and getter. A value out of range is refused; the old value stays.
+// A number with setter and getter. The setter refuses a value outside m_least to m_most, and the
+// old value stays.
 #define SPIDAR_G_MATERIAL_NUMBER(m_name, m_default, m_least, m_most, m_unit)                       \
 public:                                                                                            \
     void set_##m_name(double p_value) {                                                            \
@@ -31,11 +32,11 @@ class SpidarGMaterial : public godot::Resource {
     GDCLASS(SpidarGMaterial, godot::Resource)
     SPIDAR_G_CHECKED_CALLS
 
-    // 0: the hand's value applies.
+    // In these three, 0 means that this material sets no value.
     SPIDAR_G_MATERIAL_NUMBER(stiffness, 0.0, 0.0, 1.0e4, "N/m");
     SPIDAR_G_MATERIAL_NUMBER(damping, 0.0, 0.0, 100.0, "N s/m");
     SPIDAR_G_MATERIAL_NUMBER(squeeze_stiffness, 0.0, 0.0, 10.0, "N m/rad");
-    // kNotSaid: not set.
+    // In the two frictions, kNotSaid means that this material sets no value.
     SPIDAR_G_MATERIAL_NUMBER(dynamic_friction, kNotSaid, kNotSaid, 10.0, "");
     SPIDAR_G_MATERIAL_NUMBER(static_friction, kNotSaid, kNotSaid, 10.0, "");
     SPIDAR_G_MATERIAL_NUMBER(adhesion, 0.0, 0.0, 20.0, "N");
@@ -52,18 +53,19 @@ public:
     void set_texture_direction(const godot::Vector3 &direction);
     [[nodiscard]] godot::Vector3 get_texture_direction() const { return texture_direction_; }
 
-    // The brightness of the image is the height. Null: grooves or pits.
+    // The luminance of each pixel is a height. Null: the texture has grooves or pits.
     void set_texture_image(const godot::Ref<godot::Texture2D> &image);
     [[nodiscard]] godot::Ref<godot::Texture2D> get_texture_image() const { return texture_image_; }
-    // Returns the image as a shape of kind relief; null without an image, or while the texture has
-    // none yet (NoiseTexture2D). traits() points at it. It is made anew when the texture changes.
+    // Returns the image as a shape of kind relief. Null without an image, with one that cannot be
+    // used, or while the texture has none yet (NoiseTexture2D). The result of traits() points at
+    // this shape. A changed texture makes a new shape.
     [[nodiscard]] std::shared_ptr<const spidar::CookedShape> relief() const;
 
-    // Returns the traits: lengths in scene meters, directions in the body's frame. static_friction
-    // is set when the material sets one.
+    // Returns static friction (0: not set), stick-slip, adhesion, magnet and texture. Lengths are
+    // in scene meters, directions in the body's frame.
     [[nodiscard]] spidar::SurfaceTraits traits() const;
 
-    // Reports a value of the wrong type or without sense; the property keeps its old value.
+    // Reports a refused value in the output; the property keeps its old value.
     void refuse(const std::string &message) const;
 
 protected:
@@ -78,7 +80,7 @@ private:
     bool stick_slip_ = false;
     godot::Vector3 texture_direction_;
     godot::Ref<godot::Texture2D> texture_image_;
-    // Made when it is first needed.
+    // Result of relief(), which makes the shape when it is first needed.
     mutable std::shared_ptr<const spidar::CookedShape> relief_;
     mutable bool relief_is_known_ = false;
 };

@@ -1,5 +1,5 @@
-// SpidarGSurface: gives its parent body a SpidarGMaterial, and emits signals when a hand touches
-// the body and slips on it. Main thread only. The class reference is
+// SpidarGSurface: gives its parent body a SpidarGMaterial, and emits signals when a hand begins and
+// ends to touch the body or to slip on it. Main thread only. The class reference is
 // gdextension/doc_classes/SpidarGSurface.xml.
 #pragma once
 
@@ -22,24 +22,24 @@ public:
     // Contact of a hand with the body in one physics tick.
     struct Touch {
         double force_n = 0.0;
-        double slip_m_s = 0.0; // device m/s; 0: it does not slip
+        double slip_m_s = 0.0; // device m/s; 0: the hand does not slip
         godot::Vector3 point;  // world coordinates
     };
 
-    // Returns the surface of a body by the body's instance id; null when it has none.
+    // Returns the surface of the body with this instance id; null when the body has none.
     [[nodiscard]] static SpidarGSurface *of(std::uint64_t body);
 
     void set_material(const godot::Ref<SpidarGMaterial> &material);
     [[nodiscard]] godot::Ref<SpidarGMaterial> get_material() const { return material_; }
 
     // Called once per physics tick by each hand that touches the body, and once with zero force by
-    // a hand that left it. Emits the signals of what changed.
+    // a hand that no longer does. Emits the signals for what changed since the last call.
     void note(godot::Object &hand, const Touch &touch);
 
     [[nodiscard]] bool is_touched() const { return !touches_.empty(); }
-    // Sum of the forces of all hands.
+    // Returns the sum of Touch::force_n over all hands.
     [[nodiscard]] double get_touch_force() const;
-    // Largest slip speed of all hands.
+    // Returns the largest Touch::slip_m_s of all hands.
     [[nodiscard]] double get_slip_speed() const;
 
     void refuse(const std::string &message) const;

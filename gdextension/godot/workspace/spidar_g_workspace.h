@@ -1,6 +1,6 @@
-// SpidarGWorkspace: what the strings of a device can hold and exert at any pose of the grip. Opens
-// no device. Used by the editor's 3D view and by games that plan ahead. Device frame: SI units,
-// origin at the frame's center.
+// SpidarGWorkspace: computes which wrenches the strings of a device can exert at any pose of the
+// grip, without opening a device. Used by the editor's 3D view; games may use it too. All values
+// are in the device frame: SI units, origin at the frame's center.
 // The class reference is gdextension/doc_classes/SpidarGWorkspace.xml.
 #pragma once
 
@@ -26,7 +26,7 @@ class SpidarGWorkspace : public godot::RefCounted {
 public:
     SpidarGWorkspace();
 
-    // Reports an argument of the wrong type in the output.
+    // Reports a refused argument in the output.
     void refuse(const std::string &message) const;
     void set_config(const godot::Ref<SpidarGConfig> &config);
     [[nodiscard]] godot::Ref<SpidarGConfig> get_config() const { return config_; }
@@ -65,7 +65,7 @@ protected:
     static void _bind_methods();
 
 private:
-    // One pose with its wrench matrix and the solver's settings of the servo loop.
+    // A pose of the grip with its wrench matrix, and the settings of the servo loop's solver.
     struct Place {
         spidar::GripGeometry grip;
         spidar::GripPose pose;
@@ -74,10 +74,12 @@ private:
     };
 
     [[nodiscard]] const SpidarGConfig &config_or_default() const;
-    // Returns nothing and prints an error when the configuration or the pose is unusable.
+    // Returns the Place of a pose. Returns nothing and prints an error when the config or the pose
+    // is unusable.
     [[nodiscard]] std::optional<Place> place(const char *method, const godot::Transform3D &pose,
                                              double grasp_angle) const;
-    // Returns the largest multiples of the directions: forces (first = 0) or moments (first = 3).
+    // Returns for each direction the largest force (first = 0, unit: N) or moment (first = 3,
+    // unit: N m) that the strings can exert along it; 0 if none.
     [[nodiscard]] godot::PackedFloat64Array capacity(const char *method, std::size_t first,
                                                      const godot::Transform3D &pose,
                                                      double grasp_angle,

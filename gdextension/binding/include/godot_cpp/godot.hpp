@@ -16,7 +16,7 @@ class GDExtensionBinding {
 public:
     using Callback = void (*)(ModuleInitializationLevel);
 
-    // In the library's entry function: make one, name the callbacks, return init().
+    // The library's entry function makes an InitObject, registers the callbacks and returns init().
     class InitObject {
     public:
         InitObject(GDExtensionInterfaceGetProcAddress get_proc_address,
@@ -26,8 +26,8 @@ public:
         void register_terminator(Callback callback) const;
         void set_minimum_library_initialization_level(ModuleInitializationLevel level) const;
 
-        // False, with the reason printed, when this Godot cannot run the library: Godot then
-        // goes on without it.
+        // Returns false and prints the reason when this Godot cannot run the library. Godot then
+        // continues without the library.
         GDExtensionBool init() const;
 
     private:

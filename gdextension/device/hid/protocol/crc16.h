@@ -1,7 +1,7 @@
 // CRC-16 of the HID reports: polynomial x^16 + x^12 + x^5 + 1 (0x1021), not reflected, no final
-// xor. For messages of this length it detects every error of up to three bits and every burst of up
-// to sixteen (P. Koopman, "32-bit cyclic redundancy codes for internet applications", 2002, and the
-// usual tables for 0x1021).
+// xor. In reports of this length, whose CRC is sent high byte first, it detects every error of up
+// to three bits and every burst of up to sixteen (P. Koopman, "32-bit cyclic redundancy codes for
+// internet applications", 2002, and the usual tables for 0x1021).
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ inline constexpr std::array<std::uint16_t, 256> kTable = make_table();
 
 } // namespace crc16_detail
 
-// seed: the protocol version, so that reports of another version fail the check.
+// Returns the CRC of `bytes`. seed: the protocol version, so that reports of another version fail
+// the check; 0 for capabilities, which every version must be able to read.
 [[nodiscard]] constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes,
                                             std::uint16_t seed) noexcept {
     std::uint32_t remainder = seed;

@@ -1,5 +1,5 @@
-// Conversion between reports and bytes. decode() checks length, report id, CRC and ranges in this
-// order, and writes `report` only when all are valid. noexcept, no allocation.
+// Converts reports to bytes and back. decode() checks length, report id, CRC and values in this
+// order, and writes `report` only when all are valid. Never throws or allocates.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ encode(const HidCapabilities &report) noexcept;
 
 [[nodiscard]] Decoded decode(ReportBytes bytes, StateReport &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, CommandReport &report) noexcept;
-// Accepts any protocol version: the caller compares protocol_version.
+// Accepts every protocol version; the caller must compare protocol_version.
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidCapabilities &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidLimits &report) noexcept;
 [[nodiscard]] Decoded decode(ReportBytes bytes, HidZero &report) noexcept;

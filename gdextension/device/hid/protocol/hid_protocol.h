@@ -1,6 +1,6 @@
 // The reports of the HID protocol, version 1, of a SPIDAR-G controller
-// (docs/reference/hid_protocol.md). Integers, little-endian; forces in mN, times in us or ms.
-// hid_codec.h converts them to bytes and back.
+// (docs/reference/hid_protocol.md). All fields are integers; their names end with the unit.
+// hid_codec.h converts the reports to bytes and back.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@ inline constexpr std::uint8_t kHidProtocolVersion = 1;
 inline constexpr std::uint16_t kHidUsagePage = 0xFF00; // vendor defined
 
 enum class HidReportId : std::uint8_t {
-    state = 0x01,          // IN, each device tick
-    command = 0x02,        // OUT
-    capabilities = 0x10,   // FEATURE, read only
-    limits = 0x11,         // FEATURE
-    zero = 0x12,           // FEATURE
-    device_control = 0x13, // FEATURE
+    state = 0x01,          // input report, sent once per control cycle of the device
+    command = 0x02,        // output report
+    capabilities = 0x10,   // feature report, read only
+    limits = 0x11,         // feature report
+    zero = 0x12,           // feature report
+    device_control = 0x13, // feature report
 };
 
-// Sizes in bytes, with the report id and the two CRC bytes.
+// Sizes of the reports in bytes, with the report id and the two CRC bytes.
 inline constexpr std::size_t kStateSize = 64;
 inline constexpr std::size_t kCommandSize = 32;
 inline constexpr std::size_t kCapabilitiesSize = 64;
@@ -36,22 +36,22 @@ inline constexpr std::uint8_t kActuatorsEnabled = 0x01;
 inline constexpr std::uint8_t kEmergencyStop = 0x02;   // latched
 inline constexpr std::uint8_t kWatchdogTripped = 0x04; // latched
 inline constexpr std::uint8_t kActuatorPower = 0x08;   // the motors' supply is present
-inline constexpr std::uint8_t kEncoderFault = 0x10;    // latched; fault_strings names them
+inline constexpr std::uint8_t kEncoderFault = 0x10;    // latched; see StateReport::fault_strings
 inline constexpr std::uint8_t kOverTemperature = 0x20; // latched
 inline constexpr std::uint8_t kCommandClipped = 0x40;  // a limit of the device changed the command
-// Zeroed since power-up and since the last USB reset.
+// The encoders were zeroed after the last power-up and the last USB reset.
 inline constexpr std::uint8_t kZeroed = 0x80;
 } // namespace state_flag
 
 namespace command_flag {
 inline constexpr std::uint8_t kEnable = 0x01;
 inline constexpr std::uint8_t kEmergencyStop = 0x02;
-inline constexpr std::uint8_t kClearFaults = 0x04; // acts only without kEnable
-inline constexpr std::uint8_t kHold = 0x08;        // keep the minimum tension
+inline constexpr std::uint8_t kClearFaults = 0x04; // ignored together with kEnable
+inline constexpr std::uint8_t kHold = 0x08;        // keep HidLimits::min_tension_mn
 inline constexpr std::uint8_t kAll = 0x0F;
 } // namespace command_flag
 
-// Value of a tension that the device does not measure.
+// Value in StateReport::tensions_mn for a string whose tension the device does not measure.
 inline constexpr std::uint16_t kNotMeasured = 0xFFFF;
 
 struct StateReport {
@@ -59,11 +59,11 @@ struct StateReport {
     std::uint16_t sequence = 0;
     // Sequence number of the last accepted command; 0xFFFF: none.
     std::uint16_t accepted_command = 0xFFFF;
-    std::uint32_t device_time_us = 0; // wraps
+    std::uint32_t device_time_us = 0; // clock of the device; wraps at 32 bits
     CountArray counts{};
     std::array<std::uint16_t, kStringCount> tensions_mn{}; // measured, or kNotMeasured
     std::uint8_t buttons = 0;
-    std::uint8_t fault_strings = 0; // bit i: string i
+    std::uint8_t fault_strings = 0; // bit i: the encoder of string i (0 to 7) is faulty
     std::uint16_t supply_mv = 0;
     bool operator==(const StateReport &) const = default;
 };
@@ -71,7 +71,7 @@ struct StateReport {
 struct CommandReport {
     std::uint8_t flags = 0; // command_flag
     std::uint16_t sequence = 0;
-    std::uint16_t valid_for_ms = 0; // from its arrival; at least 1
+    std::uint16_t valid_for_ms = 0; // time from the command's arrival at the device; at least 1
     std::array<std::uint16_t, kStringCount> tensions_mn{};
     // Sequence number of the state from which the command was computed.
     std::uint16_t answers_state = 0xFFFF;
@@ -79,7 +79,7 @@ struct CommandReport {
     bool operator==(const CommandReport &) const = default;
 };
 
-// What a device is and what it can do.
+// Kind of device, version and largest values.
 struct HidCapabilities {
     std::uint8_t protocol_version = kHidProtocolVersion;
     std::uint8_t motor_count = kStringCount;
@@ -100,23 +100,25 @@ struct HidCapabilities {
     bool operator==(const HidCapabilities &) const = default;
 };
 
-// The device keeps the stricter of its own value and this one, and reports back what it keeps.
+// For each limit the device keeps the stricter of its own value and this one. Reading the report
+// returns the values that it keeps.
 struct HidLimits {
     std::uint16_t max_tension_mn = 0;
     std::uint16_t tension_rate_mn_ms = 0;
     std::uint16_t string_speed_mm_s = 0;
     std::uint16_t ramp_in_ms = 0;
-    std::uint16_t min_tension_mn = 0; // held when commands stop
+    std::uint16_t min_tension_mn = 0; // tension that the device keeps when commands stop
     bool operator==(const HidLimits &) const = default;
 };
 
-// Sets the encoders to these counts at the present pose. Accepted only with disabled motors.
+// Makes the device set its encoders to these counts. It accepts this only while the motors are off.
 struct HidZero {
     CountArray counts{};
     bool operator==(const HidZero &) const = default;
 };
 
-// Values follow the device control usages of the USB PID class.
+// The values are those of the device control usages of the USB PID (physical interface device)
+// class.
 enum class DeviceControl : std::uint8_t {
     enable = 1,
     disable = 2,

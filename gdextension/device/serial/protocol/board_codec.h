@@ -1,5 +1,5 @@
-// Commands for the motor boards as bytes, followed by the zeros that the boards need, and decoding
-// of their rare replies.
+// Encodes commands for the motor boards, with the zeros that must follow each of them. Decodes the
+// replies to INFO and GET_PARAM; ReplyReader decodes those to CURRENT.
 #pragma once
 
 #include <array>
@@ -14,10 +14,11 @@ namespace spidar {
 using BoardBytes = std::span<const std::uint8_t>;
 using BoardCurrents = std::array<std::int16_t, kMostBoardMotors>; // in the board's unit
 
-// Bytes to send at once. Never allocates. Excess bytes are dropped and clear whole().
+// Bytes to send at once. Never allocates. Drops bytes beyond kCapacity; whole() then returns false.
 class BoardFrame {
 public:
-    static constexpr std::size_t kCapacity = 1024; // eight longest CURRENT commands with zeros
+    // Room for eight of the longest CURRENT commands with their zeros, and for kResyncZeros.
+    static constexpr std::size_t kCapacity = 1024;
 
     void byte(std::uint8_t value) noexcept {
         whole_ = whole_ && size_ < kCapacity;
@@ -35,7 +36,7 @@ public:
             byte(0);
         }
     }
-    // Marks the frame as incomplete: it must not be sent.
+    // Marks the frame as incomplete, so that the caller does not send it.
     void spoil() noexcept { whole_ = false; }
     [[nodiscard]] BoardBytes bytes() const noexcept { return BoardBytes(bytes_).first(size_); }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -51,27 +52,32 @@ private:
     bool whole_ = true;
 };
 
-// Number of zeros that complete any command that a board may be receiving.
+// Number of zeros that complete a command that a board is still receiving. No command that this
+// host sends is longer.
 inline constexpr std::size_t kResyncZeros = 84;
 
-// Appends INFO. The board is unknown at that time; the zeros are those of the handshake.
+// Appends INFO with the zeros of the handshake, since padding() needs the board's layout, which is
+// not yet known.
 void append_info(BoardFrame &frame, std::uint8_t id) noexcept;
-// Appends the lengths of this board's commands, for all boards of the bus.
+// Appends SET_CMDLEN, which tells all boards of the bus how long this board's commands are.
 void append_command_lengths(BoardFrame &frame, const BoardLayout &board) noexcept;
+// Appends CURRENT, which sets the currents and makes the board reply with its counts and speeds.
 void append_current(BoardFrame &frame, const BoardLayout &board,
                     const BoardCurrents &currents) noexcept;
-// Appends GET_PARAM. The board answers with the parameter of the previous question: ask twice.
+// Appends GET_PARAM. A board answers with the parameter of the previous question, so ask twice.
 void append_get_parameter(BoardFrame &frame, const BoardLayout &board,
                           BoardParameter parameter) noexcept;
-// Appends SET_PARAM. All parameters except the torque limits are written to the board's flash. Data
-// that is too long makes the frame incomplete.
+// Appends SET_PARAM. The board stores each parameter except torque_limits in its flash memory. If
+// `data` is too long, the frame becomes incomplete.
 void append_set_parameter(BoardFrame &frame, const BoardLayout &board, BoardParameter parameter,
                           BoardBytes data) noexcept;
 void append_reset(BoardFrame &frame, const BoardLayout &board, bool motors, bool forces) noexcept;
 
-// Decodes a whole INFO reply. Returns false when it is not from board `id` or not plausible.
+// Decodes a whole INFO reply. Returns false when the reply is not from board `id` or
+// is_plausible() rejects its content.
 [[nodiscard]] bool decode_info(BoardBytes bytes, std::uint8_t id, BoardInfo &info) noexcept;
-// Decodes a parameter. data: a view into `bytes` behind the parameter's number; empty on failure.
+// Decodes a whole GET_PARAM reply. Returns false, with empty `data`, if it is not this board's
+// reply for `parameter`. data: the part of `bytes` that holds the parameter's value.
 [[nodiscard]] bool decode_parameter(BoardBytes bytes, const BoardLayout &board,
                                     BoardParameter parameter, BoardBytes &data) noexcept;
 

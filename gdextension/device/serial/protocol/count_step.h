@@ -1,4 +1,4 @@
-// Checks whether a string can make a step of counts, and unwraps 16-bit counts to 32 bits.
+// Checks whether a string can move as far as two successive replies of a board say.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace spidar {
 
 struct CountLimits {
-    // Largest speed: 5 m/s at 25 um per count, faster than any string.
+    // Largest speed of a string (unit: counts/s): 5 m/s at 25 um per count.
     double fastest_counts_s = 200'000.0;
-    // Largest acceleration: 100 m/s^2, more than a hand or a motor gives.
+    // Largest acceleration of a string (unit: counts/s^2): 100 m/s^2 at 25 um per count.
     double acceleration_counts_s2 = 4'000'000.0;
-    // False: the reported speeds are not checked, for firmware that uses another unit.
+    // False: the reported speeds are ignored, for firmware that reports them in another unit.
     bool check_speeds = true;
 };
 
@@ -26,15 +26,17 @@ struct BoardMotion {
     std::array<std::int16_t, kMostBoardForces> forces{};     // of the board's force sensors
 };
 
+// Returns the step between two 16-bit counts, which wrap: -32768 to 32767.
 [[nodiscard]] constexpr std::int32_t signed_step(std::uint16_t from, std::uint16_t to) noexcept {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
 }
 
 // Uncertainty of a reply's arrival time behind a USB bridge (unit: s).
 inline constexpr double kArrivalJitter_s = 0.002;
-// Uncertainty of a reported speed: one count per control cycle of rounding and one of margin.
+// Uncertainty of a reported speed (unit: counts per control cycle): 1 for rounding, 1 as margin.
 inline constexpr double kSpeedRounding_counts = 2.0;
 
+// True if no reported speed exceeds fastest_counts_s, or if speeds are not checked.
 [[nodiscard]] inline bool speeds_are_possible(const BoardMotion &motion, const BoardLayout &board,
                                               const CountLimits &limits) noexcept {
     const double most = limits.fastest_counts_s / board.control_rate_hz() + kSpeedRounding_counts;
@@ -44,7 +46,8 @@ inline constexpr double kSpeedRounding_counts = 2.0;
                        [most](std::int16_t speed) { return std::abs(speed) <= most; });
 }
 
-// dt_s: time between the arrivals of both replies.
+// True if each motor's step from `before` to `now` is within the limits and, if speeds are checked,
+// agrees with the reported speeds. dt_s: time between the arrivals of both replies.
 [[nodiscard]] inline bool step_is_possible(const BoardMotion &before, const BoardMotion &now,
                                            double dt_s, const BoardLayout &board,
                                            const CountLimits &limits) noexcept {

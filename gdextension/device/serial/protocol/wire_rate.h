@@ -1,4 +1,5 @@
-// How often a bus can be asked, from the wire time of one round of CURRENT commands.
+// Computes how often the host can ask all boards of a bus, from the time that one round of CURRENT
+// commands takes on the wire.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,11 @@
 namespace spidar {
 
 inline constexpr double kBitsPerByte = 10.0; // start bit, eight data bits, stop bit
-// Share of the wire's time that commands may fill: a USB bridge sends packets with gaps.
+// Share of the wire's time that commands may fill. The rest is for the gaps between the packets
+// that a USB bridge sends.
 inline constexpr double kWireShare = 0.9;
 
-// Returns the bytes of one round to all boards, with their zeros.
+// Returns the number of bytes in the CURRENT commands to all boards, with their zeros.
 [[nodiscard]] inline std::size_t round_bytes(std::span<const BoardLayout> boards) noexcept {
     std::size_t bytes = 0;
     for (const BoardLayout &board : boards) {

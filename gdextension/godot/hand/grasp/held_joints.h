@@ -1,6 +1,6 @@
-// The joints of a held body for the servo loop: hinges, slides and sockets with their limits,
-// springs, dampers and motors. docs/why/contact_engine.md, "Held things on joints", gives the
-// engine's sign conventions. Main thread only.
+// Converts the joints of a held body for the servo loop: hinges, slides and sockets with their
+// limits, springs, dampers and motors. docs/why/contact_engine.md, "Held things on joints", gives
+// the engine's sign conventions. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,24 @@ namespace spidar {
 
 class HeldJoints {
 public:
-    // Takes the joints of a newly grasped body. Returns how many exceed the servo loop's limit.
+    // Takes the joints of a newly grasped body, at most kMaxToolJoints. Returns how many more it
+    // has.
     int take(SceneJoints &joints, const godot::RigidBody3D &body);
     void drop() {
         held_.clear();
         bases_.clear();
     }
 
-    // Returns the present joints to static, kinematic or animated bodies. in_grip: pose of the held
-    // body in the grip, scene meters. frame: of the device's node. tick_s: physics tick.
+    // Returns the present joints to the world and to bodies other than an unfrozen RigidBody3D,
+    // which would give way. in_grip: pose of the held body in the grip, scene meters. frame: of the
+    // device's node. tick_s: length of a physics tick.
     [[nodiscard]] std::vector<ToolJoint> now(const godot::RigidBody3D &body,
                                              const godot::Transform3D &in_grip,
                                              const WorldFrame &frame, double tick_s);
 
 private:
     std::vector<SceneJoints::Found> held_;
-    // Bases of the last tick by joint, for their velocities.
+    // Poses of the joints' frames on the other bodies in the last tick, for their velocities.
     std::unordered_map<std::uint64_t, Placement> bases_;
 };
 

@@ -1,5 +1,6 @@
-// The shapes of a held body as parts of the tool: convex, with rounded edges, in device meters. A
-// shape that is not convex is replaced by its hull. Main thread only.
+// Turns the shapes of a held body into parts of the tool: convex, with rounded edges, in device
+// meters. The convex hull replaces a mesh; other shapes that are not convex are left out. Main
+// thread only.
 #pragma once
 
 #include <memory>
@@ -23,12 +24,12 @@ public:
     struct Part {
         std::shared_ptr<const ToolShape> shape;
         Placement in_body; // device meters
-        TurnedBox box;     // in the body's frame
+        TurnedBox box;     // around the shape, in the body's frame
     };
 
-    // Takes a body that was just grasped. workspace_scale: scene meters per device meter.
+    // Called for a body that was just grasped. workspace_scale: scene meters per device meter.
     void take(godot::RigidBody3D &body, double workspace_scale);
-    // Called once per tick while the body is held: adds large shapes when they are ready.
+    // Called once per tick while the body is held: adds large shapes once they are cooked.
     void update();
     void drop();
 

@@ -1,5 +1,5 @@
-// Decides when the world takes a held body away: when it presses on the body, or pulls it from the
-// grip, for long enough.
+// Decides when a hold breaks: when the world presses on the held body too strongly, or keeps it too
+// far from the grip, for long enough.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,10 @@ public:
     // Restarts for a body that was just grasped.
     void reset() noexcept { *this = HoldWatch(); }
 
-    // Called once per physics tick of tick_s. Returns true when the hold breaks. press_n: force of
-    // the world on the body. since_s: device time since the last value of press_n; 0: no new value.
-    // stretch_m: device meters between the body and its target in the grip.
+    // Called once per physics tick, whose length is tick_s. Returns true when the hold breaks.
+    // press_n: force of the world on the body. break_force: its limit (unit: N). since_s: device
+    // time since the last value of press_n; 0: no new value. stretch_m: device meters between the
+    // body and its target in the grip.
     [[nodiscard]] bool breaks(double press_n, double break_force, double since_s, double stretch_m,
                               double tick_s) noexcept {
         if (since_s > 0.0) {
@@ -24,9 +25,10 @@ public:
     }
 
 private:
-    // Distance from the grip at which a held body counts as stuck behind something (unit: m).
+    // Distance from its target at which a held body counts as stuck behind something (unit: m).
     static constexpr double kMaxStretch_m = 0.015;
-    // Time until a hold breaks (unit: s), of load in device time or of stretch in physics ticks.
+    // A hold breaks after this long with too much force (in device time) or with too much stretch
+    // (in physics ticks; unit: s).
     static constexpr double kBreakTime_s = 0.05;
 
     double overload_s_ = 0.0;

@@ -13,9 +13,9 @@
 
 namespace spidar {
 
+// Returns a joint with all axes locked and a base that does not move; the caller changes both.
 // object: instance id of the joint or hand. base: frame on the other body, in the world. tool:
-// frame on the held body, in the grip; scene meters. All axes are locked and the base does not
-// move.
+// frame on the held body, in the grip; scene meters. frame: of the device's node.
 [[nodiscard]] inline ToolJoint joint_between(std::uint64_t object, const godot::Transform3D &base,
                                              const godot::Transform3D &tool,
                                              const WorldFrame &frame) {

@@ -1,4 +1,5 @@
-// Springs between hands that hold one body: each hand feels the others. Main thread only.
+// Springs between hands that hold the same body, by which each hand feels the others. Main thread
+// only.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,9 @@ namespace spidar {
 class PartnerTies {
 public:
     void drop() { ties_.clear(); }
-    // Returns the present ties. stiffness: of the device's own springs in use (TouchReport).
-    // in_grip: pose of the held body in the grip, scene meters.
+    // Returns the present ties, and for a short time those to hands that released the body.
+    // stiffness: TouchReport::stiffness of this hand. in_grip: pose of the held body in the grip,
+    // scene meters. frame: of the device's node.
     [[nodiscard]] std::vector<ToolJoint> now(const std::vector<SharedHold> &others,
                                              const DofGains &stiffness,
                                              const godot::Transform3D &in_grip,
@@ -26,7 +28,7 @@ public:
 private:
     struct Tie {
         ToolJoint joint;
-        double left_s = 0.0; // above 0: that hand holds it or released it recently
+        double left_s = 0.0; // time until the tie is removed, unless that hand still holds the body
     };
     std::vector<Tie> ties_;
 };

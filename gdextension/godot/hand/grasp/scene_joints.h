@@ -1,6 +1,6 @@
-// The joints of the scene, with the poses of their frames in both bodies when each joint entered
-// the scene. Angles and distances are measured from there, and the engine does not report them
-// later. Scene coordinates. Main thread only.
+// Stores the joints of the scene with their frames in both bodies, as they are in the first tick
+// after a joint enters the scene. The engine measures angles and distances from these frames and
+// does not report them later. Scene coordinates. Main thread only.
 #pragma once
 
 #include <array>
@@ -20,25 +20,26 @@ namespace spidar {
 class SceneJoints {
 public:
     struct Side {
-        std::uint64_t body = 0; // instance id; 0: the world
-        godot::Transform3D frame;
+        std::uint64_t body = 0;   // instance id; 0: the world
+        godot::Transform3D frame; // in the body's frame
     };
     struct Found {
         std::uint64_t joint = 0;
         Side held;
         Side other;
-        // The held body is Joint3D.node_a; false when the other body is the world.
+        // True if the held body is the first of the joint's sides. The world is always the first.
         bool held_is_first = false;
     };
 
-    // Reads all joints below `root`.
+    // Calls note() for `root` and all nodes below.
     void read(godot::Node &root);
-    // Notes a node that entered the tree; its bodies may enter later.
+    // Remembers a joint for the next update(), since its bodies may enter the tree after it.
+    // Ignores other nodes.
     void note(godot::Node &node);
     void clear();
-    // Called once per physics tick.
+    // Called once per physics tick: stores the frames of the remembered joints.
     void update();
-    // Returns the joints of the body, except those by which hands hold it.
+    // Returns the joints of the body, without those below a SpidarGHand.
     [[nodiscard]] std::vector<Found> of(std::uint64_t body);
 
 private:

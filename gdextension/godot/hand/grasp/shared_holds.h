@@ -1,4 +1,5 @@
-// Bodies that two hands hold, with the target of each hand. Scene coordinates. Main thread only.
+// Stores the target of each hand for its held body, so that several hands can hold one body. Scene
+// coordinates. Main thread only.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,16 @@ namespace spidar {
 
 struct SharedHold {
     std::uint64_t hand = 0;  // instance id
-    godot::Transform3D body; // target of this hand
-    godot::Vector3 velocity; // of the target's origin
-    godot::Vector3 turning;
+    godot::Transform3D body; // pose to which this hand moves the body
+    godot::Vector3 velocity; // of the pose's origin
+    godot::Vector3 turning;  // angular velocity of the pose (unit: rad/s)
 };
 
 // Called in each tick by a hand that holds the body.
 void note_hold(std::uint64_t body, const SharedHold &hold);
 void forget_hold(std::uint64_t body, std::uint64_t hand);
 [[nodiscard]] std::vector<SharedHold> other_holds(std::uint64_t body, std::uint64_t hand);
-// Returns the mean of all hands' targets.
+// Returns the mean of `mine` and the poses of the other hands.
 [[nodiscard]] godot::Transform3D shared_place(const godot::Transform3D &mine,
                                               const std::vector<SharedHold> &others);
 

@@ -1,5 +1,5 @@
-// Maps the points of the device's report to bodies. The report refers to the scene that was
-// rendered last, which may be older than the present one.
+// Finds the body for the id of a shape in the servo loop's report. The report refers to the scene
+// that was rendered last, which may be older than the present one.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct TouchedBody {
     std::uint64_t collider = 0; // instance id; 0: a body without an object
     bool is_pushed = false;     // physics moves the body
     BodyFacts facts;
-    Placement at; // of the shape when last published; device frame
+    Placement at; // pose of the shape when it was last near; device frame
     std::int64_t tick = 0;
 
-    // Whether the node of the body was freed; the server does not know its RID then.
+    // Returns whether the node of the body was freed, so that the server does not know the RID.
     [[nodiscard]] bool is_gone() const {
         return collider != 0 && godot::ObjectDB::get_instance(collider) == nullptr;
     }
@@ -31,7 +31,7 @@ struct TouchedBody {
 
 class TouchedBodies {
 public:
-    // Called once per tick, after the scene was gathered.
+    // Called once per tick with Surroundings::shapes().
     void note(const std::vector<NearShape> &shapes) {
         ++tick_;
         for (const NearShape &shape : shapes) {
@@ -41,7 +41,7 @@ public:
         std::erase_if(bodies_,
                       [this](const auto &one) { return tick_ - one.second.tick > kKeptTicks; });
     }
-    // Finds a body by the id of a scene part; null when unknown.
+    // Finds a body by NearShape::id; returns null when the id is unknown.
     [[nodiscard]] const TouchedBody *find(std::int32_t id) const {
         const auto found = bodies_.find(id);
         return found != bodies_.end() ? &found->second : nullptr;
@@ -49,7 +49,7 @@ public:
     void clear() noexcept { bodies_.clear(); }
 
 private:
-    // Ticks for which a body is remembered after it was last near.
+    // Number of ticks for which a shape is remembered after it was last near.
     static constexpr std::int64_t kKeptTicks = 30;
 
     std::unordered_map<std::int32_t, TouchedBody> bodies_;

@@ -1,6 +1,6 @@
-// Properties of a body's surface from its SpidarGSurface, its metadata, its PhysicsMaterial and the
-// project's default material. The table "Which material counts" of docs/reference/surfaces.md
-// gives their order. Main thread only.
+// Reads the properties of a body's surface from its SpidarGSurface, its metadata, its
+// PhysicsMaterial and the project's default material. docs/reference/surfaces.md, "Which material
+// counts", says which of them applies. Main thread only.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +19,12 @@
 namespace spidar {
 
 struct BodyFacts {
-    // False for a node without a PhysicsMaterial, and for a server body with default values.
+    // False for a node without a PhysicsMaterial, and for a body without a node whose friction and
+    // bounce have the default values.
     bool has_physics_material = false;
     double physics_friction = 1.0;
-    bool rough = false; // the larger of two frictions applies
-    // Sliding friction of the body's own material; negative: not set.
+    bool rough = false; // PhysicsMaterial.rough: the larger of two frictions applies
+    // Sliding friction of the body's SpidarGMaterial or metadata; negative: not set.
     double friction = SpidarGMaterial::kNotSaid;
     // Sliding friction of the project's default material; negative: not set.
     double default_friction = SpidarGMaterial::kNotSaid;
@@ -32,13 +33,13 @@ struct BodyFacts {
     double damping_n_s_m = 0.0;
     double squeeze_nm_rad = 0.0;
     SurfaceTraits traits; // scene meters, axes of the body
-    // Owner of traits.texture.relief.
+    // Keeps the shape alive to which traits.texture.relief points.
     std::shared_ptr<const CookedShape> relief;
 
-    // Returns the Coulomb coefficient of sliding on the body. mine: the hand's value, used when
-    // nothing else is set.
+    // Returns the coefficient of sliding friction. mine: the hand's value; it is combined with that
+    // of a PhysicsMaterial, and applies alone when nothing else is set.
     [[nodiscard]] double slipping_friction(double mine) const noexcept;
-    // Returns the coefficient of sticking to the body.
+    // Returns the coefficient of static friction; never below that of sliding friction.
     [[nodiscard]] double resting_friction(double mine) const noexcept {
         return std::max(slipping_friction(mine), traits.static_friction);
     }
@@ -46,11 +47,12 @@ struct BodyFacts {
 
 class BodyFactsReader {
 public:
-    // Reads the project's default material. Called once, when the hand enters its scene.
+    // Reads the project's default material. Called when the hand enters the scene tree.
     void open();
-    // object: instance id of the body; 0: none. is_node: object is the body's CollisionObject3D.
+    // object: instance id of the object that belongs to the body; 0: none. is_node: the object is
+    // the CollisionObject3D that made the body.
     [[nodiscard]] BodyFacts read(const godot::RID &body, std::uint64_t object, bool is_node);
-    // Returns messages about old names that bodies still use, each once, and empties the list.
+    // Returns messages about deprecated metadata, one for each name, and empties the list.
     [[nodiscard]] std::vector<std::string> take_messages();
 
 private:

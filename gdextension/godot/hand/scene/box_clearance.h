@@ -1,4 +1,5 @@
-// Lower bound of the distance of two boxes: largest separation along the face axes of either.
+// A lower bound of the distance between two boxes: the largest separation along the six directions
+// of their axes.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +13,11 @@
 namespace spidar {
 
 struct TurnedBox {
-    Placement at; // of its center
+    Placement at; // the origin is the box's center
     Vec3 half_extents_m{0.0};
 };
 
-// Returns the bound (unit: m); negative when the boxes overlap along all six axes.
+// Returns the bound (unit: m). Negative when the boxes overlap along all six directions.
 [[nodiscard]] inline double clearance(const TurnedBox &a, const TurnedBox &b) noexcept {
     const Mat3 turn = glm::transpose(a.at.rotation) * b.at.rotation;
     const Vec3 apart = b.at.origin_m - a.at.origin_m;
@@ -35,7 +36,8 @@ struct TurnedBox {
     return largest;
 }
 
-// Same for a box and the half space below normal . x = offset_m; exact.
+// Returns the distance (unit: m) between a box and the half space below normal . x = offset_m;
+// negative when they overlap.
 [[nodiscard]] inline double clearance(const TurnedBox &box, const Vec3 &normal,
                                       double offset_m) noexcept {
     double result = glm::dot(normal, box.at.origin_m) - offset_m;

@@ -1,17 +1,18 @@
-// Differences between Godot's physics engines in how they treat a shape.
+// How the physics engine in use treats shapes, where Godot's engines differ.
 #pragma once
 
 namespace spidar {
 
 struct EngineHabits {
-    // True: spheres, capsules and cylinders of uneven scale get the mean of their scales, as in
-    // Jolt. False: they are stretched.
+    // True, as in Jolt: a sphere, capsule or cylinder with different scales along its axes gets
+    // their mean. False: it is stretched.
     bool evens_round_shapes = true;
     // True: a world boundary's plane is mirrored at the origin (Jolt in Godot 4.4 to 4.6).
     bool turns_boundaries = false;
 };
 
-// Returns the engine's habits, tested at the first call. Main thread, not while physics steps.
+// Returns the habits, which the first call finds out by the project setting and a test. Call it
+// from the main thread, not during a physics step.
 [[nodiscard]] const EngineHabits &engine_habits();
 
 } // namespace spidar

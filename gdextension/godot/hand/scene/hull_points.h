@@ -1,4 +1,4 @@
-// Shapes without a cooked kind of their own, as points or triangles.
+// Computes points or triangles for shapes that are cooked as a hull or a mesh.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,14 @@
 
 namespace spidar {
 
-// Points around a sphere (half_height 0) or a capsule along Y; hull within 0.5 % of the radius.
+// Returns points on a sphere (half_height 0), or on a capsule along Y whose straight part is twice
+// half_height long. Their hull lies at most 1 % of the radius inside the surface.
 [[nodiscard]] std::vector<Vec3> round_points(double radius, double half_height);
 // Returns points on the two rims of a cylinder along Y.
 [[nodiscard]] std::vector<Vec3> rim_points(double radius, double half_height);
 
-// Returns the outermost points in evenly spread directions. Their hull is within 0.2 % of the size
-// of the hull of all points.
+// Returns the farthest points in 1024 evenly spread directions. Their hull is close to that of all
+// points, but may lack flat corners.
 [[nodiscard]] std::vector<Vec3> outermost_points(const std::vector<Vec3> &points_m);
 
 // Returns a two-sided mesh for a hull whose points lie in one plane. It has no triangles when the

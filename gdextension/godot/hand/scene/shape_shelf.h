@@ -1,6 +1,7 @@
-// Cooked shapes of a scene by server shape and scale. Each is cooked once, kept while used, and
-// cooked again when its data change. Small shapes are cooked at once, large ones in the engine's
-// threads; until then they have no cooked shape. Main thread only.
+// Keeps the cooked shapes of a scene, one for each shape of the physics server and each scale. A
+// shape is cooked when it is first needed and again when its data change. Shapes that were not used
+// for some time are dropped. Small shapes are cooked at once, large ones in the engine's threads.
+// Main thread only.
 #pragma once
 
 #include <atomic>
@@ -18,9 +19,9 @@
 namespace spidar {
 
 enum class PieceState : std::uint8_t {
-    cooking, // not rendered yet
+    cooking, // a thread cooks it for the first time
     ready,
-    // Never rendered; why_not holds the reason.
+    // The shape cannot be rendered; why_not holds the reason.
     refused,
 };
 
@@ -28,10 +29,10 @@ enum class PieceState : std::uint8_t {
 struct Piece {
     Vec3 scale{1.0}; // device meters per shape unit; negative x: mirrored
     PieceState state = PieceState::cooking;
-    // While cooking: the previous shape, or one of about this scale.
+    // The newest cooked shape. While cooking for the first time: one of about this scale, or null.
     std::shared_ptr<const CookedShape> shape;
     std::string why_not;
-    bool told = false;         // the reason was reported
+    bool told = false;         // why_not was reported
     std::uint64_t version = 0; // version of the data that it was cooked from
     std::uint64_t asked = 0;   // newest version that was sent to cooking
     std::int64_t used_tick = 0;
@@ -50,10 +51,10 @@ public:
         std::int64_t next_look = 0;
     };
     struct Counts {
-        int held = 0;    // cooked shapes on the shelf
-        int cooking = 0; // now
-        int cooked = 0;  // since the start
-        int refused = 0; // since the start
+        int held = 0;    // pieces at the last removal of unused ones
+        int cooking = 0; // shapes that threads cook now
+        int cooked = 0;  // cooked shapes since the start
+        int refused = 0; // refused shapes since the start
     };
 
     ShapeShelf() = default;
@@ -63,13 +64,14 @@ public:
 
     // Called first in each tick: takes the results of the threads and drops unused shapes.
     void begin_tick();
-    // Returns the source of a server shape. It stays on the shelf while the caller keeps it.
+    // Returns the source of a server shape, which it reads if it is new. The source stays on the
+    // shelf while the caller keeps the pointer.
     [[nodiscard]] std::shared_ptr<Source> find(const godot::RID &shape);
     // Checks whether the data changed. Called once per tick for each near shape. Where the engine
     // copies its data for each read (concave shapes of GodotPhysics), large shapes are checked less
     // often.
     void look_again(Source &source);
-    // Returns the piece for a scale; valid until the next tick.
+    // Returns the piece for a scale and starts to cook it if needed. Valid until begin_tick().
     [[nodiscard]] Piece &cooked(Source &source, const Vec3 &scale);
     [[nodiscard]] std::int64_t tick() const noexcept { return tick_; }
     [[nodiscard]] const Counts &counts() const noexcept { return counts_; }

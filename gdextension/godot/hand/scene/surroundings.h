@@ -1,5 +1,6 @@
-// The shapes of the scene near the hand: read from the physics server once per physics tick,
-// cooked, and placed in the device frame. Main thread only; call update() in a physics tick.
+// Finds the shapes of the scene near the hand: reads them from the physics server once per physics
+// tick, cooks them and places them in the device frame. Main thread only; call update() in a
+// physics tick.
 #pragma once
 
 #include <algorithm>
@@ -26,28 +27,29 @@ namespace spidar {
 
 inline constexpr std::size_t kMostNearShapes = 32;
 
-// A box around an object that touches the scene. Device frame (unit: m).
+// A box around the pads, or around the held body, near which shapes are searched. Device frame.
 struct SearchVolume {
-    Placement at;
-    Vec3 half_extents_m{0.0}; // of the object itself
-    // Shapes within this distance are listed. At least the largest motion in a tick.
+    Placement at; // the origin is the box's center
+    // Of the object on its way from the device's pose to the proxy's.
+    Vec3 half_extents_m{0.0};
+    // Shapes within this distance of the box are listed. Must cover the motion of a tick.
     double margin_m = 0.0;
-    std::uint32_t mask = 1; // collision layers that the object meets
-    std::vector<godot::RID> excluded;
+    std::uint32_t mask = 1;           // collision layers that the object touches
+    std::vector<godot::RID> excluded; // bodies that are not listed
 };
 
 struct SearchSpace {
     godot::PhysicsDirectSpaceState3D *state = nullptr;
     godot::RID space;
-    WorldFrame now; // of the device's node
-    // The device's node at the last physics step, at which the bodies of physics have their poses.
+    WorldFrame now; // of the device's node in this tick
+    // Of the device's node at the last physics step, to which the poses of moving bodies belong.
     WorldFrame stepped;
-    // Device time between two ticks. The game's time may run slower.
-    double tick_s = 1.0 / 60.0;
-    double time_scale = 1.0; // Engine.time_scale
+    double tick_s = 1.0 / 60.0; // length of a physics tick
+    double time_scale = 1.0;    // Engine.time_scale
 };
 
-// Speed above which the device was teleported: physics engines cannot move a body much faster.
+// A device's node that moves faster than this in the scene counts as teleported: physics engines
+// cannot move a body much faster.
 inline constexpr double kFastestBody_m_s = 200.0;
 
 enum SeenBy : std::uint8_t { kSeenByPads = 1, kSeenByHeld = 2 };
@@ -56,7 +58,8 @@ struct NearShape {
     godot::RID body;
     std::uint64_t collider = 0; // instance id; 0: a body without an object
     int shape_index = 0;
-    // Belongs to this shape of this body while it stays near; ids are never reused.
+    // Identifies this shape of this body while the body stays near. Another shape gets the same id
+    // only after 2^31 - 1 newer ids.
     std::int32_t id = 0;
     std::shared_ptr<const CookedShape> shape;
     Placement at;            // device frame
@@ -66,20 +69,20 @@ struct NearShape {
     Vec3 belt_m_s{0.0};
     Vec3 belt_rad_s{0.0};
     double mass_kg = 0.0;     // 0 unless physics moves the body
-    std::uint8_t seen_by = 0; // SeenBy
+    std::uint8_t seen_by = 0; // bits of SeenBy: which volumes the shape is near
     BodyFacts facts;
     SurfaceTraits traits; // device meters, axes of the shape
 };
 
 struct SurroundingsCounts {
-    int queries = 0;
-    int bodies = 0;      // near enough to be read
+    int queries = 0;     // of the physics server
+    int bodies = 0;      // bodies that were found near and read
     int shapes = 0;      // listed
     int far = 0;         // shapes of those bodies that are not near
-    int left_out = 0;    // near, beyond the nearest kMostNearShapes
-    int cooking = 0;     // near, but not ready yet
-    int refused = 0;     // near, never rendered: take_messages() returns why
-    int soft_bodies = 0; // found so far; not rendered
+    int left_out = 0;    // near, but kMostNearShapes are nearer
+    int cooking = 0;     // near, but not cooked yet
+    int refused = 0;     // near, but not renderable: take_messages() returned why
+    int soft_bodies = 0; // soft bodies found so far, which are not rendered
 };
 
 // Returns whether `rid` is in the list.
@@ -94,13 +97,13 @@ public:
     Surroundings(const Surroundings &) = delete;
     Surroundings &operator=(const Surroundings &) = delete;
 
-    // Updates shapes(), nearest first. held: null while nothing is held. held_object: instance id
-    // of the held body.
+    // Updates shapes(), nearest first. held: null while nothing is held, or while the held body is
+    // detained. held_object: instance id of the held body, or 0.
     void update(const SearchSpace &space, const SearchVolume &pads,
                 const SearchVolume *held = nullptr, std::uint64_t held_object = 0);
-    // Reads the project's defaults. Called when the node enters its scene.
+    // Reads the project's default material. Called when the hand enters the scene tree.
     void open() { facts_.open(); }
-    // Forgets all bodies. Called when the node leaves its scene.
+    // Forgets all bodies. Called when the hand leaves the scene tree.
     void clear();
 
     [[nodiscard]] const std::vector<NearShape> &shapes() const noexcept { return shapes_; }
@@ -110,12 +113,12 @@ public:
     [[nodiscard]] std::vector<std::string> take_messages();
 
 private:
-    // Query state of one of the two volumes.
+    // The query for one of the two volumes.
     struct Searcher {
         godot::Ref<godot::PhysicsShapeQueryParameters3D> query;
         godot::RID box;
         Vec3 box_half{0.0};
-        std::vector<godot::RID> excluded; // as the query has it
+        std::vector<godot::RID> excluded; // the query's present list
         std::uint32_t mask = 0;
     };
     struct Possible {
@@ -156,7 +159,7 @@ private:
     std::array<Searcher, 2> searchers_; // pads, held
     std::array<const SearchVolume *, 2> volumes_{};
     std::unordered_map<std::int64_t, std::unique_ptr<NearBody>> bodies_;
-    std::vector<std::pair<godot::RID, std::uint64_t>> soft_; // with their instance ids
+    std::vector<std::pair<godot::RID, std::uint64_t>> soft_; // soft bodies with instance ids
     std::vector<godot::RID> spared_by_held_; // collision exceptions of the held body
     std::uint64_t held_object_ = 0;
     NodeMotion node_motion_;

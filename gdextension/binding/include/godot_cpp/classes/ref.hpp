@@ -5,7 +5,7 @@
 
 namespace godot {
 
-// Shares ownership of a RefCounted object.
+// A reference that shares ownership of a RefCounted object.
 template <typename T>
 class Ref {
     template <typename>
@@ -21,7 +21,7 @@ public:
     Ref(const Ref<U> &other) {
         assign(Object::cast_to<T>(other.object_));
     }
-    // Null when the Variant holds no T.
+    // Makes a null reference when the Variant holds no T.
     Ref(const Variant &value) { assign(Object::cast_to<T>(static_cast<Object *>(value))); }
     ~Ref() { unref(); }
 
@@ -81,7 +81,7 @@ struct Border<Ref<T>> {
         GodotObject *owner = address == nullptr ? nullptr : api.ref_get_object(address);
         return Ref<T>(Object::cast_to<T>(static_cast<Object *>(wrap(owner))));
     }
-    // The engine counted the reference that it returns: take it over, do not count it again.
+    // Takes over the reference that the engine returned and has already counted.
     static Ref<T> take(Result &result) {
         Ref<T> taken;
         auto *counted = Object::cast_to<RefCounted>(static_cast<Object *>(wrap(result)));

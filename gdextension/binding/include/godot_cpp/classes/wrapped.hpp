@@ -12,7 +12,8 @@ namespace internal {
 struct Access;
 template <class T>
 struct Hooks;
-// Specialised by generated headers: which classes are the engine's, and their virtual methods.
+// The generated headers specialize these two for the engine's classes. Virtuals collects the
+// virtual methods of a class.
 template <class T>
 struct IsEngineClass : std::false_type {};
 template <class T>
@@ -21,13 +22,14 @@ struct WrapOwner {
     GodotObject *owner;
 };
 
-// The C++ half of an engine object, made when there is none yet. Null for null.
+// Returns the C++ object that stands for an engine object, and makes one when there is none yet.
+// Returns null for null.
 Wrapped *wrap(GodotObject *owner);
 
 } // namespace internal
 
-// Base of every class that stands for an engine object. Objects are made by memnew(T) or
-// Ref<T>::instantiate(), and ended by the engine, memdelete() or the last Ref: never on the stack.
+// Base of every class that stands for an engine object. memnew(T) or Ref<T>::instantiate() makes an
+// object; the engine, memdelete() or the last Ref destroys it. No object may be on the stack.
 class Wrapped {
     friend struct internal::Access;
 
@@ -42,7 +44,7 @@ protected:
     explicit Wrapped(internal::WrapOwner wrapped) : _owner(wrapped.owner) {}
     virtual ~Wrapped() = default;
 
-    // What a class of ours may declare for itself; each class's own is called, its parent's first.
+    // Hooks that an extension class may declare. Hooks<T> (internal/hooks.hpp) calls them.
     static void _bind_methods() {}
     void _notification(int) {}
     bool _set(const StringName &, const Variant &) { return false; }
@@ -54,7 +56,8 @@ protected:
 namespace internal {
 
 struct Access {
-    // Leaves `owner` for Wrapped's constructor, so that T's constructor may call engine methods.
+    // Passes `owner` to Wrapped's constructor by expect(), so that T's constructor may call engine
+    // methods.
     template <class T>
     static Wrapped *construct(const ClassRecord &record, GodotObject *owner) {
         expect(record, owner);
@@ -73,7 +76,7 @@ struct Access {
 
 } // namespace godot
 
-// Opens an engine class in generated headers.
+// First line of an engine class in the generated headers.
 #define GODOT_BINDING_ENGINE_CLASS(m_class, m_inherits)                                            \
     friend struct ::godot::internal::Access;                                                       \
                                                                                                    \
@@ -89,7 +92,7 @@ public:                                                                         
                                                                                                    \
 private:
 
-// First line of every class of ours.
+// First line of every extension class (a class that this library adds to the engine).
 #define GDCLASS(m_class, m_inherits)                                                               \
 private:                                                                                           \
     friend struct ::godot::internal::Access;                                                       \

@@ -5,12 +5,12 @@
 
 namespace godot::internal {
 
-// "spidar::Probe::Mode" -> "Probe.Mode", the way class and enum are named to the engine.
+// Returns the engine's name of an enum: "Probe.Mode" for "spidar::Probe::Mode".
 StringName enum_class_name(const char *qualified_name);
 
 } // namespace godot::internal
 
-// At global scope, after the class, once for each enum that a bound method or constant uses.
+// Placed at global scope after the class, once for each enum that a bound method or constant uses.
 #define VARIANT_ENUM_CAST(m_enum)                                                                  \
     template <>                                                                                    \
     struct godot::internal::EnumName<m_enum> {                                                     \

@@ -14,7 +14,7 @@ struct MethodDefinition {
         : name(p_name), args(std::move(p_args)) {}
 };
 
-// A method's name and those of its arguments.
+// Returns a definition from the names of a method and of its arguments.
 template <typename... Args>
 MethodDefinition D_METHOD(const char *p_name, const Args &...args) {
     return {p_name, std::vector<StringName>{StringName(args)...}};
@@ -26,7 +26,7 @@ class ClassDB {
 public:
     ClassDB() = delete;
 
-    // The class must have its GDCLASS line and be registered after its parent.
+    // Requires a class with its GDCLASS line, whose parent is already registered.
     template <class T>
     static void register_class() {
         static_assert(!std::is_abstract_v<T>,
@@ -38,7 +38,7 @@ public:
         internal::register_class(describe<T>(true));
     }
 
-    // `defaults` are those of the last arguments: DEFVAL(value)...
+    // defaults: DEFVAL(value) for each of the last arguments that has a default.
     template <class M, typename... Defaults>
     static void bind_method(const MethodDefinition &definition, M method,
                             const Defaults &...defaults) {
@@ -94,13 +94,13 @@ private:
 };
 
 namespace internal {
-// "Probe.Mode" -> "Mode"; nothing for an enum without VARIANT_ENUM_CAST and for plain integers.
+// Returns "Mode" for "Probe.Mode".
 StringName enum_short_name(const StringName &class_and_enum);
 } // namespace internal
 
 } // namespace godot
 
-// In _bind_methods(), after the methods that they name.
+// Called in _bind_methods(), after the methods that they name are bound.
 #define ADD_PROPERTY(m_property, m_setter, m_getter)                                               \
     ::godot::ClassDB::add_property(get_class_static(), m_property, m_setter, m_getter)
 #define ADD_GROUP(m_name, m_prefix)                                                                \

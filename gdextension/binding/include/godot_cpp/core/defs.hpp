@@ -16,13 +16,13 @@ static_assert(sizeof(void *) == 8,
 
 namespace godot {
 
-// Godot's own real number. generate.py refuses the dump of a double precision engine.
+// The engine's real number type. generate.py refuses the API dump of a double precision engine.
 using real_t = float;
 
-// An object on the engine's side of the border: only ever a handle here.
+// An object of the engine. The binding uses only pointers to it.
 using GodotObject = void;
 
 } // namespace godot
 
-// godot-cpp has it outside of the namespace too.
+// godot-cpp defines real_t outside of the namespace too.
 using real_t = godot::real_t;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Checks that print what is wrong, with its place, and leave the function. Each ends in a do block,
-// so it is written like a call. The _MSG forms take a String or a literal in ASCII.
+// Macros that print an error or a warning with function, file and line. The ERR_FAIL macros then
+// return from the function. The _MSG forms take a String or a literal in ASCII.
 
 #include <godot_cpp/internal/error_report.hpp>
 

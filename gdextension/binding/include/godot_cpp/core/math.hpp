@@ -6,7 +6,7 @@
 
 namespace godot::Math {
 
-// Godot's own tolerance for "approximately equal": relative above 1, absolute below.
+// Uses the engine's tolerance: 1e-5, times |a| if that is above 1.
 inline bool is_equal_approx(float a, float b) {
     constexpr float kTolerance = 0.00001F;
     if (a == b) { // also equal infinities

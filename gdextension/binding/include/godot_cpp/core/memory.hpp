@@ -24,9 +24,9 @@ T *create() {
 
 } // namespace godot::internal
 
-// A new object of a registered class or of an engine class; null, with the reason printed, when
-// the class is not registered. No constructor arguments.
+// Makes an object of an extension class or of an engine class. Returns null when the class is not
+// registered. Takes no constructor arguments.
 #define memnew(m_class) (::godot::internal::create<m_class>())
 
-// Ends an object that is not counted by a Ref and not in the scene tree.
+// Destroys an object. Requires that no Ref counts the object and that it is not in the scene tree.
 #define memdelete(m_object) (::godot::internal::destroy_object(m_object))

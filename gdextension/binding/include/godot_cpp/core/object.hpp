@@ -44,7 +44,7 @@ namespace godot {
 
 class ObjectDB {
 public:
-    // Null when the object was freed.
+    // Returns null when the object was freed.
     static Object *get_instance(uint64_t p_object_id) {
         GodotObject *owner =
             p_object_id == 0 ? nullptr : internal::api.object_get_instance_from_id(p_object_id);

@@ -16,7 +16,7 @@ struct PropertyInfo {
     uint32_t usage = PROPERTY_USAGE_DEFAULT;
 
     PropertyInfo() = default;
-    // With PROPERTY_HINT_RESOURCE_TYPE the hint string is the class name too, as in the engine.
+    // With PROPERTY_HINT_RESOURCE_TYPE, class_name becomes the hint string, as in the engine.
     PropertyInfo(Variant::Type p_type, const StringName &p_name,
                  PropertyHint p_hint = PROPERTY_HINT_NONE, const String &p_hint_string = String(),
                  uint32_t p_usage = PROPERTY_USAGE_DEFAULT,

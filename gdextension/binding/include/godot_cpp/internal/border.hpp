@@ -1,14 +1,15 @@
 #pragma once
 
-// Not part of the godot-cpp API: how a C++ value crosses to the engine and back.
+// Not part of the godot-cpp API: converts C++ values to the engine's form and back.
 //
-// Border<T> says it once for pointer calls both ways, Variants, and type descriptions:
-//   Slot, lend(value, slot)  address of an argument handed to the engine, alive as long as both are
-//   decode(address)          an argument (or a virtual's argument) that the engine lends to us
-//   Result, take(result)     a return value that the engine wrote: we own it now
-//   give(address, value)     our return value, written where the engine wants it
+// Border<T> holds the conversions of type T for calls by pointers, for Variants and for type
+// descriptions:
+//   lend(value, slot)    address of an argument for the engine; valid while value and slot live
+//   decode(address)      an argument that the engine passes to a method of this library
+//   take(result)         a return value that the engine wrote, and that this library then owns
+//   give(address, value) writes a return value of this library to the engine's address
 //   from_variant, to_variant, type, metadata, info
-// Objects and Ref have their own Border beside their classes.
+// The Border of object pointers is in core/object.hpp, that of Ref in classes/ref.hpp.
 
 #include <godot_cpp/core/property_info.hpp>
 
@@ -20,11 +21,12 @@ struct Border;
 template <class T>
 using Decayed = std::remove_cv_t<std::remove_reference_t<T>>;
 
-// What VARIANT_ENUM_CAST tells: "Class.Enum".
+// Holds "Class.Enum" for an enum; VARIANT_ENUM_CAST specializes it.
 template <class T>
 struct EnumName;
 
-// bool travels as a byte, every integer and enum as int64_t, both real types as double.
+// The type in which a call by pointers passes T: a byte for bool, int64_t for integers and enums,
+// double for float and double.
 template <class T>
 using Wire = std::conditional_t<std::is_same_v<T, bool>, GDExtensionBool,
                                 std::conditional_t<std::is_floating_point_v<T>, double, int64_t>>;
@@ -36,7 +38,7 @@ constexpr GDExtensionClassMethodArgumentMetadata metadata_of() {
     } else if constexpr (std::is_same_v<T, double>) {
         return GDEXTENSION_METHOD_ARGUMENT_METADATA_REAL_IS_DOUBLE;
     } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-        // The enumerators run INT8, INT16, INT32, INT64, then the same unsigned.
+        // The enumerators are INT8, INT16, INT32 and INT64 (1 to 4), then the unsigned ones.
         constexpr int kLog2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
         return static_cast<GDExtensionClassMethodArgumentMetadata>((std::is_signed_v<T> ? 1 : 5) +
                                                                    kLog2);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Not part of the godot-cpp API: calls into the engine. A method that this Godot does not have
-// prints its name once, when it is first looked up, and then answers a default value.
+// Not part of the godot-cpp API: calls into the engine. If this Godot lacks a method, the first
+// look-up prints the method's name, and calls return a default value.
 
 #include <godot_cpp/internal/border.hpp>
 
@@ -26,10 +26,11 @@ struct UtilityFunction {
 
 // Prints that a method was called on an object that the engine does not know.
 void report_no_owner();
-// Prints what went wrong in a vararg call.
+// Prints why a call with a variable number of arguments failed.
 void report_call_error(const GDExtensionCallError &error);
 
-// Runs `call(arguments, result address)` with the arguments laid out as pointer calls want them.
+// Runs call(arguments, result address) with an array of the addresses of the arguments, and returns
+// the result.
 template <class R, class Call, class... Args>
 R pointer_call(const Call &call, const Args &...args) {
     std::tuple<typename Border<Args>::Slot...> slots;
@@ -87,7 +88,7 @@ Variant call_engine_vararg(const EngineMethod &method, GodotObject *owner, const
     std::array<GDExtensionConstVariantPtr, sizeof...(Args)> addresses{};
     std::transform(values.begin(), values.end(), addresses.begin(),
                    [](const Variant &value) { return value._native_ptr(); });
-    Variant result; // null holds nothing, so the engine may construct over it
+    Variant result; // owns nothing while null, so that the engine may construct a value in place
     GDExtensionCallError error{GDEXTENSION_CALL_OK, 0, 0};
     api.object_method_bind_call(method.bind, owner, addresses.data(),
                                 static_cast<GDExtensionInt>(addresses.size()), result._native_ptr(),

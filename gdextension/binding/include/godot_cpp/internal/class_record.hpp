@@ -1,6 +1,6 @@
 #pragma once
 
-// Not part of the godot-cpp API: what is kept of a registered class and its methods.
+// Not part of the godot-cpp API: the data of registered classes and their methods.
 
 #include <godot_cpp/core/property_info.hpp>
 
@@ -17,13 +17,13 @@ struct MethodRecord {
 
     StringName name;
     std::vector<StringName> argument_names;
-    std::vector<Variant> defaults; // of the last arguments
+    std::vector<Variant> defaults; // default values of the last arguments
     bool has_return = false;
     PropertyInfo return_info;
     GDExtensionClassMethodArgumentMetadata return_metadata =
         GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
     std::vector<PropertyInfo> arguments;
-    std::vector<Variant::Type> insisted_types; // of the arguments; nil: the method checks it itself
+    std::vector<Variant::Type> insisted_types; // of the arguments; NIL: the binding accepts any
     std::vector<GDExtensionClassMethodArgumentMetadata> argument_metadata;
     uint32_t flags = GDEXTENSION_METHOD_FLAGS_DEFAULT;
     GDExtensionClassMethodCall call = nullptr;
@@ -36,7 +36,8 @@ struct VirtualEntry {
     GDExtensionClassCallVirtual call;
 };
 
-// All that registration needs to know of a class, so that one plain function can do it.
+// All data of a class that registration needs, so that a function that is no template can register
+// it.
 struct ClassRecord {
     StringName name;
     StringName parent;
@@ -56,20 +57,20 @@ struct ClassRecord {
     std::vector<std::unique_ptr<MethodRecord>> methods;
 };
 
-// Prints why when the class cannot be registered.
+// Registers a class, or prints why it cannot.
 void register_class(std::unique_ptr<ClassRecord> record);
 const ClassRecord *find_class(const StringName &name);
-// The class's own virtual method for the engine's; null when it has none, or when the engine's has
-// other arguments now (which is printed once).
+// Returns the class's override of an engine's virtual method. Returns null when the class has none,
+// or when the engine's method has other arguments than at build time (which is printed once).
 GDExtensionClassCallVirtual find_virtual(const ClassRecord &record, const StringName &name,
                                          uint32_t hash);
-// Registers; prints why when it cannot.
+// Registers a method of a registered class, or prints why it cannot.
 void register_method(const StringName &class_name, std::unique_ptr<MethodRecord> method);
 void set_registration_level(GDExtensionInitializationLevel level);
 // Unregisters the classes of that level, the newest first.
 void unregister_classes(GDExtensionInitializationLevel level);
 
-// The engine's half of a new object of an extension class, and ours around it.
+// Makes an object of an extension class: the engine's object and the C++ object for it.
 Wrapped *create_object(const ClassRecord &record, bool notify);
 
 } // namespace internal

@@ -1,6 +1,7 @@
 #pragma once
 
-// Array, Dictionary and Callable. Include <godot_cpp/variant/array.hpp> and its like instead.
+// Array, Dictionary and Callable. Include godot_cpp/variant/array.hpp, dictionary.hpp or
+// callable.hpp instead of this file.
 
 #include <godot_cpp/internal/string_types.hpp>
 
@@ -17,7 +18,7 @@ public:
         return made;
     }
 
-    // An index outside 0..size()-1 is the caller's error and a crash, as in godot-cpp: check size() first.
+    // Requires an index from 0 to size() - 1; any other index crashes, as in godot-cpp.
     Variant &operator[](int64_t index);
     const Variant &operator[](int64_t index) const;
     bool operator==(const Array &other) const { return equals(other); }
@@ -26,7 +27,8 @@ public:
 #include <godot_cpp/internal/array.methods.gen.inc>
 };
 
-// What the engine takes and gives for arrays of one type: an Array whose elements the engine checks.
+// The type by which engine methods take or return an Array whose elements have one type. Only the
+// engine checks the elements.
 template <typename T>
 class TypedArray : public Array {
 public:
@@ -39,7 +41,7 @@ class Dictionary
 public:
     Dictionary() = default;
 
-    // The first form makes a missing key, the second reads it as null.
+    // The first operator adds a missing key; the second returns null for it.
     Variant &operator[](const Variant &key);
     const Variant &operator[](const Variant &key) const;
     bool operator==(const Dictionary &other) const { return equals(other); }

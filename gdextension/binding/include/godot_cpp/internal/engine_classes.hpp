@@ -1,6 +1,7 @@
 #pragma once
 
-// Not part of the godot-cpp API: the engine classes that generate.py made, and the engine's singletons.
+// Not part of the godot-cpp API: the list of engine classes that generate.py writes, and the
+// engine's singletons.
 
 #include <godot_cpp/classes/wrapped.hpp>
 
@@ -12,18 +13,18 @@ namespace godot::internal {
 struct EngineClass {
     const char *name;
     Wrapped *(*wrap)(GodotObject *);
-    std::atomic<void *> tag; // the engine's mark of the class, looked up when first needed
+    std::atomic<void *> tag; // the engine's class tag, looked up when first needed
 };
 
 extern EngineClass engine_classes[]; // derived classes first
 extern const std::size_t engine_class_count;
 
-// A singleton of the engine: looked up when first asked for, and again when the library was unloaded and loaded.
+// A singleton of the engine. get() looks it up at the first call, and again after forget().
 class Singleton {
 public:
     explicit Singleton(const char *name);
 
-    // Null when this Godot has no T of that name.
+    // Returns null when this Godot has no T of that name.
     template <class T>
     T *get() {
         Wrapped *found = wrapped_.load(std::memory_order_acquire);
@@ -36,7 +37,7 @@ public:
         }
         return static_cast<T *>(found);
     }
-    // The wrapper was ended.
+    // Called when the wrapper is destroyed.
     void forget() { wrapped_.store(nullptr, std::memory_order_release); }
 
 private:
@@ -46,8 +47,8 @@ private:
     std::atomic<Wrapped *> wrapped_ = nullptr;
 };
 
-// Ends the wrappers of all engine objects that live on when the library is unloaded: the engine would otherwise call the
-// library to end them, when it is gone. Afterwards no wrapped object may be used.
+// Called when the library is unloaded: destroys the wrappers of all engine objects. Otherwise the
+// engine would call the unloaded library to destroy them. No wrapped object may be used afterwards.
 void release_wrappers();
 
 } // namespace godot::internal

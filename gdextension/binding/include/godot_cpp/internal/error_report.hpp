@@ -1,6 +1,6 @@
 #pragma once
 
-// Not part of the godot-cpp API: where the error macros end.
+// Not part of the godot-cpp API: the functions that the error macros call.
 
 #include <godot_cpp/variant/variant.hpp>
 

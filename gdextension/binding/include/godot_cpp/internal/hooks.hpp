@@ -1,14 +1,14 @@
 #pragma once
 
-// Not part of the godot-cpp API: calls what a class of ours declares for itself (_notification,
-// _set, _get, _validate_property, _to_string, _bind_methods) and what its parents declare, each once.
+// Not part of the godot-cpp API: calls the hooks of an extension class (_notification, _set, _get,
+// _validate_property, _to_string, _bind_methods) and of its parents.
 
 #include <godot_cpp/classes/wrapped.hpp>
 
 namespace godot::internal {
 
-// True when T itself declares the hook. Then its signature must be the expected one: a hook that is
-// misspelt in its types would otherwise never be called.
+// Returns whether T itself declares the hook. Its signature must then be the expected one, since a
+// hook with other types would never be called.
 template <class T, class M, class Expected>
 consteval bool declares() {
     if constexpr (std::is_same_v<typename Member<M>::Class, T>) {
@@ -146,7 +146,7 @@ struct Hooks {
         }
     }
 
-    // Fills the hooks that any class down to T declares; the others stay null and cost nothing.
+    // Sets the hooks that T or an extension class above T declares; the others stay null.
     static void fill(ClassRecord &record) {
         if constexpr (kParentIsOurs) {
             Hooks<Parent>::fill(record);
@@ -172,7 +172,7 @@ struct Hooks {
     }
 };
 
-// The engine class that a class of ours stands on.
+// Returns the nearest engine class among T and the parents of T.
 template <class T>
 consteval auto engine_base() {
     if constexpr (IsEngineClass<T>::value) {

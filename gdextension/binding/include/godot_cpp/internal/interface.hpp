@@ -4,8 +4,8 @@
 
 #include <godot_cpp/core/defs.hpp>
 
-// name in the engine, name of its type in gdextension_interface.h. All exist since Godot 4.4.
-// Every one is required: load_interface() refuses to start with a null among them.
+// X(name in the engine, name of the type in gdextension_interface.h). All exist since Godot 4.4,
+// and load_interface() fails if one is missing.
 #define GODOT_BINDING_FUNCTIONS(X)                                                                 \
     X(print_error, PrintError)                                                                     \
     X(print_error_with_message, PrintErrorWithMessage)                                             \
@@ -94,7 +94,7 @@ struct Interface {
 #undef GODOT_BINDING_MEMBER
 };
 
-// What it takes to make, copy, end and convert one built-in type.
+// The engine's functions that make, copy, destroy and convert values of one built-in type.
 struct Lifecycle {
     GDExtensionPtrConstructor construct = nullptr;
     GDExtensionPtrConstructor copy = nullptr;
@@ -107,12 +107,12 @@ extern Interface api;
 extern GDExtensionClassLibraryPtr library;
 extern Lifecycle lifecycles[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
 
-// Fills `api`, `library` and `lifecycles`. False, with the reason printed, when this Godot is older
-// than the API that the library was built from, or lacks a function of the table.
+// Sets `api`, `library` and `lifecycles`. Returns false and prints the reason when this Godot is
+// older than the API from which the library was built, or lacks a function of the table.
 bool load_interface(GDExtensionInterfaceGetProcAddress get_proc_address,
                     GDExtensionClassLibraryPtr class_library);
 
-// A StringName that lives until the library ends, and is not leaked then. `text` must be a literal.
+// Returns a StringName that lives until release_persistent_names(). text: a string literal.
 const StringName &persistent_name(const char *text);
 void release_persistent_names();
 

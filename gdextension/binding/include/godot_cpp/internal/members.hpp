@@ -1,13 +1,15 @@
 #pragma once
 
-// Not part of the godot-cpp API: taking member functions apart, and calling them for the engine.
+// Not part of the godot-cpp API: the types in the signature of a function, and calls of functions
+// of this library by the engine.
 
 #include <godot_cpp/internal/calls.hpp>
 #include <godot_cpp/internal/class_record.hpp>
 
 namespace godot::internal {
 
-// Class, return and argument types of a function; `plain` is its type without noexcept.
+// Class, return type and argument types of a function. Plain: the type of a member function without
+// noexcept.
 template <class M>
 struct Member;
 
@@ -40,7 +42,8 @@ GODOT_BINDING_FUNCTION();
 GODOT_BINDING_FUNCTION(noexcept);
 #undef GODOT_BINDING_FUNCTION
 
-// Calls `function(arguments...)`, taking the arguments from a pointer call and leaving the result.
+// Calls function(arguments...) for a call by pointers: reads the arguments from their addresses and
+// writes the result.
 template <class R, class Arguments, class Function>
 void answer_pointer_call(const Function &function, const GDExtensionConstTypePtr *arguments,
                          GDExtensionTypePtr result) {
@@ -55,7 +58,8 @@ void answer_pointer_call(const Function &function, const GDExtensionConstTypePtr
     static_cast<void>(result);
 }
 
-// The same from Variants, `arguments` having as many as the function takes.
+// Calls function(arguments...) for a call by Variants. Requires as many arguments as the function
+// takes.
 template <class R, class Arguments, class Function>
 Variant answer_variant_call(const Function &function, const Variant *const *arguments) {
     return [&]<class... A, std::size_t... I>(std::tuple<A...> *,
@@ -71,7 +75,8 @@ Variant answer_variant_call(const Function &function, const Variant *const *argu
     }(static_cast<Arguments *>(nullptr), std::make_index_sequence<std::tuple_size_v<Arguments>>());
 }
 
-// Adds T's override of an engine class's virtual method, when T (or a parent of ours) has one.
+// Adds the override of an engine class's virtual method, if T or an extension class above T has
+// one.
 template <class T, auto kMethod, auto kEngineMethod>
 void add_virtual(std::vector<VirtualEntry> &entries, const char *name, uint32_t hash) {
     using Method = Member<decltype(kMethod)>;

@@ -1,17 +1,18 @@
 #pragma once
 
-// Not part of the godot-cpp API: a bound method, as the engine calls it.
+// Not part of the godot-cpp API: lets the engine call a bound method.
 
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/internal/own_arguments.hpp>
 
 namespace godot::internal {
 
-// Checks the count and types of `given`, fills defaults. False, with `error` set, when they do not fit.
+// Writes the arguments and missing defaults to `arranged`. Returns false and sets `error` when
+// number or types of the arguments do not fit.
 bool arrange_arguments(const MethodRecord &method, const GDExtensionConstVariantPtr *given,
                        GDExtensionInt count, const Variant **arranged, GDExtensionCallError &error);
 
-// False for an object of another class than the argument's.
+// test() returns false for an object that is not of the argument's class.
 template <class T>
 struct ObjectFits {
     static bool test(const Variant &) { return true; }
@@ -72,7 +73,7 @@ struct BoundMethod : MethodRecord {
         pointer_call = &call_with_pointers;
     }
 
-    // The method as a plain function of its arguments.
+    // Returns a function that calls the method on `instance`.
     auto on(GDExtensionClassInstancePtr instance) const {
         if constexpr (kStatic) {
             static_cast<void>(instance);

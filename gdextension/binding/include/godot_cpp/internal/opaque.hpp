@@ -1,6 +1,6 @@
 #pragma once
 
-// Not part of the godot-cpp API: common base of the built-in types that only the engine understands.
+// Not part of the godot-cpp API: base of the built-in types whose bytes only the engine interprets.
 
 #include <godot_cpp/internal/interface.hpp>
 #include <godot_cpp/internal/plain_types.hpp>
@@ -12,8 +12,8 @@
 
 namespace godot::internal {
 
-// The engine may move these bytes (it does so itself in its own containers), so a move is a copy of
-// bytes that leaves an empty value behind.
+// A value of such a type. Its bytes may be moved in memory, as the engine itself does in its
+// containers. The move constructor therefore copies the bytes and leaves an empty value behind.
 template <GDExtensionVariantType kType, std::size_t kSize>
 class Opaque {
 public:

@@ -1,26 +1,27 @@
 #pragma once
 
-// Not part of the godot-cpp API, but for the three templates below, which godot-cpp has under the same names: an add-on
-// that specialises all three for a type of its own can take that type as an argument of a bound method. Here the type
-// also names, as `BoundAs`, the type that it stands for. Such an argument sees every Variant and checks it itself.
+// Bound methods whose arguments have a type of the add-on. The add-on specializes the first three
+// templates, which godot-cpp has under the same names. In this binding, the type must also name, as
+// BoundAs, the type that scripts pass. The binding does not check such an argument: its conversion
+// sees every Variant. The rest of the file is not part of the godot-cpp API.
 
 #include <godot_cpp/internal/border.hpp>
 
 namespace godot {
 
-// What a call by Variants hands over.
+// Converts an argument of a call by Variants.
 template <class T>
 struct VariantCaster {
     static T cast(const Variant &value) { return internal::Border<T>::from_variant(value); }
 };
 
-// What a pointer call hands over.
+// Converts an argument of a call by pointers.
 template <class T>
 struct PtrToArg {
     static T convert(const void *address) { return internal::Border<T>::decode(address); }
 };
 
-// How the argument is shown in the class reference.
+// Describes the argument's type to the engine.
 template <class T, typename = void>
 struct GetTypeInfo {
     static constexpr Variant::Type VARIANT_TYPE = internal::Border<T>::type;
@@ -44,7 +45,7 @@ struct Border<T> {
     static PropertyInfo info() { return GetTypeInfo<T>::get_class_info(); }
 };
 
-// The type that the binding insists on; nil: any.
+// Returns the type that the binding requires of an argument; NIL: any.
 template <class T>
 constexpr Variant::Type insisted_type() {
     if constexpr (OwnArgument<T>) {

@@ -1,13 +1,13 @@
 #pragma once
 
-// The packed arrays. Include <godot_cpp/variant/packed_float64_array.hpp> and its like instead.
+// The packed arrays. Include a header such as godot_cpp/variant/packed_float64_array.hpp instead.
 
 #include <godot_cpp/internal/containers.hpp>
 #include <godot_cpp/variant/vector2.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
-// ptr() and ptrw() are null for an empty array. An index outside 0..size()-1 is the caller's error,
-// as in godot-cpp: check size() once, then use ptr().
+// ptr() and ptrw() return null for an empty array. operator[] requires an index from 0 to size() -
+// 1, as in godot-cpp. In a loop, check size() once and use ptr().
 #define GODOT_BINDING_PACKED_ARRAY(m_class, m_type, m_function, m_element)                         \
     class m_class                                                                                  \
         : public internal::Opaque<GDEXTENSION_VARIANT_TYPE_##m_type, internal::k##m_class##Size> { \

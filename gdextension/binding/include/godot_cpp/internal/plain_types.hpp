@@ -1,6 +1,6 @@
 #pragma once
 
-// Not part of the godot-cpp API: which C++ types have the same bytes on both sides of the border.
+// Not part of the godot-cpp API: the C++ types whose bytes are the same here and in the engine.
 
 #include <godot_cpp/core/defs.hpp>
 
@@ -83,7 +83,8 @@ concept Plain = requires {
 template <class T, class... Others>
 concept OneOf = (std::is_same_v<T, Others> || ...);
 
-// The arithmetic types that godot-cpp carries: no char, no long double, and of long and long long the one that int64_t is.
+// The arithmetic types that godot-cpp passes to the engine. char and long double are not among
+// them, and of long and long long only the one that int64_t is.
 template <class T>
 concept Arithmetic = OneOf<T, bool, int8_t, int16_t, int32_t, int64_t, uint8_t, uint16_t, uint32_t,
                            uint64_t, float, double>;
@@ -91,7 +92,7 @@ concept Arithmetic = OneOf<T, bool, int8_t, int16_t, int32_t, int64_t, uint8_t, 
 template <class T>
 concept Number = Arithmetic<T> || std::is_enum_v<T>;
 
-// Enums that turn into integers by themselves, as a Variant wants it.
+// Enums that convert to integers implicitly, as the constructor of Variant requires.
 template <class T>
 concept PlainEnum = std::is_enum_v<T> && std::is_convertible_v<T, int64_t>;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// String, StringName and NodePath. Include <godot_cpp/variant/string.hpp> and its like instead.
+// String, StringName and NodePath. Include a header such as godot_cpp/variant/string.hpp instead.
 
 #include <godot_cpp/internal/opaque.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace godot {
 
-// UTF-8 text taken out of a String.
+// The UTF-8 text that String::utf8() returns.
 class CharString {
     friend class String;
 
@@ -23,12 +23,12 @@ private:
 class String : public internal::Opaque<GDEXTENSION_VARIANT_TYPE_STRING, internal::kStringSize> {
 public:
     String() = default;
-    // Latin-1, as in godot-cpp: text beyond ASCII needs String::utf8().
+    // Reads `text` as Latin-1, as godot-cpp does. For UTF-8 text use String::utf8().
     String(const char *text);
     explicit String(const StringName &name);
     explicit String(const NodePath &path);
 
-    // `length` in bytes, -1 for "up to the terminating zero".
+    // length: number of bytes; -1: up to the terminating zero.
     static String utf8(const char *text, int64_t length = -1);
     CharString utf8() const;
 
@@ -51,7 +51,7 @@ public:
     StringName(const char *text);
     StringName(const String &text);
 
-    // Names are interned by the engine: same text, same bytes.
+    // The engine stores each name once, so that equal names have equal bytes.
     bool operator==(const StringName &other) const { return same_bytes(other); }
     bool operator!=(const StringName &other) const { return !same_bytes(other); }
     bool operator==(const char *other) const = delete; // ambiguous in godot-cpp: StringName("...")

@@ -4,16 +4,16 @@
 
 namespace godot {
 
-// A 3x3 matrix kept by rows, as the engine keeps it. Columns are the images of the axes.
+// A 3x3 matrix, stored by rows as in the engine. Its columns are the images of the three axes.
 struct Basis {
     Vector3 rows[3] = {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
 
     Basis() {}
-    // The three columns.
+    // Takes the three columns.
     Basis(const Vector3 &x_axis, const Vector3 &y_axis, const Vector3 &z_axis)
         : rows{Vector3(x_axis.x, y_axis.x, z_axis.x), Vector3(x_axis.y, y_axis.y, z_axis.y),
                Vector3(x_axis.z, y_axis.z, z_axis.z)} {}
-    // Of a unit quaternion; another length is divided out.
+    // Makes the rotation matrix of q / |q|.
     Basis(const Quaternion &q) {
         const real_t s = 2 / q.length_squared();
         const real_t x = q.x * s;
@@ -23,7 +23,7 @@ struct Basis {
         rows[1] = Vector3(q.x * y + q.w * z, 1 - (q.x * x + q.z * z), q.y * z - q.w * x);
         rows[2] = Vector3(q.x * z - q.w * y, q.y * z + q.w * x, 1 - (q.x * x + q.y * y));
     }
-    // `axis` of unit length, `angle` in rad.
+    // axis: of any length above 0. angle: in rad.
     Basis(const Vector3 &axis, real_t angle) : Basis(Quaternion(axis, angle)) {}
 
     Vector3 &operator[](int row) { return rows[row]; }
@@ -38,7 +38,7 @@ struct Basis {
     Vector3 xform(const Vector3 &v) const {
         return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)};
     }
-    // By the transpose, which is the inverse of a rotation only.
+    // Multiplies by the transpose, which is the inverse for a rotation matrix only.
     Vector3 xform_inv(const Vector3 &v) const {
         return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z;
     }
@@ -47,7 +47,7 @@ struct Basis {
         return {xform(o.get_column(0)), xform(o.get_column(1)), xform(o.get_column(2))};
     }
     real_t determinant() const { return rows[0].dot(rows[1].cross(rows[2])); }
-    // A singular matrix has no inverse: the answer is then not finite.
+    // The result is not finite for a singular matrix.
     Basis inverse() const {
         const real_t s = 1 / determinant();
         return {rows[1].cross(rows[2]) * s, rows[2].cross(rows[0]) * s, rows[0].cross(rows[1]) * s};
@@ -61,15 +61,15 @@ struct Basis {
         return {x, y, (c - x * x.dot(c) - y * y.dot(c)).normalized()};
     }
     void orthonormalize() { *this = orthonormalized(); }
-    // Column lengths, with the determinant's sign.
+    // Returns the lengths of the columns, all with the sign of the determinant.
     Vector3 get_scale() const {
         const real_t sign = determinant() < 0 ? real_t(-1) : real_t(1);
         return Vector3(get_column(0).length(), get_column(1).length(), get_column(2).length()) *
                sign;
     }
-    // Of a rotation matrix.
+    // Requires a rotation matrix.
     Quaternion get_quaternion() const;
-    // Of the rotation left when scale, shear and reflection are taken out.
+    // Returns the rotation without scale, shear and reflection.
     Quaternion get_rotation_quaternion() const {
         Basis m = orthonormalized();
         if (m.determinant() < 0) {
@@ -92,7 +92,8 @@ struct Basis {
 };
 
 inline Quaternion Basis::get_quaternion() const {
-    // Shepperd: the largest of the four squares is never below 1, so nothing small is divided by.
+    // Shepperd's method: in each branch one component is at least 1 before normalized(), so that
+    // the division is safe.
     const real_t xx = rows[0][0];
     const real_t yy = rows[1][1];
     const real_t zz = rows[2][2];

@@ -6,8 +6,9 @@ namespace godot {
 
 namespace internal {
 
-// A Callable that calls `record.call` on `object` as long as that object lives. Two are equal when
-// object and method are: `identity` (of `identity_size` bytes, inside the record) tells methods apart.
+// Returns a Callable that calls record->call on `object` while that object lives. Two Callables are
+// equal when their objects and their identities are equal. identity: identity_size bytes inside the
+// record, which identify the method.
 Callable make_callable(const Object *object, Wrapped *instance,
                        std::unique_ptr<MethodRecord> record, const void *identity,
                        std::size_t identity_size);
@@ -26,7 +27,7 @@ Callable bound_callable(T *object, M method) {
 
 } // namespace internal
 
-// A Callable of a method of ours, which need not be bound.
+// Makes a Callable of a method of an extension class. The method need not be bound.
 #define callable_mp(m_object, m_method) (::godot::internal::bound_callable(m_object, m_method))
 
 } // namespace godot

@@ -4,7 +4,7 @@
 
 namespace godot {
 
-// The points x with normal.dot(x) == d.
+// A plane: all points x with normal.dot(x) == d.
 struct Plane {
     Vector3 normal;
     real_t d = 0;

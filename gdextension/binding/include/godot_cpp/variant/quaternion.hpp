@@ -14,13 +14,13 @@ struct Quaternion {
 
     Quaternion() {}
     Quaternion(real_t p_x, real_t p_y, real_t p_z, real_t p_w) : x(p_x), y(p_y), z(p_z), w(p_w) {}
-    // `axis` of unit length, `angle` in rad.
+    // axis: of any length above 0. angle: in rad.
     Quaternion(const Vector3 &axis, real_t angle) {
         const Vector3 v = axis.normalized() * std::sin(angle / 2);
         *this = Quaternion(v.x, v.y, v.z, std::cos(angle / 2));
     }
 
-    // The Hamilton product: the right factor turns first.
+    // Hamilton product: the rotation of the right factor is applied first.
     Quaternion operator*(const Quaternion &o) const {
         return {w * o.x + x * o.w + y * o.z - z * o.y, w * o.y + y * o.w + z * o.x - x * o.z,
                 w * o.z + z * o.w + x * o.y - y * o.x, w * o.w - x * o.x - y * o.y - z * o.z};
@@ -39,7 +39,7 @@ struct Quaternion {
     real_t length_squared() const { return dot(*this); }
     real_t length() const { return std::sqrt(length_squared()); }
     Quaternion normalized() const { return *this / length(); }
-    // Of a unit quaternion.
+    // Requires a unit quaternion.
     Quaternion inverse() const { return {-x, -y, -z, w}; }
     Vector3 xform(const Vector3 &v) const {
         const Vector3 u(x, y, z);
@@ -47,7 +47,7 @@ struct Quaternion {
         return v + (uv * w + u.cross(uv)) * real_t(2);
     }
     real_t get_angle() const { return 2 * std::acos(std::clamp(w, real_t(-1), real_t(1))); }
-    // Of two unit quaternions; 0..pi rad.
+    // Requires two unit quaternions. Returns an angle from 0 to pi (unit: rad).
     real_t angle_to(const Quaternion &o) const {
         const real_t cosine = dot(o);
         return std::acos(std::clamp(2 * cosine * cosine - 1, real_t(-1), real_t(1)));

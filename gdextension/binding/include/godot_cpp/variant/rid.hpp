@@ -4,7 +4,8 @@
 
 namespace godot {
 
-// The name of something that a server owns. Equal names are the same thing, until that is freed.
+// Identifies a resource of one of the engine's servers, such as a body of the physics server. The
+// RID is valid until the server frees the resource.
 class RID {
 public:
     RID() {}

@@ -13,7 +13,8 @@ struct Transform3D {
         : basis(p_basis), origin(p_origin) {}
 
     Vector3 xform(const Vector3 &v) const { return basis.xform(v) + origin; }
-    // Right for a rotation only; affine_inverse() serves every other transform.
+    // This and inverse() are right for a rotated basis only. For a scaled or sheared basis use
+    // affine_inverse().
     Vector3 xform_inv(const Vector3 &v) const { return basis.xform_inv(v - origin); }
     Transform3D operator*(const Transform3D &o) const { return {basis * o.basis, xform(o.origin)}; }
     Transform3D inverse() const {

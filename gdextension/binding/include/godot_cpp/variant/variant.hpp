@@ -1,6 +1,6 @@
 #pragma once
 
-// Variant, and with it every built-in type.
+// Variant. This header includes all built-in types of the binding.
 
 #include <godot_cpp/internal/packed_arrays.hpp>
 #include <godot_cpp/variant/color.hpp>
@@ -100,7 +100,7 @@ public:
     }
     ~Variant() { internal::api.variant_destroy(bytes_.data()); }
 
-    // Converts as GDScript does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
+    // Converts as the engine does: int64_t(Variant(2.5)) is 2, String(Variant(2)) is "2".
     template <class T>
     requires internal::Arithmetic<T>
     explicit operator T() const {
@@ -120,7 +120,7 @@ public:
     template <class T>
     requires internal::Plain<T>
     explicit operator T() const {
-        // The engine constructs over what is there: a default value, which owns nothing lasting.
+        // The engine constructs the value in this memory, so that none may exist there before.
         union Uninitialized {
             Uninitialized() {}
             ~Uninitialized() {}
@@ -132,7 +132,7 @@ public:
         return result;
     }
 
-    // Null for another type, and for an object that was freed.
+    // Returns null for another type, and for an object that was freed.
     explicit operator Object *() const;
 
     Type get_type() const {
@@ -140,7 +140,7 @@ public:
     }
     String stringify() const;
     bool booleanize() const { return internal::api.variant_booleanize(bytes_.data()) != 0; }
-    // Values of two types are never equal: 1 is not 1.0, a String no StringName.
+    // Values of different types are not equal, such as 1 and 1.0, or a String and a StringName.
     bool operator==(const Variant &other) const;
     bool operator!=(const Variant &other) const { return !(*this == other); }
     static String get_type_name(Type type);
@@ -172,7 +172,7 @@ namespace internal {
 String format(const String &text, const Array &values);
 } // namespace internal
 
-// GDScript's format operator: vformat("%d of %s", 3, name).
+// Formats as the operator % of GDScript: vformat("%d of %s", 3, name).
 template <typename... Args>
 String vformat(const String &text, const Args &...values) {
     return internal::format(text, Array::make(values...));

@@ -12,7 +12,7 @@ struct Vector3 {
     Vector3() {}
     Vector3(real_t p_x, real_t p_y, real_t p_z) : x(p_x), y(p_y), z(p_z) {}
 
-    // `axis` is 0, 1 or 2.
+    // axis: 0, 1 or 2.
     real_t &operator[](int axis) { return axis == 0 ? x : (axis == 1 ? y : z); }
     const real_t &operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
 
@@ -38,7 +38,7 @@ struct Vector3 {
     real_t length() const { return std::sqrt(length_squared()); }
     real_t distance_to(const Vector3 &o) const { return (o - *this).length(); }
 
-    // The zero vector stays zero.
+    // Returns the zero vector for the zero vector.
     Vector3 normalized() const {
         const real_t norm = length();
         return norm == 0 ? Vector3() : *this / norm;
