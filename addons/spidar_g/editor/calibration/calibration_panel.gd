@@ -1,6 +1,6 @@
 @tool
 extends VBoxContainer
-## Is the calibration panel of the inspector. It shows the device, its live readings, and one step of the calibration at a
+## This is the calibration panel of the inspector. It shows the device, its live readings, and one step of the calibration at a
 ## time. The session holds the state, so the inspector may remove and recreate the panel at any time.
 
 const CalibrationSession := preload("calibration_session.gd")

@@ -1,6 +1,6 @@
 @tool
 extends MenuButton
-## Is the menu in the toolbar of the 3D view that selects what the gizmo of a selected SpidarG shows. The menu is visible
+## This is the menu in the toolbar of the 3D view that selects what the gizmo of a selected SpidarG shows. The menu is visible
 ## while a SpidarG is selected.
 
 const ViewOptions := preload("view_options.gd")

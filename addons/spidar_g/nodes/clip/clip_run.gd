@@ -3,7 +3,8 @@ extends RefCounted
 
 ## The duration of each refresh, in seconds. If the game hangs, the effect ends after this time and a fade of 50 ms.
 const RENEWED_FOR_S: float = 0.05
-## The minimum duration of each refresh, in physics ticks. It counts at fewer than 50 ticks per second.
+## The minimum duration of each refresh, in physics ticks. It is longer than the duration above if there are fewer
+## than 50 ticks per second.
 const RENEWED_FOR_TICKS: float = 2.5
 ## The time in which the servo loop moves to a new amplitude, in seconds. Each step requests the amplitude that the clip has
 ## at the end of this time, or one physics tick later if that is longer.

@@ -146,8 +146,8 @@ func _init() -> void:
 
 ## Plays the clip from its beginning on [param spidar]. If that is [code]null[/code], the clip is played on the device above
 ## the player or at [member source_path], or on every open device of the same world if there is none. Returns
-## [code]true[/code] if a device plays it. Otherwise a warning says why, unless no device is open. That no effect is free is
-## reported only once until a clip is played again.
+## [code]true[/code] if a device plays the clip. Otherwise a warning says why, unless no device is open. The warning that no
+## effect is free is given only once until a clip is played again.
 func play(spidar: SpidarG = null) -> bool:
 	if _devices == null:
 		if ClassDB.class_exists(&"SpidarG"):
