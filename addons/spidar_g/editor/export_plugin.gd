@@ -1,10 +1,11 @@
 @tool
 extends EditorExportPlugin
 ## Puts the stand-in classes of addons/spidar_g/stand_in into an export for a system that the add-on has no library for, so
-## that scripts that name SpidarG load there. Where there is a library, they would hide its classes.
+## that scripts that name SpidarG load there. An export for a system with a library does not get the stand-ins, because they
+## would hide the classes of the library.
 ##
-## Godot finds the class of a script in a list in the project's cache, which it copies at the end of an export. During the
-## export, the list contains the stand-in classes too.
+## Godot finds the script of a class in a list in the project's cache, and copies this list into the export at its end. During
+## the export, the list therefore contains the stand-in classes too.
 
 const STAND_INS: String = "res://addons/spidar_g/stand_in"
 const MANIFEST: String = "res://addons/spidar_g/spidar_g.gdextension"

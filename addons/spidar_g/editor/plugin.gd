@@ -1,15 +1,17 @@
 @tool
 extends EditorPlugin
 ## Adds the calibration panel of the inspector, the 3D view of SpidarG nodes, and a menu item for the physics settings that
-## small held things need. Exports for systems without a library get stand-in classes. The nodes work without this plugin.
+## small held bodies need. It also puts stand-in classes into exports for systems without a library. The nodes work without
+## this plugin.
 ##
-## Scripts that name the classes of the library do not load without it, so the plugin loads them only if the library exists.
+## Scripts that name the classes of the library do not load if the library is missing, so the plugin loads these scripts only
+## if the library exists.
 
 const ExportPlugin := preload("export_plugin.gd")
 
 const MENU_ITEM: String = "SPIDAR-G: Apply Physics Settings"
-## The project settings that the menu item proposes. With them, Jolt lets a squeezed stick of 3 mm rest on a floor; the
-## defaults of 20 mm for two of them are larger than the stick.
+## The project settings that the menu item proposes. With these settings, Jolt lets a squeezed stick of 3 mm rest on a floor.
+## The default of both lengths is 20 mm, which is more than the thickness of the stick.
 const SETTINGS: Dictionary[String, Variant] = {
 	"physics/3d/physics_engine": "Jolt Physics",
 	"physics/jolt_physics_3d/simulation/penetration_slop": 0.0005,

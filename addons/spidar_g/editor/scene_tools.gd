@@ -1,6 +1,7 @@
 @tool
 extends RefCounted
-## Adds the calibration panel and the claims of devices to the inspector, and the 3D view of SpidarG nodes to the scene editor.
+## Adds the calibration panel and the label that states which node uses which device to the inspector, and the 3D view of
+## SpidarG nodes to the scene editor.
 
 const CalibrationInspector := preload("calibration/calibration_inspector.gd")
 const ClaimsInspector := preload("claims/claims_inspector.gd")
@@ -25,7 +26,7 @@ func _init(plugin: EditorPlugin) -> void:
 	plugin.add_control_to_container(EditorPlugin.CONTAINER_SPATIAL_EDITOR_MENU, _view_menu)
 
 
-## Removes everything that this object has added to the editor. Nothing may be called afterwards.
+## Removes everything that this object has added to the editor. The object must not be used afterwards.
 func remove() -> void:
 	_calibration.close_all()
 	_plugin.remove_inspector_plugin(_calibration)

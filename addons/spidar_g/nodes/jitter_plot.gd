@@ -1,19 +1,20 @@
 @tool
-## Draws a histogram of how late the servo thread woke up. Both scales are logarithmic, with two bars for each octave.
+## Draws a histogram of how late the servo thread woke up. Both scales are logarithmic. Two bars cover each doubling of the
+## lateness.
 extends Control
 
 const PlotStrip := preload("plot_strip.gd")
 
 const BAR_COLOUR: Color = Color(0.30, 0.62, 0.95)
 const LATE_COLOUR: Color = Color(0.95, 0.55, 0.15)
-## Bars from this lateness on are drawn in the color of late wake-ups, in microseconds.
+## Bars that begin at this lateness or later, in microseconds, are drawn in LATE_COLOUR.
 const LATE_US: float = 500.0
-## The lateness of the first bar, in microseconds. Earlier wake-ups are added to this bar.
+## The first bar covers this lateness, in microseconds. Wake-ups that were less late are added to this bar.
 const FIRST_US: float = 1.0
-## The lateness of the last bar, in microseconds. Later wake-ups are added to this bar.
+## The last bar begins at about this lateness, in microseconds. Wake-ups that were later are added to this bar.
 const LAST_US: float = 20000.0
 
-## Half the width of a bar, in decades. It selects the one bar that gets the label of a decade.
+## Half the width of a bar, in decades of the lateness. A bar that begins less than this from a power of ten gets its label.
 const HALF_BAR_DECADES: float = 0.0753
 
 ## The counts of [method SpidarG.get_lateness_histogram]: bucket i counts the wake-ups that were 2^(i/2) to 2^((i+1)/2) ns
@@ -29,12 +30,13 @@ func show_counts(new_counts: PackedInt32Array) -> void:
 	queue_redraw()
 
 
-## Returns the smallest lateness of a bucket, in microseconds.
+## Returns the smallest lateness that the bucket with this index counts, in microseconds.
 static func bucket_begin_us(bucket: int) -> float:
 	return pow(2.0, 0.5 * bucket) * 1e-3
 
 
-## Returns the counts of the bars that are shown. What lies outside is added to the first and the last bar.
+## Returns the counts of the bars that are shown. Counts of buckets outside their range are added to the first or the last
+## bar.
 func bars() -> PackedInt32Array:
 	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
 	var last: int = int(ceil(2.0 * log(LAST_US * 1000.0) / log(2.0)))
@@ -63,7 +65,7 @@ func _draw() -> void:
 	var first: int = int(floor(2.0 * log(FIRST_US * 1000.0) / log(2.0)))
 	var area := Rect2(4, PlotStrip.HEAD_HEIGHT, size.x - 8, size.y - PlotStrip.HEAD_HEIGHT - 16)
 	var width: float = area.size.x / shown.size()
-	# One wake-up is as high as a tenth of all the decades that there are.
+	# The bar of a single wake-up has a tenth of the full height.
 	var decades: float = maxf(1.0, log(float(most)) / log(10.0))
 	for i: int in shown.size():
 		var begin_us: float = bucket_begin_us(first + i)
@@ -77,8 +79,8 @@ func _draw() -> void:
 		draw_string(font, placed[text], text, HORIZONTAL_ALIGNMENT_LEFT, -1, PlotStrip.FONT_SIZE, PlotStrip.TEXT)
 
 
-## Returns the labels in microseconds, one for each decade, and the position at which each begins: below its bar and within
-## the plot.
+## Returns the labels of the powers of ten, in microseconds, with the position at which each label begins. A label is below
+## its bar and within the plot.
 func labels(area: Rect2) -> Dictionary[String, Vector2]:
 	var font: Font = get_theme_default_font()
 	var placed: Dictionary[String, Vector2] = {}

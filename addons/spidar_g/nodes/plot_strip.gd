@@ -2,7 +2,7 @@
 ## Draws curves that run from right to left, with the newest value at the right edge.
 extends Control
 
-## The number of samples that are kept and drawn.
+## The largest number of samples that are kept and drawn for each curve.
 const SAMPLES: int = 240
 const HEAD_HEIGHT: float = 18.0
 const FONT_SIZE: int = 12
@@ -12,11 +12,13 @@ const TEXT: Color = Color(0.85, 0.87, 0.90)
 
 ## The title that is drawn above the curves.
 var title: String = ""
-## The lower end of the smallest range that is shown, in the unit of the values. The range grows with the values.
+## The lower end of the range of values that is shown, in the unit of the values. The range is extended down to the smallest
+## value that is kept.
 var least_low: float = 0.0
-## The upper end of the smallest range that is shown, in the unit of the values. The range grows with the values.
+## The upper end of the range of values that is shown, in the unit of the values. The range is extended up to the largest
+## value that is kept.
 var least_high: float = 1.0
-## Sets one color for each curve. The size of the array is the number of curves.
+## Sets the color of each curve. The size of the array is the number of curves. A change removes all samples.
 var colours: PackedColorArray = []:
 	set(value):
 		colours = value
@@ -35,7 +37,8 @@ func clear() -> void:
 	queue_redraw()
 
 
-## Adds one value for each curve. Ignored if the number of values is not the number of curves.
+## Adds one sample: one value for each curve. A value that is not finite becomes 0. Ignored if the number of values is not the
+## number of curves.
 func add_sample(values: PackedFloat64Array) -> void:
 	if values.size() != colours.size() or colours.is_empty():
 		return
@@ -51,7 +54,7 @@ func get_sample_count() -> int:
 	return _count
 
 
-## Returns the samples of one curve, the oldest first.
+## Returns the kept values of the curve with the index `curve`, the oldest first.
 func get_curve(curve: int) -> PackedFloat32Array:
 	var values: PackedFloat32Array = []
 	for i: int in _count:

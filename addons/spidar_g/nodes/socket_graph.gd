@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## Finds which bodies are connected by links, and what carries them.
+## Finds which bodies are connected by links of sockets, and what carries these bodies.
 
 const SocketHand := preload("socket_hand.gd")
 const SocketHands := preload("socket_hands.gd")
@@ -16,7 +16,8 @@ static func sockets_of(body: Node) -> Array[SpidarGSocket]:
 	return sockets
 
 
-## Returns all bodies that links connect to `body`, itself first. Paths through `without` are ignored.
+## Returns all bodies that links connect to `body`, directly or through other bodies. The first one is `body` itself. Paths
+## through the body `without` are ignored.
 static func joined_to(body: PhysicsBody3D, without: PhysicsBody3D) -> Array[PhysicsBody3D]:
 	var reached: Array[PhysicsBody3D] = [body]
 	var index: int = 0
@@ -30,8 +31,9 @@ static func joined_to(body: PhysicsBody3D, without: PhysicsBody3D) -> Array[Phys
 	return reached
 
 
-## Returns what carries `body` if `without` is taken away: a body that does not move by itself, or the SocketHand that has
-## held one of the connected bodies since before `since_us`. Returns [code]null[/code] if nothing does.
+## Returns what carries `body` if the body `without` is ignored. This is a connected body that is static or frozen, or else
+## the SocketHand of a connected body that was grasped before the time `since_us` (in microseconds). Returns [code]null[/code]
+## if nothing carries `body`.
 static func carrier_of(body: PhysicsBody3D, without: PhysicsBody3D, since_us: int) -> Node:
 	var by_hand: SocketHand = null
 	for reached: PhysicsBody3D in joined_to(body, without):
@@ -43,7 +45,8 @@ static func carrier_of(body: PhysicsBody3D, without: PhysicsBody3D, since_us: in
 	return by_hand
 
 
-## Returns the bodies that hang on the body of this hand and on nothing else.
+## Returns the bodies that links connect to the body in this hand. Returns an empty array if anything else carries one of
+## them: a static or frozen body, or a hand that grasped earlier.
 static func hanging_on(hand: SocketHand) -> Array[RigidBody3D]:
 	var hanging: Array[RigidBody3D] = []
 	for reached: PhysicsBody3D in joined_to(hand.held, null):
@@ -56,7 +59,8 @@ static func hanging_on(hand: SocketHand) -> Array[RigidBody3D]:
 	return hanging
 
 
-## Returns the sockets that links connect to this one in one point, itself first.
+## Returns all sockets that links connect to `socket`, directly or through other sockets. They meet in one point. The first
+## one is `socket` itself.
 static func meeting(socket: SpidarGSocket) -> Array[SpidarGSocket]:
 	var met: Array[SpidarGSocket] = [socket]
 	var index: int = 0

@@ -1,7 +1,7 @@
 @tool
 extends Node
-## Moves the sockets of the body in one hand: they are drawn to the ones that they fit, click into their seat, are held there
-## by a spring, and come off. This is an internal child of a [SpidarGHand], and it works while that hand holds a body with
+## Moves the sockets of the body that a hand holds: they are drawn to sockets that fit, click into their seats, are held there
+## by a spring, and come off. This node is an internal child of a [SpidarGHand], and works while that hand holds a body with
 ## sockets.
 
 const SocketGraph := preload("socket_graph.gd")
@@ -14,9 +14,10 @@ const SocketSpring := preload("socket_spring.gd")
 ## The time in which the body moves into its seat, in seconds.
 const SEATING_S: float = 0.08
 
-## The body in the hand if it has sockets, or [code]null[/code].
+## The body that the hand holds, if the body had sockets when it was grasped, or [code]null[/code].
 var held: RigidBody3D
-## The time at which the body was grasped, in microseconds. If two hands hold linked bodies, the one that came first carries.
+## The time at which the body was grasped, in microseconds. If two hands hold linked bodies, the hand that grasped first
+## carries the bodies.
 var since_us: int = 0
 
 var _hand: SpidarGHand
@@ -57,8 +58,8 @@ func _exit_tree() -> void:
 	_let_go()
 
 
-## Takes over a link of the held body that [method SpidarGSocket.link_to] made. Returns [code]false[/code] if a joint must
-## hold it.
+## Lets the spring of this hand hold a new link of the held body. Returns [code]false[/code] if nothing else carries the other
+## body: a joint must then hold the link.
 func take(link: SocketLink) -> bool:
 	var mate: SpidarGSocket = link.other if link.one.get_body() == held else link.one
 	if SocketGraph.carrier_of(mate.get_body(), held, since_us) == null:
@@ -67,14 +68,14 @@ func take(link: SocketLink) -> bool:
 	return true
 
 
-## Records that a socket of the held body has come off `mate`, so that the two are not drawn together before they were out of
-## reach.
+## Records that a socket of the held body has come off `mate`. The two are drawn together again only after they were out of
+## reach of each other.
 func note_parted(socket: SpidarGSocket, mate: SpidarGSocket) -> void:
 	_parted[socket.get_instance_id()] = mate.get_instance_id()
 
 
-## Renders what `pulls` do to this hand. With `on_mates` they belong to another hand, and their mates are on the body of this
-## one.
+## Lets this hand feel `pulls`, with the spring effect `id`. With `on_mates` the pulls are those of another hand's body, and
+## their mates are on the body of this hand or on bodies that hang on it.
 func feel(pulls: Array[SocketPull], id: int, on_mates: bool) -> void:
 	var spring: SocketSpring = SocketSpring.about(_grip, _scale, pulls, on_mates)
 	_load_n += spring.load_n

@@ -1,11 +1,13 @@
 @tool
 extends RefCounted
-## Lets sockets and hands of a scene tree find each other, by groups and by one SocketHand in each [SpidarGHand]. Everything
-## is in the scene tree, so nothing outlives a scene.
+## Lets sockets and hands of a scene tree find each other, by groups and by one SocketHand node in each [SpidarGHand]. All of
+## this is in the scene tree, so nothing outlives a scene.
 
 const SocketHand := preload("socket_hand.gd")
 
+## The group that contains all sockets.
 const SOCKETS: StringName = &"_spidar_g_sockets"
+## The group that contains the SocketHand of each hand.
 const HANDS: StringName = &"_spidar_g_socket_hands"
 
 
@@ -14,7 +16,7 @@ static func group_of(key: StringName) -> StringName:
 	return StringName("_spidar_g_sockets_" + key)
 
 
-## Gives every hand of the tree a SocketHand, now and as long as there is a socket.
+## Gives every hand of the tree a SocketHand. Until [method unwatch], each hand that enters the tree gets one too.
 static func watch(tree: SceneTree) -> void:
 	# Without the add-on's library a SpidarGHand is a stand-in, which holds nothing.
 	if not ClassDB.class_exists(&"SpidarG") or tree.node_added.is_connected(_on_node_added):
@@ -23,13 +25,14 @@ static func watch(tree: SceneTree) -> void:
 	_equip_all.call_deferred(tree)
 
 
-## Stops looking for hands when the last socket has left the tree.
+## Stops looking for new hands, if no socket is left in the tree.
 static func unwatch(tree: SceneTree) -> void:
 	if tree.get_node_count_in_group(SOCKETS) == 0 and tree.node_added.is_connected(_on_node_added):
 		tree.node_added.disconnect(_on_node_added)
 
 
-## Returns the hand that holds this body, the first one if there are several, or [code]null[/code].
+## Returns the SocketHand of the hand that holds `body`, or [code]null[/code]. Of several hands, returns the one that grasped
+## first.
 static func holder_of(body: PhysicsBody3D) -> SocketHand:
 	var found: SocketHand = null
 	if body == null or not body.is_inside_tree():
@@ -41,8 +44,8 @@ static func holder_of(body: PhysicsBody3D) -> SocketHand:
 	return found
 
 
-## Records that two sockets have come apart. A hand that still holds one of them draws them together again only after they
-## were out of reach.
+## Records that two sockets have come apart. A hand that still holds the body of one of them draws the two together again only
+## after they were out of reach of each other.
 static func note_parted(one: SpidarGSocket, other: SpidarGSocket) -> void:
 	var by_one: SocketHand = holder_of(one.get_body())
 	var by_other: SocketHand = holder_of(other.get_body())

@@ -1,15 +1,16 @@
 @tool
 extends RefCounted
-## A link of two sockets, with what holds them together: the spring of a hand or a joint.
+## A link of two sockets. Either the spring of a hand or a joint holds the two together.
 
 const SocketHand := preload("socket_hand.gd")
 const SocketLink := preload("socket_link.gd")
 
-## The socket that was moved to the other one of this link.
+## The socket from which the link was made: the one on the held body, or the one whose [method SpidarGSocket.link_to] was
+## called.
 var one: SpidarGSocket
-## The socket that the other one of this link was moved to.
+## The socket to which the link was made.
 var other: SpidarGSocket
-## The hand whose held body sits on its mate by this link. If it is [code]null[/code], the joint holds the link.
+## The hand whose spring holds this link. If it is [code]null[/code], a joint holds the link.
 var holder: SocketHand
 
 var _joint: Generic6DOFJoint3D
@@ -17,7 +18,8 @@ var _joint: Generic6DOFJoint3D
 var _keeps_apart: bool = false
 
 
-## Links two sockets. Nothing holds them before [method lock] or [method seat] is called.
+## Links two sockets, and lets their bodies no longer collide. Nothing holds the two together before [method lock] or
+## [method seat] is called.
 static func make(from: SpidarGSocket, to: SpidarGSocket) -> SocketLink:
 	var link: SocketLink = SocketLink.new()
 	link.one = from
@@ -47,14 +49,15 @@ func lock() -> void:
 	_joint.node_b = _joint.get_path_to(one.get_body())
 
 
-## Lets the spring of a hand hold the link in place of the joint.
+## Lets the spring of the hand `in_hand` hold the link, and removes the joint.
 func seat(in_hand: SocketHand) -> void:
 	holder = in_hand
 	_free_joint()
 	_except()
 
 
-## Ends the link, so that the two bodies collide again and wake up.
+## Ends the link and wakes both bodies. They collide again, unless another link joins them, or a script had made them not
+## collide before.
 func cut() -> void:
 	holder = null
 	one._links.erase(self)

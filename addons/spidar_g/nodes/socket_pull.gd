@@ -1,29 +1,32 @@
 @tool
 extends RefCounted
-## Computes how one socket of a held body is drawn to its mate in one physics tick.
+## Holds the pull with which one socket of a held body is drawn to its mate in one physics tick.
 
 const SocketPull := preload("socket_pull.gd")
 
-## The largest stiffness of a load that the game refreshes, in N/m. The attraction rises no more steeply.
+## The largest stiffness of a load that the game refreshes, in N/m. The attraction near the mate is at most this value times
+## the distance.
 const LOAD_STIFFNESS_N_M: float = 150.0
-## The attraction is full at this share of the capture distance and begins at the capture distance.
+## The attraction acts in full within this share of the capture distance, and falls to 0 at the capture distance.
 const FULL_FROM: float = 0.75
-## The stiffness that turns a socket into its seat, in N m/rad. Ignored for a socket that turns freely.
+## The stiffness with which a socket is turned to the orientation of its mate, in N m/rad. Ignored for a socket that turns
+## freely.
 const TURN_STIFFNESS_NM_RAD: float = 0.10
-## The largest moment that turns a socket into its seat, in newton meters.
+## The largest moment with which a socket is turned to the orientation of its mate, in newton meters.
 const TURN_LIMIT_NM: float = 0.04
 
 var socket: SpidarGSocket
-## The pose of the socket in world coordinates if the body followed the grip.
+## The pose that the socket would have in world coordinates if the held body followed the grip.
 var at: Transform3D
 var mate: SpidarGSocket
 ## The force on the held body, in newtons, in world axes.
 var force_n: Vector3
-## This is the strength of the magnet, or the share of the seat in the common spring, from 0 to 1.
+## The weight of this pull, from 0 to 1: how much of the attraction acts, or the share of a seat in the spring of all seats.
 var share: float
-## The change of the force when the grip moves across it, in newtons per meter.
+## How much the force changes when the grip moves, in newtons per meter of device motion. For an attraction it is the change
+## at right angles to the force.
 var stiffness_n_m: float
-## If [code]true[/code], the socket sits in the seat of its mate.
+## If [code]true[/code], the pull is that of a seat, and not the attraction of a socket that is not linked.
 var is_seat: bool = false
 
 
@@ -41,8 +44,8 @@ func weaken(by: float) -> void:
 	stiffness_n_m /= by
 
 
-## Returns the moment that turns the held body into the seat, in newton meters, in world axes. It is zero for a socket that
-## turns freely.
+## Returns the moment that turns the held body to the orientation of the seat, in newton meters, in world axes. Returns zero
+## for a socket that turns freely.
 func turn_nm() -> Vector3:
 	if socket.turns_freely:
 		return Vector3.ZERO
@@ -59,8 +62,8 @@ func turn_stiffness_nm_rad() -> float:
 	return 0.0 if socket.turns_freely else share * TURN_STIFFNESS_NM_RAD
 
 
-## Returns the angle between the axes of a socket with the pose `where` and those of its mate, in radians. It is 0 for a
-## socket that turns freely.
+## Returns the angle of the rotation from the pose `where` of the socket `of` to the pose of its mate `to`, in radians.
+## Returns 0 for a socket that turns freely.
 static func turn_between(of: SpidarGSocket, where: Transform3D, to: SpidarGSocket) -> float:
 	if of.turns_freely:
 		return 0.0

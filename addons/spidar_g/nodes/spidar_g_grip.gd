@@ -16,12 +16,12 @@ extends Node3D
 ## grip.add_child(tool)
 ## [/codeblock]
 ## In each physics tick the node takes the pose that the device has in this tick, also if the [SpidarG] moves through the
-## scene. Its [method Node._physics_process] runs after that of the [SpidarG]: the priorities of this node are raised if the
-## order of the tree does not ensure this. A script below this node in the tree, or with a higher priority, reads the pose of
-## the same tick.
+## scene. The [method Node._physics_process] of this node runs after that of the [SpidarG]: the node raises its own process
+## priorities if the order of the tree does not ensure this. A script that runs later in the tick, because it is below this
+## node in the tree or has a higher priority, reads the pose of the same tick.
 ## [br][br]
-## If frames are drawn faster than physics ticks, the node is drawn between the last two poses: see [member smoothing]. If the
-## engine's physics interpolation is on for this node, the engine alone does this.
+## If frames are drawn more often than physics ticks, the node is drawn between the last two poses: see [member smoothing]. If
+## the physics interpolation of the engine is on for this node, the engine does this instead.
 ## [br][br]
 ## The children keep their size: [member SpidarG.workspace_scale] and the scale of the parents do not change it.
 
@@ -35,16 +35,16 @@ enum Follow {
 }
 ## Selects how the node moves in frames that are drawn between physics ticks.
 enum Smoothing {
-	## The node moves from the pose of the last tick but one to that of the last tick, if frames are drawn faster than physics
-	## ticks. It is at most one tick late, and it is smooth with every drive mode of the device.
+	## The node moves from the pose of the last tick but one to that of the last tick, if frames are drawn more often than
+	## physics ticks. It is at most one tick late, and it is smooth with every drive mode of the device.
 	INTERPOLATE,
-	## The node takes the newest pose of the device, as [SpidarGView] does. It is never late. With
-	## [constant SpidarG.DRIVE_STEPPED] it moves in the steps of the physics ticks.
+	## The node takes the newest pose of the device in each frame, as [SpidarGView] does, and is not late. With
+	## [constant SpidarG.DRIVE_STEPPED] it moves only once per physics tick.
 	NEWEST,
 }
 
 const _Finder := preload("follow/spidar_finder.gd")
-## The node stops interpolating after this many physics ticks between which no frame was drawn.
+## The node stops interpolating after this many physics ticks in a row in each of which at most one frame was drawn.
 const TICKS_TO_FORGET: int = 30
 
 ## Selects whether the node follows the grip or the proxy. Without a [SpidarGHand] there is no proxy; the node then follows
@@ -71,7 +71,8 @@ const TICKS_TO_FORGET: int = 30
 ## is on for this node.
 @export var smoothing := Smoothing.INTERPOLATE
 
-## The device that the node follows. If it is [code]null[/code], the node does not move, and a configuration warning says why.
+## The device that the node follows. It is [code]null[/code] in the editor, outside the scene tree, and if no [SpidarG] is
+## found; a configuration warning then says why. While it is [code]null[/code], the node does not move.
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null

@@ -4,9 +4,10 @@ extends Node
 ## Adds measurements of a [SpidarG] to the Monitors tab of the debugger.
 ##
 ## Add this node as a child of a [SpidarG]. The monitors are the servo rate in hertz, the 99th percentiles of lateness and of
-## computing time in microseconds, missed deadlines, the percentage of saturated cycles, faults, and for a simulated device
-## the energy that the hand received in millijoules. They exist while the node is in the tree, in debug builds only, and take
-## no time unless the debugger reads them.
+## computing time in microseconds, the number of missed deadlines, the percentage of cycles in which strings were at a limit,
+## and the number of faults. If a simulated device is open when the node enters the tree, there is also the energy that the
+## hand has received, in millijoules. The monitors exist while the node is in the tree, in debug builds only, and take no time
+## unless the debugger reads them.
 ## [codeblock]
 ## var device: SpidarG = $SpidarG
 ## var monitors := SpidarGMonitors.new()
@@ -14,8 +15,8 @@ extends Node
 ## print(monitors.get_monitor_names())
 ## [/codeblock]
 
-## The first part of the names of all monitors, as in [code]spidar_g/servo_rate_hz[/code]. For further devices it is followed
-## by the name of the node.
+## The first part of the names of all monitors, as in [code]spidar_g/servo_rate_hz[/code]. If a monitor of this name exists
+## already, the name of the [SpidarG] is added, as in [code]spidar_g SpidarG2/servo_rate_hz[/code].
 const GROUP: String = "spidar_g"
 
 var _device: SpidarG = null

@@ -5,8 +5,8 @@ extends PanelContainer
 ##
 ## Add the scene [code]spidar_g_panel.tscn[/code] under a [CanvasLayer] or as a child of the device, and set [member device].
 ## The panel shows the state of the device, its tensions, the requested and the achieved wrench, the contacts of its
-## [SpidarGHand], the punctuality of the servo thread, and the last events. It changes nothing of the device except its
-## recording. While it is hidden it computes nothing.
+## [SpidarGHand], the punctuality of the servo thread, and the last events. The panel does not change the device, except that
+## its button starts and stops recordings. While the panel is hidden, it draws and computes no curves.
 ## [codeblock]
 ## var panel: SpidarGPanel = preload("res://addons/spidar_g/nodes/spidar_g_panel.tscn").instantiate()
 ## panel.device = $SpidarG
@@ -20,7 +20,7 @@ const _JitterPlot := preload("jitter_plot.gd")
 const RECORDING_FOLDER: String = "user://spidar_g_recordings"
 ## The largest number of lines that the log keeps; the oldest ones are removed.
 const MOST_EVENTS: int = 100
-## The numbers and the histogram are refreshed each time this many frames have been drawn.
+## The numbers and the histogram are refreshed once in this many drawn frames.
 const FRAMES_PER_REPORT: int = 10
 ## The curves of x, y and z are drawn in these colors.
 const FORCE_COLOURS: PackedColorArray = [
@@ -28,18 +28,18 @@ const FORCE_COLOURS: PackedColorArray = [
 ]
 ## The curve of the grasp torque is drawn in this color.
 const GRASP_COLOUR: Color = Color(0.95, 0.80, 0.25)
-## The curve of contact points is drawn in this color.
+## The curve of the number of contact points is drawn in this color.
 const POINTS_COLOUR: Color = Color(0.80, 0.60, 1.0)
-## The curve of the largest push of a contact is drawn in this color.
+## The curve of the largest force of a contact point is drawn in this color.
 const PUSH_COLOUR: Color = Color(0.95, 0.35, 0.65)
 ## The curve of the achieved force is drawn in this color.
 const FELT_COLOUR: Color = Color(0.85, 0.87, 0.90)
-## The level of the events that the log shows: [constant SpidarG.EVENT_WARNING].
+## The log shows the events of this level: [constant SpidarG.EVENT_WARNING].
 const WARNING: int = 1
-## Achieved values are drawn with this alpha, paler than requested ones.
+## Achieved values are drawn with this alpha, so that they are paler than requested ones.
 const GIVEN_ALPHA: float = 0.45
 
-## Sets the device that the panel shows. If it is [code]null[/code], the parent is used if it is a [SpidarG].
+## Sets the device that the panel shows. If it is [code]null[/code] and the parent is a [SpidarG], the parent is used.
 @export var device: SpidarG:
 	set(value):
 		if device != value:
@@ -51,7 +51,7 @@ const GIVEN_ALPHA: float = 0.45
 ## The path of the current recording of this panel, or of the last one. It is empty before the first recording.
 var recording_path: String = ""
 
-# Whether this panel started the current recording. Another one goes on when the panel leaves.
+# Whether this panel started the current recording. A recording that something else started goes on when the panel leaves.
 var _records: bool = false
 var _frames: int = 0
 var _events: PackedStringArray = []

@@ -6,8 +6,8 @@ extends Marker3D
 ## enough. The hand feels all of it.
 ##
 ## Add a [SpidarGSocket] to each of two bodies as a direct child, set the same [member key] on both, and [member is_plug] on
-## one of them. As soon as a [SpidarGHand] holds one of the bodies, its sockets look for their mates. Two linked sockets
-## coincide: their origins do, and unless [member turns_freely] is set, their axes do too.
+## one of them. While a [SpidarGHand] holds one of the bodies, the sockets of this body look for sockets that fit. Two sockets
+## that click together coincide: their origins do, and unless [member turns_freely] is set, their axes do too.
 ## [codeblock]
 ## # A peg that clicks into a hole.
 ## var peg := RigidBody3D.new()
@@ -25,18 +25,20 @@ extends Marker3D
 ## [/codeblock]
 ## [b]In the hand.[/b] Within [member capture_distance] the socket of the held body is drawn to the nearest free mate with
 ## [member attraction_force]. Within [member latch_distance] and [member latch_angle] it clicks: the body moves into its seat
-## and stays there, while the grip hangs on a spring of [member stiffness]. When the pull of this spring reaches
+## and stays there, while a spring of [member stiffness] pulls the grip toward the seat. When the pull of this spring exceeds
 ## [member release_force], the body comes off. When the hand opens, a joint holds the two bodies together.[br]
 ## [b]Whose values.[/b] Where two sockets meet, the values of the socket on the held body are used. If two hands hold both
-## bodies, the values of the body that was grasped last are used. Several sockets of one held body share: their forces and
-## stiffnesses are averaged, not added.[br]
+## bodies, the values of the body that was grasped last are used. If several sockets of one held body act at once, their
+## forces and stiffnesses are averaged and not added.[br]
 ## [b]Chains.[/b] A held body that links to a loose one carries it. The hand feels the weight of all bodies that hang on the
-## held one, also if a floor supports them, but not their inertia. A link between the held body and one that something else
-## carries (a static or frozen body, or another hand) is a spring that can be pulled off. Any other link is rigid.[br]
+## held one, also if a floor supports them, but not their inertia. A link from the held body to a static or frozen body, or to
+## a body that another hand holds or that hangs on such bodies, is a spring that can be pulled off. Any other link is
+## rigid.[br]
 ## [b]Units.[/b] Distances and stiffness refer to device motion: a distance in the scene is [member SpidarG.workspace_scale]
 ## times as large. Forces are not scaled.[br]
-## [b]Limits.[/b] A held body in its seat uses one of the six effects of its [SpidarG], with a negative id. A socket that
-## leaves the scene tree is unlinked. A socket that is added to a body while a hand holds it acts from the next grasp on.
+## [b]Limits.[/b] A held body that is attracted or sits in its seat uses one of the six effects of its [SpidarG], with a
+## negative id. If another hand holds the other body, its [SpidarG] needs one too. A socket that leaves the scene tree is
+## unlinked. A socket that is added to a held body without sockets acts from the next grasp on.
 ## While no hand holds a body with sockets, the sockets take no time, except that each node that enters the tree is examined
 ## once, to find the hands.
 
@@ -44,8 +46,8 @@ extends Marker3D
 ## [param mate] is the other socket.
 signal linked(mate: SpidarGSocket)
 ## Emitted by both sockets when their link has ended. [param mate] is the other socket. [param pull_n] is the force, in
-## newtons, with which the hand pulled the body off. It is 0 after [method unlink], and if one of the sockets was disabled or
-## has left the scene tree.
+## newtons, with which the hand pulled the body off. It is 0 if the link ended in another way: by [method unlink], or because
+## one of the sockets was disabled or left the scene tree.
 signal unlinked(mate: SpidarGSocket, pull_n: float)
 
 const _InRange := preload("values/in_range.gd")
@@ -57,20 +59,21 @@ const _SocketPull := preload("socket_pull.gd")
 ## The length of the arms of the cross that marks a socket in the editor, in meters of the scene.
 const MARK_M: float = 0.01
 
-## Sets the key of the socket. Two sockets fit if their keys are equal and one of them is a plug and the other is not.
+## Sets the key of the socket. Only sockets with equal keys fit: see [method fits].
 @export var key: StringName = &"":
 	set(value):
 		_leave_groups()
 		key = value
 		_join_groups()
-## If [code]true[/code], this socket is a plug. A plug fits a socket that is not a plug.
+## If [code]true[/code], this socket is a plug. A plug fits a socket that is not a plug and has the same [member key].
 @export var is_plug: bool = false
-## If [code]true[/code], any number of sockets can link to this one, such as ends that meet in one point. Two sockets that
-## both have this set fit whether or not they are plugs.
+## If [code]true[/code], any number of sockets can link to this one, such as the ends of several rods that meet in one point.
+## Two sockets of the same [member key] that both have this property set fit whether or not they are plugs.
 @export var meets_many: bool = false
-## If [code]true[/code], only the position of the socket is held and not its orientation, as with a ball joint.
+## If [code]true[/code], the seat holds the position of the socket and not its orientation, as a ball joint does. After the
+## hand has let go, the joint that holds the link is rigid all the same.
 @export var turns_freely: bool = false
-## If [code]true[/code], this socket attracts and links. If it is set to [code]false[/code], its links end.
+## If [code]true[/code], this socket attracts other sockets and can be linked. Setting [code]false[/code] ends its links.
 @export var enabled: bool = true:
 	set(value):
 		enabled = value
@@ -113,9 +116,10 @@ const MARK_M: float = 0.01
 @export_range(10.0, 1000.0, 1.0, "suffix:N/m") var stiffness: float = 150.0:
 	set(value):
 		stiffness = _checked(&"stiffness", value, stiffness, 10.0, 1000.0, "N/m")
-## Sets the pull of the hand at which the body comes off its seat, in newtons, from 0.1 to 50. The grip is then
-## [member release_force] / [member stiffness] away from the seat, which is 15 mm with the defaults. A device that cannot give
-## the force lets go at this distance too. Another value is refused with an error, and the old one stays.
+## Sets the pull of the hand above which the body comes off its seat, in newtons, from 0.1 to 50. The grip is then
+## [member release_force] / [member stiffness] away from the seat, which is 15 mm with the defaults. The pull is computed from
+## this distance, so a device that cannot render the force lets go at the same distance. Another value is refused with an
+## error, and the old one stays.
 @export_range(0.1, 50.0, 0.05, "suffix:N") var release_force: float = 2.25:
 	set(value):
 		release_force = _checked(&"release_force", value, release_force, 0.1, 50.0, "N")
@@ -147,21 +151,21 @@ func get_mates() -> Array[SpidarGSocket]:
 	return mates
 
 
-## Returns [code]true[/code] if this socket is linked: in its seat in a hand, or held by a joint.
+## Returns [code]true[/code] if this socket is linked to another one, in a hand or by a joint.
 func is_linked() -> bool:
 	return not _links.is_empty()
 
 
 ## Returns [code]true[/code] if this socket and [param mate] fit: their keys are equal, and one of them is a plug or both of
-## them have [member meets_many] set. It does not matter where they are and whether they are linked.
+## them have [member meets_many] set. Their places and their links do not matter.
 func fits(mate: SpidarGSocket) -> bool:
 	if mate == null or mate == self or key != mate.key:
 		return false
 	return is_plug != mate.is_plug or (meets_many and mate.meets_many)
 
 
-## Links this socket to [param mate] where both bodies are now: place them first. Returns [code]false[/code] if they cannot be
-## linked; a warning then says why.
+## Links this socket to [param mate]. The bodies are not moved, so place them first. Returns [code]false[/code] if the sockets
+## cannot be linked; a warning then says why.
 func link_to(mate: SpidarGSocket) -> bool:
 	var problem: String = _why_not(mate)
 	if problem != "":
@@ -177,7 +181,7 @@ func link_to(mate: SpidarGSocket) -> bool:
 	return true
 
 
-## Ends all links of this socket. A body that hung on it falls. Does nothing if there is no link.
+## Ends all links of this socket. A body that hung on nothing else falls. Does nothing if there is no link.
 func unlink() -> void:
 	for link: _SocketLink in _links.duplicate():
 		_end_link(link, 0.0)

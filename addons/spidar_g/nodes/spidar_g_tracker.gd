@@ -17,8 +17,8 @@ extends Node
 ## origin.add_child(controller)
 ## [/codeblock]
 ## The tracker has the poses [code]default[/code] and [code]grip[/code], which are the grip, and [code]aim[/code], which is
-## [member aim_offset] from it, all with velocities. They are set in each physics tick, after the [SpidarG] has read its
-## device, and in each drawn frame. Their confidence is high, or low while a real device does not know its zero.
+## [member aim_offset] away from the grip. All poses have velocities. They are set in each physics tick, after the [SpidarG]
+## has read its device, and in each drawn frame. Their confidence is high, but low while a real device does not know its zero.
 ## [br][br]
 ## The inputs have the names of Godot's default action map:
 ## [br]- [code]grip[/code], a float: how far the grasp is closed, from 0 for open to 1 at
@@ -44,8 +44,8 @@ enum Hand {
 }
 ## Selects what the input [code]trigger[/code] measures.
 enum TriggerSource {
-	## Uses [constant ACTION] for a rigid grip if the project has the action, else [constant SQUEEZE] if the [SpidarG] has a
-	## [SpidarGHand], else [constant GRASP].
+	## Acts as [constant ACTION] if the grip is rigid and the project has the action, otherwise as [constant SQUEEZE] if the
+	## [SpidarG] has a [SpidarGHand], and otherwise as [constant GRASP].
 	AUTOMATIC,
 	## Measures how hard the fingers press the body between the pads, or the closed pads on each other:
 	## [method SpidarGHand.get_squeeze_torque] divided by [member full_squeeze_nm].
@@ -60,15 +60,15 @@ const _Finder := preload("follow/spidar_finder.gd")
 const _FrameMotion := preload("follow/frame_motion.gd")
 const _PlaySpace := preload("follow/play_space.gd")
 const _Inputs := preload("follow/tracker_inputs.gd")
-## The group that contains all trackers in the scene tree.
+## The group that contains all nodes of this class in the scene tree.
 const GROUP: StringName = &"spidar_g_trackers"
 ## The interaction profile that a tracker has unless [member profile] is set.
 const DEFAULT_PROFILE: String = "/interaction_profiles/oculus/touch_controller"
 ## The names of the poses that a tracker has.
 const POSES: Array[StringName] = [&"default", &"grip", &"aim"]
 
-## Selects the tracker that the device becomes. If two nodes select the same tracker, the second one shows a configuration
-## warning, pushes an error and does nothing.
+## Selects the tracker that the device becomes. If two nodes select the same tracker, the second one pushes an error and does
+## nothing, and a configuration warning says so.
 @export var hand := Hand.RIGHT:
 	set(value):
 		hand = value
@@ -90,7 +90,7 @@ const POSES: Array[StringName] = [&"default", &"grip", &"aim"]
 		profile = value
 		_restart()
 @export_group("Place")
-## If [code]true[/code], the controller is where the grip of the [SpidarG] is in the scene, for any
+## If [code]true[/code], the controller is at the place of the [SpidarG]'s grip in the scene, for any
 ## [member XROrigin3D.world_scale], origin and [member SpidarG.workspace_scale]. If [code]false[/code], the device is at
 ## [member device_transform] in the play space, as it must be if a headset shows where the real hands are.
 @export var place_from_scene: bool = true
@@ -121,18 +121,22 @@ const POSES: Array[StringName] = [&"default", &"grip", &"aim"]
 @export_range(0.0, 1.0, 0.01) var click_at: float = 0.7:
 	set(value):
 		click_at = _checked_part("click_at", value, click_at)
-## Sets the value below which the click is released. A value above [member click_at] acts as [member click_at]. A value
-## outside 0 to 1 is refused with an error, and the old one stays.
+## Sets the value of [code]grip[/code] or [code]trigger[/code] below which [code]grip_click[/code] or
+## [code]trigger_click[/code] is released. A value above [member click_at] acts as [member click_at]. A value outside 0 to 1
+## is refused with an error, and the old one stays.
 @export_range(0.0, 1.0, 0.01) var release_below: float = 0.5:
 	set(value):
 		release_below = _checked_part("release_below", value, release_below)
-## Sets the names of the inputs for the buttons 0 to 7 of the device, in this order. A button without a name, or with an empty
-## one, is no input.
+## Sets the names of the inputs for the buttons 0 to 7 of the device, in this order. A button that has no name here, or an
+## empty one, is not sent to the tracker.
 @export var buttons: PackedStringArray = [
 	"ax_button", "by_button", "menu_button", "select_button", "primary_click", "secondary_click", "", "",
 ]
 
-## The device that is published. If it is [code]null[/code], there is no tracker, and a configuration warning says why.
+## The device whose pose and buttons are published. It is [code]null[/code] in the editor, if no [SpidarG] is found (a
+## configuration warning says why), and if the [XRServer] has another tracker of this name (an error says so). There is no
+## tracker, although this property is set, while the device is closed or in [constant SpidarG.STATE_FAULT], and if the name of
+## the tracker is empty or taken by another node of this class. See [method is_published].
 var spidar: SpidarG = null
 
 var _hand: SpidarGHand = null
@@ -153,7 +157,7 @@ func get_tracker_name() -> StringName:
 	return custom_name
 
 
-## Returns [code]true[/code] while the tracker is known to the [XRServer].
+## Returns [code]true[/code] while the [XRServer] has the tracker of this node.
 func is_published() -> bool:
 	return _tracker != null
 
@@ -175,8 +179,8 @@ func calibrate_place(tracker_pose: Transform3D, keep_upright: bool = true) -> bo
 	return true
 
 
-## Returns the pose in the world at which the [SpidarG] must stand for its grip and the [XRController3D] to be in the same
-## place while [member place_from_scene] is off. The controller follows for any [member SpidarG.workspace_scale].
+## Returns the pose in the world that the [SpidarG] node needs while [member place_from_scene] is off, if its grip is to be at
+## the same place as the [XRController3D]. The place of the controller is right for any [member SpidarG.workspace_scale].
 func get_scene_place() -> Transform3D:
 	var place := Transform3D(device_transform.basis, device_transform.origin * XRServer.world_scale)
 	return _PlaySpace.origin_in_world() * place

@@ -6,7 +6,8 @@ extends Node3D
 ##
 ## Add this node as a child of a [SpidarG]. It draws the frame, the eight strings colored by their tension, the two poles with
 ## their hinge, hemispheres and hinge stops, the finger pads of a sibling [SpidarGHand], and the achieved force as an arrow.
-## It changes nothing of the device. It redraws what has changed since the last frame, and does nothing while it is hidden.
+## The view does not change the device. In each frame it redraws only what has changed, and it does nothing while it is
+## hidden.
 ## [codeblock]
 ## var device: SpidarG = $SpidarG
 ## device.add_child(SpidarGView.new())
@@ -21,7 +22,8 @@ const SLACK_COLOUR: Color = Color(0.55, 0.55, 0.58)
 # The colors go from blue to orange, with no red against green, so that color-blind people can tell the steps apart.
 ## Strings with a low tension are drawn in this color.
 const LOW_COLOUR: Color = Color(0.16, 0.40, 0.96)
-## Strings between low and medium tension are drawn in this color. It keeps the mixture away from the gray of a slack string.
+## Strings between low and medium tension are drawn in this color. Without it, the mixture of the other two colors would look
+## like the gray of a slack string.
 const FAIR_COLOUR: Color = Color(0.35, 0.85, 0.95)
 ## Strings with a medium tension are drawn in this color.
 const MIDDLE_COLOUR: Color = Color(1.00, 0.90, 0.20)
@@ -75,8 +77,8 @@ var _drawn_tensions: PackedFloat64Array = PackedFloat64Array()
 var _drawn_force: Vector3 = Vector3.ZERO
 
 
-## Returns the color of a string with the tension [param tension_n], in newtons, when its maximum tension is [param max_n].
-## The color follows the square root of the tension, so that pretension and half load look different.
+## Returns the color of a string with the tension [param tension_n], in newtons, if its maximum tension is [param max_n]. The
+## color depends on the square root of the tension, so that pretension and half of the maximum look different.
 static func tension_colour(tension_n: float, max_n: float) -> Color:
 	if not (tension_n >= SLACK_N) or not (max_n > 0.0):
 		return SLACK_COLOUR

@@ -5,8 +5,8 @@ extends Area3D
 ## A region of the scene in which the hand feels something: thick air, wind, a magnet, a vibration or detents.
 ##
 ## Add one or more [CollisionShape3D] nodes as children, choose a [member kind], and set its strength. Every [SpidarG] of the
-## same world feels the zone while the center of its grip is inside the shapes. A shape is a box, a sphere, a capsule, a
-## cylinder, a convex polygon or a world boundary.
+## same world (or the one at [member spidar_path]) feels the zone while the center of its grip is inside the shapes. A shape
+## is a box, a sphere, a capsule, a cylinder, a convex polygon of at most 128 points or a world boundary.
 ## [codeblock]
 ## # Honey, in a ball of 10 cm around the device.
 ## var shape := SphereShape3D.new()
@@ -20,23 +20,23 @@ extends Area3D
 ## add_child(zone)
 ## [/codeblock]
 ## The force is an effect of the servo loop, such as [method SpidarG.set_viscous_effect], and is refreshed in each physics
-## tick. It rises from 0 at the surface of the shapes to its full value [member edge_width] below the surface, and a full
-## change takes at least [member fade_time]. It ends within 0.2 s if the zone leaves the tree, is disabled or paused, or if
-## the game hangs.
+## tick. The force rises from 0 at the surface of the shapes to its full value [member edge_width] below the surface, and a
+## change from 0 to the full value takes at least [member fade_time]. The force ends within 0.2 s if the zone leaves the tree,
+## is disabled or paused, or if the game hangs.
 ## [br][br]
 ## Whether a point is inside is computed from the shapes, independent of [member Area3D.monitoring],
 ## [member Area3D.monitorable] and the collision layers: switch monitoring and monitorable off unless something else needs
-## them. Disabled shapes are ignored. Lengths of the zone are in meters of the scene; stiffness, viscosity and forces are
-## those of the device for any [member SpidarG.workspace_scale].
+## them. Disabled shapes are ignored. Lengths of the zone are in meters of the scene. Stiffness and viscosity are stated per
+## meter of device motion, and forces are those of the device, for any [member SpidarG.workspace_scale].
 ## [br][br]
 ## A device renders 6 effects at once, of all zones and scripts together. If none is free, the zone warns and tries again. A
-## zone uses one effect, and a [constant MAGNET_AXIS] that is oblique to the axes of the device uses two. Zones use effect ids
-## from [constant FIRST_ID] on, one each: use smaller ids for effects of your own, such as 0 to 999.
+## zone uses one effect, and a [constant MAGNET_AXIS] that is oblique to the axes of the device uses two. Each zone has an
+## effect id of its own, from [constant FIRST_ID] on: use smaller ids for effects of your own, such as 0 to 999.
 
 ## Emitted when the center of the grip of [param spidar] has entered the zone.
 signal hand_entered(spidar: SpidarG)
-## Emitted when the center of the grip of [param spidar] has left the zone, and for each hand inside if the zone is disabled
-## or paused or leaves the scene tree, or if the device closes.
+## Emitted when the center of the grip of [param spidar] has left the zone. Also emitted for each device inside if the zone is
+## disabled or paused, leaves the scene tree or gets another [member kind], and if the device closes or leaves the scene tree.
 signal hand_exited(spidar: SpidarG)
 
 ## Selects what the hand feels in the zone.
@@ -49,8 +49,8 @@ enum Kind {
 	## The zone pulls the grip to its origin like a spring with [member stiffness].
 	MAGNET_POINT,
 	## The zone pulls the grip to its local y axis like a spring with [member stiffness]. Motion along the axis is free. If
-	## the axis is not parallel to an axis of the device, the game computes the force, and the stiffness is clamped to 300
-	## N/m.
+	## the axis is not parallel to an axis of the device, the game computes a part of the force, and the stiffness is clamped
+	## to 300 N/m.
 	MAGNET_AXIS,
 	## The zone vibrates with [member vibration_force] and [member vibration_frequency].
 	VIBRATION,
@@ -64,15 +64,16 @@ const _Devices := preload("zone/devices_in_tree.gd")
 const _Touch := preload("zone_touch.gd")
 ## The smallest effect id that zones use. Use smaller ids for effects of your own.
 const FIRST_ID: int = 1000000
-## A hand that was inside has left the zone at this distance from its shapes, in meters of device motion. A trembling hand
-## therefore does not enter again and again.
+## A grip that was inside counts as outside from this distance from the shapes on, in meters of device motion. A trembling
+## hand at the surface therefore does not enter again and again.
 const EXIT_M: float = 0.0005
-## The force is computed for the place of the grip this many physics ticks later, because it reaches the hand so late. A late
-## force at an edge would drive a loosely held grip.
+## A requested force reaches the hand about this many physics ticks later. The strength of the zone is therefore computed for
+## the position that the grip will have then. At an edge, a force that comes late would make a loosely held grip swing.
 const LEAD_TICKS: float = 1.5
-## A wind that changes by more than this along its edge, in newtons per meter of the scene, causes a configuration warning.
+## A wind that rises by more than this across the edge of its zone, in newtons per meter of the scene, causes a configuration
+## warning.
 const STEEP_N_M: float = 100.0
-## The properties that are used by some kinds only. The inspector hides them for all other kinds.
+## Maps each property that only some kinds use to these kinds. The inspector hides the property for all other kinds.
 const OF_KIND: Dictionary[String, Array] = {
 	"viscosity": [Kind.VISCOSITY],
 	"viscosity_angular": [Kind.VISCOSITY],
@@ -106,7 +107,7 @@ static var _next_id: int = FIRST_ID
 		spidar_path = value
 		_choose()
 		update_configuration_warnings()
-## Sets the resistance to motion, in newton seconds per meter of device motion. The device clamps it to 5 N s/m: see
+## Sets the resistance to translation, in newton seconds per meter of device motion. The device clamps it to 5 N s/m: see
 ## [method SpidarG.get_clamp_text]. A negative or infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 20.0, 0.1, "or_greater", "suffix:N s/m") var viscosity: float = 4.0:
 	set(value):
@@ -121,8 +122,8 @@ static var _next_id: int = FIRST_ID
 @export_range(0.0, 0.02, 0.0001, "or_greater", "suffix:N m s/rad") var viscosity_grasp: float = 0.0:
 	set(value):
 		viscosity_grasp = _checked("viscosity_grasp", value, viscosity_grasp, "N m s/rad")
-## Sets the constant force of a wind, in newtons, in the axes of the zone. A force that is not finite is refused with an
-## error, and the old one stays.
+## Sets the constant force of a wind, in newtons, in the axes of the zone. It is clamped to [member max_force]. A force that
+## is not finite is refused with an error, and the old one stays.
 @export_custom(PROPERTY_HINT_NONE, "suffix:N") var wind_force := Vector3(1.0, 0.0, 0.0):
 	set(value):
 		wind_force = _checked_force("wind_force", value, wind_force)
@@ -132,29 +133,29 @@ static var _next_id: int = FIRST_ID
 @export_range(0.0, 500.0, 1.0, "or_greater", "suffix:N/m") var stiffness: float = 120.0:
 	set(value):
 		stiffness = _checked("stiffness", value, stiffness, "N/m")
-## Sets the amplitude and direction of a vibration, in newtons, in the axes of the zone. The device clamps it to 2 N along
-## each of its axes. A force that is not finite is refused with an error, and the old one stays.
+## Sets the amplitude and direction of a vibration, in newtons, in the axes of the zone. It is clamped to [member max_force],
+## and along each axis of the device to 2 N. A force that is not finite is refused with an error, and the old one stays.
 @export_custom(PROPERTY_HINT_NONE, "suffix:N") var vibration_force := Vector3(0.0, 0.8, 0.0):
 	set(value):
 		vibration_force = _checked_force("vibration_force", value, vibration_force)
-## Sets the frequency of a vibration, from 5 to 250 Hz. The device gives at most a quarter of its servo rate. A value outside
-## this range is refused with an error, and the old one stays.
+## Sets the frequency of a vibration, from 5 to 250 Hz. A frequency above a quarter of the servo rate is lowered to it. A
+## value outside 5 to 250 Hz is refused with an error, and the old one stays.
 @export_range(5.0, 250.0, 0.1, "suffix:Hz") var vibration_frequency: float = 80.0:
 	set(value):
 		vibration_frequency = _checked("vibration_frequency", value, vibration_frequency, "Hz", 5.0, 250.0)
-## Sets the distance between two detents, in meters of the scene. The device needs at least 1 mm of its own motion. A value
-## below 0.001 is refused with an error, and the old one stays.
+## Sets the distance between two detents, in meters of the scene. It must also be at least 1 mm of device motion: see
+## [member SpidarG.workspace_scale]. A value below 0.001 is refused with an error, and the old one stays.
 @export_range(0.001, 0.1, 0.0005, "or_greater", "suffix:m") var detent_spacing: float = 0.01:
 	set(value):
 		detent_spacing = _checked("detent_spacing", value, detent_spacing, "m", 0.001)
-## Sets the largest force on the way out of a detent, in newtons. A negative or infinite value is refused with an error, and
-## the old one stays.
+## Sets the largest force on the way out of a detent, in newtons. It is clamped to [member max_force]. A negative or infinite
+## value is refused with an error, and the old one stays.
 @export_range(0.0, 5.0, 0.05, "or_greater", "suffix:N") var detent_force: float = 1.2:
 	set(value):
 		detent_force = _checked("detent_force", value, detent_force, "N")
-## Sets the largest steady force of the zone, in newtons. The gain of a magnet or of the viscosity is lowered in each physics
-## tick if it would pull harder. For one or two ticks a fast motion can therefore cause up to a third more. A negative or
-## infinite value is refused with an error, and the old one stays.
+## Sets the largest steady force of the zone, in newtons. Moments are not limited by it. In each physics tick the zone lowers
+## the stiffness of a magnet or the viscosity if the force would be larger. A fast motion can therefore cause up to a third
+## more for one or two ticks. A negative or infinite value is refused with an error, and the old one stays.
 @export_range(0.0, 10.0, 0.05, "or_greater", "suffix:N") var max_force: float = 3.0:
 	set(value):
 		max_force = _checked("max_force", value, max_force, "N")

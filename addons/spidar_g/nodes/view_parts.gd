@@ -1,9 +1,9 @@
 extends Node3D
-## The meshes of SpidarGView. They are made once by code and then only moved. All positions are in world coordinates.
+## Holds the meshes of SpidarGView. They are made once by code and then only moved. All positions are in world coordinates.
 
 ## The number of strings that a device has.
 const STRINGS: int = 8
-## The thickness of the edges of the frame. The sizes below are radii and distances, all in meters of device motion.
+## The thickness of the edges of the frame, in meters of device motion, as all sizes below whose names end in _M.
 const EDGE_M: float = 0.004
 const STRING_RADIUS_M: float = 0.0009
 const POLE_RADIUS_M: float = 0.0022

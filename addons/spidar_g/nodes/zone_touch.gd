@@ -1,18 +1,21 @@
 extends RefCounted
-## What one [SpidarG] feels of one [SpidarGZone]: the strength of the zone and the effects that the servo loop renders.
+## Lets one [SpidarG] feel one [SpidarGZone]: keeps the strength of the zone, and requests the effects that the servo loop
+## renders.
 
+## The duration of the effects, in seconds. The zone requests them anew in each physics tick.
 const RENEWED_FOR_S: float = 0.1
-## After this many physics ticks a device without a free effect is tried again.
+## If a device has no free effect, the zone tries again after this many physics ticks.
 const TICKS_TO_RETRY: int = 15
-## A gain holds until the device has moved to that of the next tick. The force is therefore computed for the motion of this
-## many ticks.
+## The servo loop uses the gain of one physics tick until it has moved on to the gain of the next one. The zone therefore
+## limits a gain by the distance or speed that the grip will have in this many ticks.
 const TICKS_AHEAD: float = 2.0
 ## An axis counts as parallel to an axis of the device if the sine of the angle between them is below this value.
 const PARALLEL: float = 1e-3
-## The largest stiffness of a magnet with an oblique axis, in N/m. The game refreshes half of it, which is stable up to 150
-## N/m.
+## The largest stiffness of a magnet with an oblique axis, in N/m. The game computes the force of half of this stiffness, and
+## a spring that the game computes is stable up to 150 N/m.
 const MOST_OBLIQUE_N_M: float = 300.0
 
+## If [code]true[/code], the center of the grip is inside the zone.
 var is_inside: bool = false
 ## The share of the zone's force that acts, from 0 to 1.
 var strength: float = 0.0
@@ -38,7 +41,8 @@ func stop() -> void:
 		_spidar.clear_effect(_id)
 
 
-## Refreshes the effect of the zone. Returns [code]false[/code] once each time the device begins to have no free effect.
+## Refreshes the effects of the zone. Returns [code]false[/code] in the first tick in which the device refuses an effect,
+## usually because none is free. Returns [code]true[/code] in all other ticks, also while the refusal lasts.
 func renew(zone: SpidarGZone, tick_s: float) -> bool:
 	if _wait > 0:
 		_wait -= 1
@@ -106,7 +110,7 @@ func _device_axes() -> Basis:
 	return _spidar.global_basis.orthonormalized()
 
 
-# Returns the stiffness with which a magnet at the distance `away_m` pulls with at most the zone's largest force.
+# Returns the stiffness of the magnet, lowered so that the pull at the distance `away_m` is at most the zone's max_force.
 static func _magnet_gain(zone: SpidarGZone, away_m: float) -> float:
 	return zone.max_force / away_m if zone.stiffness * away_m > zone.max_force else zone.stiffness
 
@@ -116,8 +120,9 @@ func _pull(zone: SpidarGZone, gain: float, dof_mask: int) -> bool:
 	return _spidar.set_spring_effect(_id, centre, 0.0, strength * gain, 0.0, 0.0, dof_mask, RENEWED_FOR_S)
 
 
-# A spring of the servo loop pulls along the axes of the device alone. For an oblique axis, half of the stiffness is such a
-# spring in all directions. A force that is refreshed in each tick cancels it along the axis and doubles it across.
+# A spring of the servo loop pulls along the axes of the device alone. For an oblique axis, a spring with half of the
+# stiffness pulls in all directions. A force that the game computes in each tick cancels this pull along the magnet's axis
+# and doubles it at right angles to the axis.
 func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	var axis: Vector3 = (_device_axes().inverse() * zone.global_basis.y).normalized()
 	var from: Vector3 = _from(zone)
@@ -131,7 +136,7 @@ func _pull_to_axis(zone: SpidarGZone, tick_s: float) -> bool:
 	if not is_oblique:
 		return _pull(zone, gain, SpidarG.DOF_LINEAR & ~(1 << along))
 	gain = minf(gain, MOST_OBLIQUE_N_M)
-	# The servo loop moves to a new force in the time of a tick, so it must be that of the tick after.
+	# The servo loop moves to a new force in the time of one tick, so the force is computed for the next tick.
 	var ahead: Vector3 = from + _velocity() * tick_s
 	var across: Vector3 = ahead - axis * axis.dot(ahead)
 	var force: Vector3 = _device_axes() * (strength * gain * (0.5 * ahead - across))

@@ -1,7 +1,7 @@
 @tool
 extends VBoxContainer
-## Shows the flash memory of serial motor boards. It writes only after the user has confirmed what is written to which board.
-## It is visible for a config with the transport Serial.
+## Shows the parameters in the flash memory of serial motor boards. It writes a parameter only after the user has confirmed
+## the value and the board. It is visible for a config with the transport Serial.
 
 const CalibrationSession := preload("calibration_session.gd")
 

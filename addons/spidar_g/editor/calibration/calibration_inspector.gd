@@ -1,13 +1,14 @@
 @tool
 extends EditorInspectorPlugin
 ## Puts the calibration panel on top of the inspector of a SpidarG node or a SpidarGCalibration. The inspector removes and
-## recreates the panel when it redraws. The session stays, and closes the device when no panel needs it any more.
+## recreates the panel when it redraws. The session is kept meanwhile. Its device is closed when no panel shows the session
+## any more.
 
 const CalibrationPanel := preload("calibration_panel.gd")
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 
-## The EditorUndoRedoManager that records the changes of the panel.
+## The EditorUndoRedoManager in which the panel records its changes.
 var history: Object
 
 var _sessions: Dictionary[int, CalibrationSession] = {}

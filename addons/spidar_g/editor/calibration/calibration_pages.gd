@@ -48,7 +48,7 @@ func set_up(session: CalibrationSession) -> void:
 	_build_result()
 
 
-## Shows the current step. `has_calibration` states whether there is a calibration to save.
+## Shows the page of the current step with its newest values. `has_calibration` states whether there is a calibration to save.
 func refresh(has_calibration: bool) -> void:
 	var is_open: bool = _session.is_open()
 	for page: int in _pages.size():

@@ -1,17 +1,17 @@
 @tool
 extends VBoxContainer
-## Shows the calibration panel of the inspector: the device, its live readings and one step at a time. The state is in the
-## session, so the inspector may remove and recreate the panel at any time.
+## This is the calibration panel of the inspector. It shows the device, its live readings, and one step of the calibration at a
+## time. The session holds the state, so the inspector may remove and recreate the panel at any time.
 
 const CalibrationSession := preload("calibration_session.gd")
 const CalibrationTarget := preload("calibration_target.gd")
 const CalibrationPages := preload("calibration_pages.gd")
 const BoardParameters := preload("board_parameters.gd")
 
-## The numbers are refreshed after this time, in seconds.
+## The time between two refreshes of the numbers, in seconds.
 const REFRESH_S: float = 0.1
-## A session without a panel closes its device after this time, in seconds. It is longer than the inspector needs to recreate
-## a panel.
+## The device of a session without a panel is closed after this time, in seconds. The inspector needs less time to recreate a
+## panel.
 const GRACE_S: float = 0.6
 const PRESETS: PackedStringArray = ["Custom", "Paper", "SpidarG6X3R", "SpidarG6X3L", "SpidarG6X5R", "SpidarG6X5L", "SpidarG6X4"]
 const SMALL_FONT: int = 12

@@ -1,9 +1,9 @@
 @tool
 extends RefCounted
-## Holds the state of one calibration: the current step, the running task and the result. It does not depend on any controls,
-## so that it can be tested without them.
+## Holds the state of one calibration: the current step, the running task and the result. It uses no controls, so that it can
+## be tested without them.
 
-## Emitted when something that the panel shows has changed, except for a new reading.
+## Emitted when anything else that the panel shows than the readings has changed.
 signal changed
 
 enum Step { WIRING, ZERO, RULER, MOTION, WEIGHTS, RESULT }
@@ -14,11 +14,11 @@ const STEP_NAMES: Array[String] = ["Wiring", "Zero at home", "Lengths by ruler",
 const ENOUGH_POSES: int = 320
 ## The accuracy is estimated each time this many poses have been collected.
 const ESTIMATE_EVERY: int = 80
-## A simulated ruler is read in these steps, in meters, as a ruler with half millimeters is.
+## Readings of a simulated ruler are rounded to this step, in meters, as on a ruler with half millimeters.
 const RULER_STEP_M: float = 0.0005
 
 var calibrator: SpidarGCalibrator = SpidarGCalibrator.new()
-## If [code]true[/code], the device is simulated, and [method update] advances its time. It is used by tests.
+## If [code]true[/code], the device is simulated, and only [method update] advances its time. Tests use this.
 var stepped: bool = false
 var step: Step = Step.WIRING
 ## The sentence that states the last result or problem. It is empty if there is none.
@@ -41,7 +41,7 @@ var _final: bool = false
 var _was_computing: bool = false
 
 
-## Requests the device, which [method update] then opens. The earlier measurements are forgotten.
+## Requests that the next [method update] opens the device. Opening forgets the earlier measurements.
 func open_device(config: SpidarGConfig, calibration: SpidarGCalibration) -> void:
 	_config = config
 	_calibration = calibration
@@ -62,8 +62,8 @@ func is_open() -> bool:
 	return calibrator.get_device_state() == SpidarGCalibrator.DEVICE_OPEN and get_readings() > 0
 
 
-## Returns [code]true[/code] while the device is being opened, open or being closed. Call [method update] in each frame
-## meanwhile.
+## Returns [code]true[/code] while the device is being opened, open or being closed, and while a self-calibration or an access
+## to the motor boards runs. Call [method update] in each frame meanwhile.
 func is_busy() -> bool:
 	var state: SpidarGCalibrator.DeviceState = calibrator.get_device_state()
 	var at_rest: bool = state == SpidarGCalibrator.DEVICE_CLOSED or state == SpidarGCalibrator.DEVICE_FAILED
@@ -108,13 +108,15 @@ func is_task_running() -> bool:
 	return _task_runs or not _queue.is_empty()
 
 
-## Checks the wiring of all strings: pulls one after the other and finds out whose encoder winds in.
+## Checks the wiring of all strings: pulls one after the other, and finds out whether the encoder of this string moves most
+## and in the right direction.
 func check_wiring() -> void:
 	wiring.fill(-1)
 	_start_queue(SpidarGCalibrator.TASK_WIRING, range(STRINGS), 0.0)
 
 
-## Pulls all strings with 0.5 N, as a real device needs while it is moved by hand, or switches the motors off.
+## With `taut`, pulls all strings with 0.5 N, which a real device needs while its grip is moved by hand. Without it, switches
+## the motors off.
 func set_taut(taut: bool) -> void:
 	_report(calibrator.start_task(SpidarGCalibrator.TASK_TAUT if taut else SpidarGCalibrator.TASK_IDLE))
 
@@ -178,12 +180,12 @@ func weigh(string: int, weight_n: float) -> void:
 	_start_queue(SpidarGCalibrator.TASK_WEIGHING, [string], weight_n)
 
 
-## Weighs all strings of a simulated device, where nobody has to hang the weight on the next string.
+## Weighs all strings of a simulated device one after the other. No weight has to be moved from string to string.
 func weigh_all(weight_n: float) -> void:
 	_start_queue(SpidarGCalibrator.TASK_WEIGHING, range(STRINGS), weight_n)
 
 
-## Shows a sentence that another part of the panel provides.
+## Shows `text` as the message of the session. With `problem` it is shown as a problem.
 func tell(text: String, problem: bool = false) -> void:
 	_say(text, problem)
 

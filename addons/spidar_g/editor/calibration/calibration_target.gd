@@ -1,17 +1,18 @@
 @tool
 extends RefCounted
-## Represents what is calibrated: a SpidarG node or a SpidarGCalibration alone. Every change is one action that can be undone.
+## Represents what the panel calibrates: a SpidarG node, or a SpidarGCalibration alone. Each change of the scene or of the
+## resource is one action that can be undone.
 
 const NAMES: PackedStringArray = [
 	"string_offsets", "string_scales", "zero_counts", "effective_radii", "torque_constants", "tension_gains", "max_currents"
 ]
-## Practice errors of the string lengths are drawn with this standard deviation, in meters.
+## The standard deviation of the random errors of the string lengths in practice, in meters.
 const PRACTICE_OFFSET_M: float = 0.005
 const PRACTICE_COMMON_GAIN: float = 0.03
 const PRACTICE_GAIN: float = 0.005
 const PRACTICE_TENSION: float = 0.12
 
-# The config of each node in practice, by instance id. It is kept here so that the scene does not contain it.
+# The config of each node in practice, by the instance id of the node. The scene does not contain these configs.
 static var _practice: Dictionary[int, SpidarGConfig] = {}
 
 var node: SpidarG
@@ -43,8 +44,8 @@ func get_calibration() -> SpidarGCalibration:
 	return node.calibration if is_instance_valid(node) and resource == null else resource
 
 
-## Puts the result into the scene. A node takes the new resource. A resource takes the values, so that all its users have
-## them.
+## Applies the result `made`. A node gets it as its calibration. A calibration that is edited alone gets its values, so that
+## all nodes that use this resource have them.
 func accept(history: Object, made: SpidarGCalibration) -> void:
 	history.call("create_action", "Calibrate SPIDAR-G")
 	if resource == null:

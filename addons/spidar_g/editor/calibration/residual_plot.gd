@@ -29,7 +29,7 @@ func show_residuals(before_m: PackedFloat64Array, after_m: PackedFloat64Array) -
 	queue_redraw()
 
 
-## Returns the height of a bar as a share of the plot, from 0 to 1. NAN is drawn as more than can be shown.
+## Returns the height of the bar for `value_m` as a share of the plot, from 0 to 1. NAN gives the full height.
 static func height_of(value_m: float) -> float:
 	if is_nan(value_m):
 		return 1.0

@@ -1,6 +1,6 @@
 @tool
 extends EditorInspectorPlugin
-## Says in the inspector which device each SpidarG node asks for and which hand it is, and lets a config choose among the
+## Shows in the inspector which device a SpidarG node selects and which hand the node is. For a SpidarGConfig, it offers the
 ## devices that are plugged in.
 
 const DeviceChooser := preload("device_chooser.gd")
@@ -33,7 +33,7 @@ func _parse_begin(object: Object) -> void:
 	add_custom_control(label)
 
 
-## By its id: the inspector may outlive the node by a moment.
+# Takes the id of the node, because the label may exist for a moment after the node was freed.
 func _show_claim(label: Label, id: int) -> void:
 	var device: SpidarG = instance_from_id(id) as SpidarG
 	var root: Node = EditorInterface.get_edited_scene_root()

@@ -1,11 +1,11 @@
 @tool
 extends EditorProperty
-## The editor of SpidarGConfig.device_serial and serial_port: a text, and a menu of the devices that are plugged in, with who
-## uses each.
+## Edits SpidarGConfig.device_serial or SpidarGConfig.serial_port: a text field, and a menu of the devices that are plugged
+## in, with the nodes that use each device.
 
 const SceneClaims := preload("scene_claims.gd")
 
-## Where the devices come from; a test puts others here.
+## Returns the list of devices, as SpidarG.list_devices() does. Tests replace it.
 static var list_devices: Callable = SpidarG.list_devices
 
 var _kind: String
@@ -39,7 +39,7 @@ func _init(kind: String) -> void:
 	set_bottom_editor(_use)
 
 
-## The menu anew, as it is when it opens.
+## Fills the menu with the devices that are plugged in now. Called each time before the menu opens.
 func fill_menu() -> void:
 	var popup: PopupMenu = _menu.get_popup()
 	popup.clear()

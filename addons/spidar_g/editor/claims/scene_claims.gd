@@ -1,8 +1,8 @@
 @tool
 extends RefCounted
-## Which SpidarG node of a scene asks for which device, and which hand each node is. No node of an edited scene opens its
-## device, so this is what the configs say. What is open in the editor's own process, such as a calibration, is the field
-## owner of SpidarG.list_devices().
+## Finds which SpidarG node of a scene selects which device, and which hand each node is. No node of an edited scene opens its
+## device, so the configs are read. The key owner of SpidarG.list_devices() names what has a device open in the process of the
+## editor, such as a calibration.
 
 const Finder := preload("res://addons/spidar_g/nodes/follow/spidar_finder.gd")
 
@@ -11,7 +11,8 @@ const SERIAL: String = "serial"
 const SIMULATED: String = "simulated"
 
 
-## Returns the kind of device that a node with this config asks for; HID for a node without a config.
+## Returns the kind of device that a node with this config selects: SERIAL, SIMULATED or HID. Returns HID for a node without a
+## config.
 static func kind_of(config: SpidarGConfig) -> String:
 	if config == null:
 		return HID
@@ -23,7 +24,8 @@ static func kind_of(config: SpidarGConfig) -> String:
 	return HID
 
 
-## Returns the name of the device that the config asks for; empty: the first that is free, or a private simulated one.
+## Returns the name of the device that the config selects. Returns an empty string if the config leaves the choice open: the
+## node then opens the first free device, the only serial port, or a simulated device of its own.
 static func name_of(config: SpidarGConfig) -> String:
 	if config == null:
 		return ""
@@ -35,12 +37,12 @@ static func name_of(config: SpidarGConfig) -> String:
 	return config.device_serial
 
 
-## Returns the value of device_serial or serial_port that chooses a device of SpidarG.list_devices().
+## Returns the value of device_serial or serial_port that selects this element of SpidarG.list_devices().
 static func choice_of(listed: Dictionary) -> String:
 	return listed["path"] if listed["kind"] == SERIAL or String(listed["serial"]).is_empty() else listed["serial"]
 
 
-## Returns the SpidarG nodes at and below `root` that ask for this device.
+## Returns the SpidarG nodes at and below `root` that select the device of this kind and name.
 static func claimants(kind: String, name: String, root: Node) -> Array[SpidarG]:
 	var found: Array[SpidarG] = []
 	for device: SpidarG in devices_in(root):
@@ -58,7 +60,8 @@ static func devices_in(root: Node) -> Array[SpidarG]:
 	return found
 
 
-## Returns which hand the SpidarGTracker of a node makes it: "left hand", "right hand", the tracker's own name, or nothing.
+## Returns which hand a device is, by the first SpidarGTracker below `root` that follows it: "left hand", "right hand", or
+## "tracker" and its custom name. Returns an empty string if no tracker follows the device.
 static func hand_of(device: SpidarG, root: Node) -> String:
 	for node: Node in root.find_children("*", "Node", true, false):
 		var tracker := node as SpidarGTracker
@@ -73,13 +76,14 @@ static func hand_of(device: SpidarG, root: Node) -> String:
 	return ""
 
 
-## Returns a node's name with its hand: "Left (left hand)".
+## Returns the name of a node and its hand, such as "Left (left hand)". Without a hand, returns the name alone.
 static func title_of(device: SpidarG, root: Node) -> String:
 	var hand: String = hand_of(device, root)
 	return String(device.name) if hand.is_empty() else "%s (%s)" % [device.name, hand]
 
 
-## Returns who uses a device of SpidarG.list_devices(), beside the nodes that have `config`: empty if nobody does.
+## Returns a text that names the users of this element of SpidarG.list_devices(): the nodes that select it, except those with
+## `config`, or else what has the device open. Returns an empty string if there are none.
 static func use_of(listed: Dictionary, config: SpidarGConfig, root: Node) -> String:
 	var titles: PackedStringArray = []
 	for device: SpidarG in claimants(listed["kind"], choice_of(listed), root):
@@ -91,7 +95,7 @@ static func use_of(listed: Dictionary, config: SpidarGConfig, root: Node) -> Str
 	return "" if open_in.is_empty() else "open now in %s" % open_in
 
 
-## Returns what the inspector says of a node: its hand, its device, and which nodes ask for the same one.
+## Returns the text that the inspector shows for a node: its hand, its device, and which other nodes select the same device.
 static func summary(device: SpidarG, root: Node) -> String:
 	var kind: String = kind_of(device.config)
 	var name: String = name_of(device.config)

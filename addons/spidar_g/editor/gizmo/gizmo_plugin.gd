@@ -34,7 +34,8 @@ func _init() -> void:
 	options.changed.connect(redraw_selected)
 
 
-## Starts to follow the selection. Only a selected device shows more than its frame, strings and grip.
+## Reads the options, and starts to follow the selection: a device shows more than its frame, strings and grip only while it
+## is selected.
 func start() -> void:
 	options.load_from(EditorInterface.get_editor_settings())
 	EditorInterface.get_selection().selection_changed.connect(redraw_selected)
@@ -46,7 +47,7 @@ func stop() -> void:
 	EditorInterface.get_selection().selection_changed.disconnect(redraw_selected)
 
 
-## Redraws the selected devices, and those that were selected before.
+## Redraws the selected devices, and those that were selected at the last call.
 func redraw_selected() -> void:
 	var now: Array[int] = []
 	for node: Node in EditorInterface.get_selection().get_selected_nodes():

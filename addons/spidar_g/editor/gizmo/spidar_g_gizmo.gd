@@ -1,10 +1,11 @@
 @tool
 extends EditorNode3DGizmo
-## Draws one SpidarG in the editor: frame, strings and grip. While it is selected, corner numbers, workspace box, closure map
-## and the force capacity at the probe are drawn too. The probe is the grip itself: drag it. Handles on the frame edit its
-## size.
+## Draws one SpidarG in the editor: frame, strings and grip. While the node is selected, the numbers at the corners, the
+## workspace box, the closure map and the force capacity at the probe are drawn too, as far as the options select them. The
+## probe is the grip itself, which a handle drags. Handles on the frame change its size.
 ##
-## The gizmo redraws only if the node reports a change. SpidarGWorkspace computes what it shows.
+## The gizmo is redrawn only if the node reports a change or the selection or the options change. SpidarGWorkspace computes
+## the strings, the map, the box and the capacity.
 
 const Shapes := preload("workspace_shapes.gd")
 const View := preload("../../nodes/spidar_g_view.gd")
@@ -26,28 +27,29 @@ const CAPACITY_EDGE_COLOUR: Color = Color(0.45, 0.72, 1.00, 0.45)
 const POLE_RADIUS_M: float = 0.0022
 const KNOT_RADIUS_M: float = 0.004
 const MAP_CELLS: int = 24
-## The map of a rigid grip has fewer cells along each side, because its closure takes forty times as long to compute.
+## The number of cells along each side of the map for a rigid grip. It is smaller, because the closure of a rigid grip takes
+## forty times as long to compute.
 const RIGID_MAP_CELLS: int = 10
-## The size of a pixel of the texts at any distance, in Godot's units of a mesh with fixed size.
+## The TextMesh.pixel_size of the texts. Their material has a fixed size, so they look equally large at any distance.
 const TEXT_PIXEL: float = 0.0013
 const NUMBER_SIZE: int = 22
 const REPORT_SIZE: int = 18
-## The smallest size that a handle gives to the frame, in meters.
+## The smallest size to which a handle can drag the frame, in meters.
 const LEAST_SIZE_M: float = 0.1
 const LARGEST_SIZE_M: float = 5.0
 const SIZE_STEP_M: float = 0.001
 const FAR_M: float = 1000.0
-## The position of the probe's handle relative to the grip's center, in meters. It keeps clear of the arrows with which the
-## editor moves the node.
+## The position of the probe's handle relative to the grip's center, in meters. There it does not cover the arrows with which
+## the editor moves the node.
 const PROBE_HANDLE_M: Vector3 = Vector3(-0.05, -0.05, 0.0)
-## The height of the report above the frame, in meters. It keeps clear of the numbers at the corners.
+## The height of the report above the frame, in meters. There it does not cover the numbers at the corners.
 const REPORT_HEIGHT_M: float = 0.09
 
 var options: ViewOptions
 var shapes: Shapes
 ## The position in the device frame at which the grip is probed, in meters.
 var probe_m: Vector3 = Vector3.ZERO
-## The number of times the gizmo was drawn. An idle editor draws nothing.
+## The number of times that the gizmo was drawn. Tests check that it does not grow in an idle editor.
 var draw_count: int = 0
 
 var _workspace := SpidarGWorkspace.new()
@@ -135,8 +137,8 @@ func _commit_handle(id: int, _secondary: bool, restore: Variant, cancel: bool) -
 	undo.commit_action()
 
 
-## Moves the probe with its handle to where the ray of the view meets the plane through the handle that faces the viewer. The
-## probe stays inside the frame.
+## Moves the probe so that its handle is where the ray from `from` along `along` meets the plane through the handle with the
+## normal `facing`. The probe stays inside the frame. All vectors are in the device frame.
 func drag_probe(from: Vector3, along: Vector3, facing: Vector3) -> void:
 	var met: Variant = Plane(facing, probe_m + PROBE_HANDLE_M).intersects_ray(from, along)
 	if met == null:
@@ -146,7 +148,8 @@ func drag_probe(from: Vector3, along: Vector3, facing: Vector3) -> void:
 	get_node_3d().update_gizmos()
 
 
-## Sets half the size of the frame along an axis to the point of this axis that is nearest to the ray of the view.
+## Sets the size of the frame along `axis` (0 to 2), so that the middle of the frame's side is at the point of this axis that
+## is nearest to the ray from `from` along `along`. The ray is in the device frame.
 func drag_size(axis: int, from: Vector3, along: Vector3) -> void:
 	var config: SpidarGConfig = (get_node_3d() as SpidarG).config
 	var unit: Vector3 = Vector3.ZERO
@@ -159,7 +162,7 @@ func drag_size(axis: int, from: Vector3, along: Vector3) -> void:
 	config.frame_size = size
 
 
-## Returns a text that describes what the strings can do at the probe.
+## Returns a text with the position of the probe, and the closure margin and the capacities of the strings there.
 func report() -> String:
 	if _workspace.get_problem() != "":
 		return _workspace.get_problem()

@@ -1,6 +1,7 @@
 @tool
 extends MenuButton
-## The menu in the toolbar of the 3D view that selects what the gizmo shows. It is visible while a SpidarG is selected.
+## This is the menu in the toolbar of the 3D view that selects what the gizmo of a selected SpidarG shows. The menu is visible
+## while a SpidarG is selected.
 
 const ViewOptions := preload("view_options.gd")
 

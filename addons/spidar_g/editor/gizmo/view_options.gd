@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## Stores what the 3D view shows of a selected SpidarG. The editor saves it for each project.
+## Stores the options that select what the 3D view shows of a selected SpidarG. The editor saves them for each project.
 
 ## Emitted when one of the options has changed.
 signal changed

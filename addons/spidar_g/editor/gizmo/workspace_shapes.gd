@@ -1,7 +1,7 @@
 @tool
 extends RefCounted
-## Makes meshes and lines of the 3D view from points. Lengths are in meters of device motion. It does not depend on a device
-## or on the editor.
+## Makes the meshes and lines of the 3D view from points. Lengths are in meters of device motion. This class uses neither a
+## device nor the editor.
 
 ## A force is drawn with this length, in meters for each newton.
 const METRES_PER_NEWTON: float = 0.006
@@ -10,9 +10,9 @@ const WEAK_COLOUR: Color = Color(1.00, 0.80, 0.20, 0.36)
 const GOOD_COLOUR: Color = Color(0.15, 0.75, 0.40, 0.36)
 ## Closure margins from this value on have the color of a good margin.
 const GOOD_MARGIN: float = 0.5
-## The triangles of an icosahedron are split into four this many times.
+## The directions are the corners of an icosahedron, each of whose triangles is split into four this many times.
 const SPLITS: int = 2
-## This many directions exist after one split less. They are enough to find the smallest and the largest force.
+## The number of directions after one split less. So many are enough to find the smallest and the largest force.
 const FEW: int = 42
 
 ## Unit vectors that cover the sphere evenly. They are the corners of [member triangles].
@@ -42,7 +42,7 @@ static func box_lines(low: Vector3, high: Vector3) -> PackedVector3Array:
 	return lines
 
 
-## Returns the transform that makes a cylinder of radius and height 1 along +Y a rod between two points.
+## Returns the transform that turns a cylinder with radius 1 and height 1 along +Y into a rod between two points.
 static func rod(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	var along: Vector3 = to - from
 	var length: float = along.length()
@@ -52,8 +52,8 @@ static func rod(from: Vector3, to: Vector3, radius: float) -> Transform3D:
 	return Transform3D(turn * Basis.from_scale(Vector3(radius, length, radius)), 0.5 * (from + to))
 
 
-## Returns the points of a map: `cells` + 1 rows with as many points each, in the plane through `at` across `axis`, within a
-## box.
+## Returns the points of a map: `cells` + 1 rows with `cells` + 1 points each. They lie in the plane through `at` at right
+## angles to `axis` (0 to 2), and fill the box from `low` to `high`.
 static func map_points(low: Vector3, high: Vector3, at: Vector3, axis: int, cells: int) -> PackedVector3Array:
 	var points: PackedVector3Array = []
 	var across: int = (axis + 1) % 3
@@ -90,7 +90,8 @@ func few_directions() -> PackedVector3Array:
 	return directions.slice(0, FEW)
 
 
-## Returns a mesh that extends in every direction as far as the force that the strings can give along it.
+## Returns a mesh whose corner in each of the [member directions] lies at a distance proportional to the force in this
+## direction, which `capacity_n` contains (in newtons).
 func capacity_mesh(capacity_n: PackedFloat64Array, colour: Color) -> ArrayMesh:
 	var points: PackedVector3Array = []
 	var colours: PackedColorArray = []

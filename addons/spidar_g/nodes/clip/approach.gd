@@ -1,6 +1,6 @@
 extends RefCounted
-## Measures how fast hands came to a body. The motion of both is kept for the last physics ticks, from before the touch took
-## the speed away.
+## Measures how fast a hand approached a body before it touched the body. The touch stops the hand, so the motion of the hands
+## and of the body is kept for the last physics ticks.
 
 ## The motion is kept for this many physics ticks.
 const TICKS: int = 4
@@ -9,7 +9,7 @@ var _hands: Dictionary[int, Array] = {}
 var _body: Array[Motion] = []
 
 
-## Holds the velocity of a rigid body or grip, in world coordinates.
+## Holds the position and the velocity of a rigid body or grip, in world coordinates.
 class Motion:
 	var at: Vector3
 	var linear: Vector3
@@ -47,8 +47,8 @@ func forget() -> void:
 	_body.clear()
 
 
-## Returns the largest speed in the last ticks at which hand and body approached each other at `point` along `normal` (out of
-## the body), in meters of device motion per second.
+## Returns the largest speed, within the kept ticks, at which hand and body approached each other at `point`, in meters of
+## device motion per second. The speed is measured along `normal`, which points out of the body.
 func speed(hand: SpidarGHand, point: Vector3, normal: Vector3) -> float:
 	var of_hand: Array = _hands.get(hand.get_instance_id(), [])
 	var most: float = 0.0

@@ -1,12 +1,13 @@
 extends RefCounted
 ## Connects a [SpidarGClipPlayer] to the signals of its source, and emits its events.
 
-## Emitted when the event occurs. `direction` is the unit vector along which the hand met the body, or zero if it is unknown.
-## `speed` is the speed of the hand in meters of device motion per second, for Event.IMPACT alone.
+## Emitted when the event occurs. `direction` is a unit vector: the normal of the touch, or the axis of the jaws for a grasp.
+## It is zero if it is unknown. `speed` is the speed of an Event.IMPACT in meters of device motion per second, and 0 for other
+## events.
 signal occurred(hand: SpidarGHand, direction: Vector3, speed: float)
-## Emitted when the hand has left the surface, for the events of a touch.
+## Emitted when the hand no longer presses on the surface, for Event.TOUCH and Event.IMPACT alone.
 signal left(hand: SpidarGHand)
-## Emitted when the hand no longer slips along the surface.
+## Emitted when the hand no longer slips along the surface, for Event.SLIP alone.
 signal slip_ended(hand: SpidarGHand)
 ## Emitted when the children of the source have changed: a surface may have come or gone.
 signal source_changed
@@ -15,9 +16,9 @@ const Event := SpidarGClipPlayer.Event
 const Approach := preload("approach.gd")
 const Source := preload("clip_source.gd")
 
-## The normal of a point that does not press has this weight, in newtons.
+## The weight of a normal is the force at its point plus this value, in newtons, so that a point without force counts too.
 const LEAST_WEIGHT_N: float = 0.001
-## Normals oppose each other if the length of their sum is below this share of their weights.
+## Normals oppose each other if the length of their weighted sum is at most this share of the sum of their weights.
 const OPPOSED: float = 0.3
 
 var source: Source = null
@@ -29,7 +30,7 @@ var _signals: Array[Signal] = []
 var _answers: Array[Callable] = []
 
 
-## Connects what `event` of the source `from` needs. `hands` are all hands of the scene tree.
+## Connects the signals that report `event` at the source `from`. `hands` are all hands of the scene tree.
 func connect_to(event: Event, from: Source, hands: Array[SpidarGHand]) -> void:
 	var is_same: bool = source != null and source.surface == from.surface and _event == event
 	leave()
@@ -68,19 +69,21 @@ func leave() -> void:
 	source = null
 
 
-## Returns [code]true[/code] if the surface can still report that a hand no longer slips.
+## Returns [code]true[/code] if the source has a surface, and the surface is in the scene tree.
 func has_surface() -> bool:
 	return source != null and is_instance_valid(source.surface) and source.surface.is_inside_tree()
 
 
-## Records the motion of body and hands for Event.IMPACT. Call it once per physics tick.
+## Records the motion of the body and of the hands, from which the speed of an Event.IMPACT is computed. Call it once per
+## physics tick.
 func note_motion(hands: Array[SpidarGHand]) -> void:
 	if has_surface() and source.body != null:
 		_approach.note(source.body, hands)
 
 
-## Returns the direction in which a hand touches `body`, or any body if `body` is [code]null[/code]. It is zero if nothing is
-## touched. For a body between the pads it is the axis of the jaws.
+## Returns the mean normal of the points at which `hand` touches `body`, or any body if `body` is [code]null[/code], as a unit
+## vector. Returns zero if nothing is touched. If the normals oppose each other, as for a body between the pads, returns the
+## axis of the jaws.
 static func normal_at(hand: SpidarGHand, body: Node) -> Vector3:
 	var sum := Vector3.ZERO
 	var weights: float = 0.0

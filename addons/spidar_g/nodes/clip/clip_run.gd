@@ -3,9 +3,11 @@ extends RefCounted
 
 ## The duration of each refresh, in seconds. If the game hangs, the effect ends after this time and a fade of 50 ms.
 const RENEWED_FOR_S: float = 0.05
-## The duration of each refresh in physics ticks, if the ticks of the game are long.
+## The minimum duration of each refresh, in physics ticks. It is longer than the duration above if there are fewer
+## than 50 ticks per second.
 const RENEWED_FOR_TICKS: float = 2.5
-## The time in which the servo loop moves to a new amplitude, in seconds. The amplitude that is due at its end is requested.
+## The time in which the servo loop moves to a new amplitude, in seconds. Each step requests the amplitude that the clip has
+## at the end of this time, or one physics tick later if that is longer.
 const CROSS_FADE_S: float = 0.016
 
 var spidar: SpidarG
@@ -38,14 +40,15 @@ func _init(of: SpidarG, clip: SpidarGClip, id: int, direction: Vector3, share: f
 	_began_s = of.get_device_time()
 
 
-## Refreshes the vibration. Returns [code]false[/code] when the clip is over, and if the device does not accept the effect.
+## Refreshes the vibration. Returns [code]false[/code] when the clip is over and has faded, and if the device is closed or
+## refuses the effect.
 func step(tick_s: float) -> bool:
 	if not is_instance_valid(spidar) or spidar.get_state() == SpidarG.STATE_CLOSED:
 		return false
 	var now_s: float = spidar.get_device_time() - _began_s
 	if _fades:
 		return now_s - _stepped_s < CROSS_FADE_S
-	if now_s == _stepped_s: # nothing of what was asked for has been rendered yet
+	if now_s == _stepped_s: # the device has not rendered the last request yet
 		return true
 	_stepped_s = now_s
 	var lasts_s: float = _clip.get_duration()
@@ -53,7 +56,7 @@ func step(tick_s: float) -> bool:
 	var at_s: float = fmod(now_s, lasts_s) if lasts_s > 0.0 else 0.0
 	var ahead_s: float = maxf(tick_s, CROSS_FADE_S)
 	_given_n = 0.0 if is_over else _due(at_s, lasts_s, ahead_s)
-	# Asked for once: each renewal would begin the fade anew.
+	# Requested only once: each refresh would begin the fade anew.
 	_fades = is_over or (not loops and now_s + ahead_s >= lasts_s and _given_n <= 0.0)
 	var holds_s: float = maxf(RENEWED_FOR_S, RENEWED_FOR_TICKS * tick_s)
 	return spidar.set_vibration_effect(
@@ -61,12 +64,12 @@ func step(tick_s: float) -> bool:
 	)
 
 
-## Lets the vibration end within the next ticks.
+## Ends the clip: the next [method step] requests the amplitude 0, and the vibration fades.
 func end() -> void:
 	_ends = true
 
 
-## Ends the vibration now, within the fade of the device.
+## Ends the vibration at once: the device lets it fade within 16 ms.
 func stop() -> void:
 	if is_instance_valid(spidar):
 		spidar.clear_effect(_id)

@@ -1,19 +1,22 @@
 extends RefCounted
-## Finds the node that the events of a [SpidarGClipPlayer] come from, and what is missing there.
+## Finds the node that the events of a [SpidarGClipPlayer] come from, and states what that node lacks.
 
 const Event := SpidarGClipPlayer.Event
 
 ## The device, hand, surface or body that is the source, or [code]null[/code].
 var node: Node = null
-## The body of a source that is a surface or a body, or [code]null[/code].
+## The body, if the source is a body or a surface of one, or [code]null[/code].
 var body: PhysicsBody3D = null
+## The surface, if the source is a surface or a body that has one, or [code]null[/code].
 var surface: SpidarGSurface = null
-## The only hand whose events count, or [code]null[/code] if all hands count.
+## The hand, if the source is a hand or a device that has one: only its events count. Otherwise [code]null[/code].
 var hand: SpidarGHand = null
+## The device, if the source is a device or a hand of one, or [code]null[/code].
 var spidar: SpidarG = null
 
 
-## Returns the source of `player`: the node at `path`, or the nearest ancestor if `path` is empty.
+## Returns a new object of this class for `player`: its source is the node at `path`, or the nearest ancestor that can be a
+## source if `path` is empty.
 static func find(player: Node, path: NodePath) -> RefCounted:
 	var source: RefCounted = new()
 	source._take(player.get_node_or_null(path) if not path.is_empty() else _above(player))

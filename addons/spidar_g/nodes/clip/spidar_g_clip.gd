@@ -14,20 +14,20 @@ extends Resource
 ## print(knock.get_duration()) # Prints 0.1.
 ## [/codeblock]
 ## [b]By numbers.[/b] The amplitude rises from 0 to [member strength] in [member attack], stays for [member hold] and falls to
-## 0 in [member release]. The frequency is always [member frequency].[br]
+## 0 in [member release]. The frequency is [member frequency] from the beginning to the end.[br]
 ## [b]From a sound.[/b] The loudness of [member stream] becomes the amplitude, with [member strength] where the sound is
-## loudest. The frequency follows the dominant frequency of the sound. A sound outside 5 to 250 Hz is moved by whole octaves
-## into this range: 440 Hz becomes 220 Hz. The whole sound is moved by the same number of octaves, and a frequency that is
-## still outside is set to 5 or 250 Hz. The sound itself is not played: use an [AudioStreamPlayer] for it.[br]
+## loudest. The frequency follows the dominant frequency of the sound. If the mean of this frequency is outside 5 to 250 Hz,
+## the whole sound is moved by octaves until the mean is inside: 440 Hz becomes 220 Hz. A frequency that is still outside is
+## set to 5 or 250 Hz. The sound itself is not played: use an [AudioStreamPlayer] for it.[br]
 ## [b]Accuracy.[/b] The servo loop renders a sine, and the game changes its amplitude and frequency in each physics tick.
 ## Amplitudes between two ticks are interpolated. A rise or a fall therefore takes at least 16 ms, and a clip that is shorter
-## than a tick is felt for one tick. If the clip is shorter than half a period of its frequency, the peak of the sine is not
-## reached.[br]
-## [b]Strength.[/b] [member strength] is the requested amplitude, and the strings of the device change it. On the simulated
-## device with its default elastic strings, the achieved amplitude is within 10 % at 20 to 40 Hz. It is 1.2 times as large at
-## 60 Hz, 1.8 times at 80 Hz, 2 to 3.6 times at 100 to 120 Hz, and a tenth at 250 Hz. With rigid strings
-## ([member SpidarGConfig.simulated_elastic] off) it is within 10 % up to 120 Hz, 13 % smaller at 150 Hz and 27 % smaller at
-## 250 Hz. This was not measured on a real device: begin with weak clips.
+## than a tick lasts one tick. If the clip is shorter than half a period of its frequency, the sine does not reach its
+## peak.[br]
+## [b]Strength.[/b] [member strength] is the requested amplitude. Because the strings are elastic, the achieved amplitude
+## differs from it. On the simulated device with its default strings, the achieved amplitude is within 10 % of the requested
+## one at 20 to 40 Hz. It is 1.2 times as large at 60 Hz, 1.8 times at 80 Hz, 2 to 3.6 times at 100 to 120 Hz, and a tenth at
+## 250 Hz. With rigid strings ([member SpidarGConfig.simulated_elastic] off) it is within 10 % up to 120 Hz, 13 % smaller at
+## 150 Hz and 27 % smaller at 250 Hz. This was not measured on a real device: begin with weak clips.
 
 const _InRange := preload("../values/in_range.gd")
 const _WavFeel := preload("wav_feel.gd")
@@ -38,9 +38,9 @@ const MOST_N: float = 2.0
 
 ## Sets the sound that the clip is made from: 8 or 16 bits, mono or stereo. If it is [code]null[/code], the clip is described
 ## by [member frequency], [member attack], [member hold] and [member release].[br]
-## A compressed sound (QOA or IMA ADPCM) is refused with an error; the clip then has a [method get_problem] and is not played.
-## Import the file as PCM. A sound longer than 5 s is cut there with a warning. The sound is converted when the clip is first
-## used. Set the property again after you have changed the samples of the same stream.
+## A clip is not played if its sound is compressed (QOA or IMA ADPCM), has no samples, or has a mix rate below 1000 Hz. An
+## error and [method get_problem] then state the remedy. A sound longer than 5 s is cut there with a warning. The sound is
+## converted when the clip is first used. Set the property again after you have changed the samples of the same stream.
 @export var stream: AudioStreamWAV:
 	set(value):
 		stream = value
@@ -61,9 +61,9 @@ const MOST_N: float = 2.0
 	set(value):
 		gain = _checked("gain", value, gain, "", 0.0, 10.0)
 		emit_changed()
-## Sets the frequency of the vibration, in hertz, from 5 to 250. The device gives at most a quarter of its servo rate. In a
-## clip with a [member stream] it is used only if no frequency is found in the sound. Another value is refused with an error,
-## and the old one stays.
+## Sets the frequency of the vibration, in hertz, from 5 to 250. A frequency above a quarter of the servo rate is lowered to
+## it. In a clip with a [member stream], this property is used only if no frequency is found in the sound. Another value is
+## refused with an error, and the old one stays.
 @export_range(5.0, 250.0, 0.1, "suffix:Hz") var frequency: float = 50.0:
 	set(value):
 		frequency = _checked("frequency", value, frequency, "Hz", _WavFeel.LEAST_HZ, _WavFeel.MOST_HZ)
@@ -89,8 +89,9 @@ const MOST_N: float = 2.0
 		release = _checked("release", value, release, "s", 0.0, _WavFeel.LONGEST_S)
 		emit_changed()
 @export_group("Direction")
-## If [code]true[/code], the hand is shaken along the normal of the surface that it touches, and along the axis of its jaws
-## when it grasps or lets go. If [code]false[/code], or if nothing is touched, it is shaken along [member direction].
+## If [code]true[/code], the hand is shaken along the normal of the surface that it touches, or along the axis of its jaws if
+## it grasps or lets go of a body. If [code]false[/code], or if the hand does none of these, it is shaken along
+## [member direction].
 @export var along_normal: bool = true:
 	set(value):
 		along_normal = value
@@ -119,7 +120,7 @@ func get_duration() -> float:
 func get_problem() -> String:
 	if stream == null:
 		return "" if attack + hold + release > 0.0 else "attack, hold and release are 0 s: make one of them longer."
-	# Asked in each tick: a stream that was converted is not looked at again.
+	# This method is called in each tick: a stream that was converted is not examined again.
 	var problem: String = _WavFeel.problem(stream) if _sound == null else ""
 	if problem.is_empty() and _hear().loudness.is_empty():
 		problem = "its stream is silent: give a louder sound."

@@ -18,15 +18,17 @@ extends Node
 ## [/codeblock]
 ## [b]Source.[/b] The source of the events is the nearest ancestor that is a [SpidarG], a [SpidarGHand], a [SpidarGSurface] or
 ## a physics body, or the node at [member source_path]. Touches, slips and impacts come from a [SpidarGSurface], which is the
-## source or a child of it. Grasps come from the hand, or from every hand that grasps the body.[br]
+## source or a child of the source. Grasps come from the hand that is the source (of a [SpidarG], its hand), or from every
+## hand that grasps the body.[br]
 ## [b]Device.[/b] The clip is played on the device of the hand that caused the event. [method play] plays it on the device
 ## above the player, or on every open device of the same world if there is none above it.[br]
-## [b]Repetition.[/b] A device plays the clip of one player once at a time. [method play] starts it from its beginning.[br]
+## [b]Repetition.[/b] A device plays the clip of one player at most once at a time. [method play] starts the clip from its
+## beginning.[br]
 ## [b]Limits.[/b] A device renders 6 effects at once, including those of zones, sockets and scripts. If none is free, the clip
 ## is not played, and one warning says so. Players use the effect ids from [constant FIRST_ID] to 999999. The vibration ends
-## within 0.1 s when the clip is over, when the player is paused or disabled or leaves the scene tree, and when the game
-## hangs. A player takes no time between its events, except that one for [constant IMPACT] reads the speed of each hand in
-## each physics tick.
+## within 0.1 s when the clip is over, when the player is paused or disabled or leaves the scene tree, and (at 50 or more
+## physics ticks per second) when the game hangs. A player takes no time between its events, except that one for
+## [constant IMPACT] reads the speed of each hand in each physics tick.
 
 ## Emitted when [param spidar] begins to play the clip.
 signal started(spidar: SpidarG)
@@ -63,13 +65,14 @@ const _Source := preload("clip_source.gd")
 const FIRST_ID: int = 500000
 ## The number of effect ids that players use. After the last one the first one is used again.
 const ID_COUNT: int = 500000
-## A hand that was quiet for a shorter time than this, in seconds of the device, bounces and starts no clip.
+## An event counts as a bounce of the hand, and starts no clip, if the last event of the hand was less than this time ago, in
+## seconds of [method SpidarG.get_device_time].
 const BOUNCE_S: float = 0.1
 
 static var _made: int = 0
 
-## Sets the clip that is played. If it is [code]null[/code], nothing is played, and a configuration warning says so. A change
-## ends the clip that is playing.
+## Sets the clip that is played. If it is [code]null[/code], nothing is played, and a configuration warning says so. Setting
+## another clip ends the clip that is playing.
 @export var clip: SpidarGClip:
 	set(value):
 		if clip != value:
@@ -80,8 +83,8 @@ static var _made: int = 0
 		if clip != null:
 			clip.changed.connect(update_configuration_warnings)
 		update_configuration_warnings()
-## Selects what starts the clip. A clip that is playing continues if this property is changed, unless it is repeated for a
-## slip.
+## Selects the event that starts the clip. A clip that is playing continues if this property is changed, unless the clip is
+## repeated for a [constant SLIP].
 @export var event := Event.NONE:
 	set(value):
 		event = value
@@ -89,27 +92,28 @@ static var _made: int = 0
 		_look_and_warn()
 ## Sets the [SpidarG], [SpidarGHand], [SpidarGSurface] or physics body that the event comes from. With an empty path the
 ## nearest ancestor of these types is used. The source is looked for when the player enters the scene tree, when this property
-## is set, and when a device or a hand enters or leaves. A path to another node causes a warning, and no event comes.
+## is set, when the children of the source change, and when a device or a hand enters or leaves. A path to a node of another
+## type causes a warning, and no event comes.
 @export_node_path("Node") var source_path: NodePath:
 	set(value):
 		source_path = value
 		_look_and_warn()
 ## Sets the time after the end of a clip in which no event starts it again on the same device, in seconds of the device, from
 ## 0 to 60. Another value is refused with an error, and the old one stays.[br]
-## A strong clip shakes a light finger off the surface and onto it again. Therefore no event starts a clip that is playing,
-## and an event counts only if no such event occurred and the hand did not leave the surface in the last 0.1 s. A slow and
-## strong clip (2 N at 15 Hz) throws a very loose hand off for longer: set the cooldown to 0.5 s. [method play] and
-## [constant SLIP] ignore all of this.
+## A strong clip can shake a light finger off the surface and onto it again, which causes new events. Therefore no event
+## starts a clip that is playing, and an event is ignored if another one occurred, or the hand left the surface, less than 0.1
+## s before. A slow and strong clip (2 N at 15 Hz) throws a very loose hand off for longer: set the cooldown to 0.5 s. [method
+## play] and [constant SLIP] ignore the cooldown and these rules.
 @export_range(0.0, 60.0, 0.01, "suffix:s") var cooldown: float = 0.1:
 	set(value):
 		cooldown = _checked("cooldown", value, cooldown, "s", 0.0, 60.0)
-## If [code]true[/code], the strength of an [constant IMPACT] is that of the clip times the speed of the hand divided by
-## [member full_impact_speed], and at most that of the clip. If [code]false[/code], each impact has the full strength. Ignored
-## for other events.
+## If [code]true[/code], the strength of an [constant IMPACT] is proportional to the speed of the hand, up to the full
+## strength of the clip at [member full_impact_speed]. If [code]false[/code], each impact has the full strength. Ignored for
+## other events.
 @export var scale_by_impulse: bool = true
 ## Sets the speed at which an [constant IMPACT] has the full strength of the clip, in meters of device motion per second, from
-## 0.01 to 5. The speed is that of the hand against the body, along the normal of the surface, before the touch. Another value
-## is refused with an error, and the old one stays.
+## 0.01 to 5. The speed is that at which hand and body approached each other along the normal of the surface, before the
+## touch. Another value is refused with an error, and the old one stays.
 @export_range(0.01, 5.0, 0.01, "suffix:m/s") var full_impact_speed: float = 0.3:
 	set(value):
 		full_impact_speed = _checked("full_impact_speed", value, full_impact_speed, "m/s", 0.01, 5.0)
@@ -142,7 +146,8 @@ func _init() -> void:
 
 ## Plays the clip from its beginning on [param spidar]. If that is [code]null[/code], the clip is played on the device above
 ## the player or at [member source_path], or on every open device of the same world if there is none. Returns
-## [code]true[/code] if a device plays it. Otherwise a warning says why, unless no device is open.
+## [code]true[/code] if a device plays the clip. Otherwise a warning says why, unless no device is open. The warning that no
+## effect is free is given only once until a clip is played again.
 func play(spidar: SpidarG = null) -> bool:
 	if _devices == null:
 		if ClassDB.class_exists(&"SpidarG"):
@@ -286,7 +291,7 @@ func _on_occurred(hand: SpidarGHand, along: Vector3, speed: float) -> void:
 	_start(spidar, along, minf(1.0, speed / full_impact_speed) if is_scaled else 1.0, false)
 
 
-# Returns whether an event is more than a bounce of the hand or an effect of the clip itself.
+# Returns whether the event may start the clip: it is neither a bounce of the hand nor caused by the clip itself.
 func _is_new(spidar: SpidarG) -> bool:
 	var id: int = spidar.get_instance_id()
 	var now_s: float = spidar.get_device_time()

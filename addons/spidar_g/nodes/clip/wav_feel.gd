@@ -1,6 +1,6 @@
 extends RefCounted
-## Computes what can be felt of a recorded sound: its loudness over time and its dominant frequency. It is computed once from
-## the samples.
+## Computes what can be felt of a recorded sound: its loudness and its dominant frequency over time. Both are computed once
+## from the samples.
 
 ## The sound is divided into frames of this length, in seconds. Each frame has a loudness and a frequency.
 const FRAME_S: float = 0.005
@@ -10,20 +10,23 @@ const LONGEST_S: float = 5.0
 const LEAST_HZ: float = 5.0
 ## The servo loop renders no frequency above this one, in hertz.
 const MOST_HZ: float = 250.0
-## Slower changes of the samples than this are no sound, in hertz. They are an offset of the recording and are removed.
+## Changes of the samples that are slower than this, in hertz, are an offset of the recording and not sound. They are removed.
 const OFFSET_HZ: float = 2.0
-## A zero crossing counts if the wave goes on to this share of its recent peak, so that noise makes no crossings.
+## A zero crossing counts only if the wave then exceeds this share of its recent peak, so that noise adds no crossings.
 const CLEAR_OF_ZERO: float = 0.25
+## The time constant with which the recent peak falls, in seconds.
 const PEAK_FORGOTTEN_S: float = 0.05
-## The frequency of a frame is that of the zero crossings within this time, in seconds.
+## The frequency of a frame is computed from the zero crossings up to this time before and after its middle, in seconds.
 const HEARD_WITHIN_S: float = 0.02
-## The weights of a frame and its neighbors in the loudness. Over one frame alone the loudness would follow the wave itself.
+## The weights of a frame (the middle one) and of its two neighbors on each side in its loudness. The loudness of one frame
+## alone would follow the wave itself.
 const SMOOTHING: Array[float] = [1.0, 2.0, 3.0, 2.0, 1.0]
-## A sound that is weaker than this share of full scale counts as silence.
+## A sound whose loudest frame has less than this share of the full scale counts as silence.
 const SILENCE: float = 1e-3
 const SIXTEEN_BITS: float = 1.0 / 32768.0
 const EIGHT_BITS: float = 1.0 / 128.0
 
+## The length of the sound after the cut, in seconds.
 var duration_s: float = 0.0
 ## The loudness of each frame, from 0 to 1 in the loudest frame. The array is empty if the sound is silent.
 var loudness: PackedFloat32Array = []
@@ -52,25 +55,25 @@ static func problem(stream: AudioStreamWAV) -> String:
 	return ""
 
 
-## Returns the result for `stream`, which must have no [method problem]. `otherwise_hz` is the frequency if none is found in
-## the sound.
+## Returns the loudness and the frequencies of `stream` as a new object of this class. Call it only if [method problem]
+## returns an empty string for `stream`. `otherwise_hz` is the frequency if none is found in the sound.
 static func make(stream: AudioStreamWAV, otherwise_hz: float) -> RefCounted:
 	var feel: RefCounted = new()
 	feel._take(stream, otherwise_hz)
 	return feel
 
 
-## Returns the loudness at a time from the beginning, interpolated between the middles of two frames.
+## Returns the loudness at `time_s` seconds after the beginning, from 0 to 1, interpolated between the middles of two frames.
 func loudness_at(time_s: float) -> float:
 	return _at(loudness, time_s)
 
 
-## Returns the frequency at a time from the beginning, in hertz.
+## Returns the frequency at `time_s` seconds after the beginning, in hertz, interpolated like the loudness.
 func frequency_at(time_s: float) -> float:
 	return _at(frequencies, time_s)
 
 
-## Returns the largest loudness from one time to another.
+## Returns the largest loudness between two times, in seconds after the beginning.
 func loudest_between(from_s: float, to_s: float) -> float:
 	var most: float = maxf(loudness_at(from_s), loudness_at(to_s))
 	var first: int = maxi(0, ceili(from_s / FRAME_S - 0.5))

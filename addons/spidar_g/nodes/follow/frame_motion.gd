@@ -1,8 +1,10 @@
 extends RefCounted
-## Computes the velocity of a moving frame of reference from its poses in the physics ticks. As in [SpidarG], a frame that is
-## moved far within one tick was teleported and has no velocity: only the motion that two ticks in a row share is used.
+## Computes the velocity of a moving frame of reference from its poses in the physics ticks. As in [SpidarG], only motion that
+## lasts for two physics ticks counts, so a teleport adds no velocity.
 
+## The velocity of the frame's origin, in m/s.
 var linear := Vector3.ZERO
+## The angular velocity of the frame, in rad/s.
 var angular := Vector3.ZERO
 
 var _place := Transform3D.IDENTITY
@@ -20,7 +22,7 @@ func forget() -> void:
 	_angular_seen = Vector3.ZERO
 
 
-## Takes the newest pose (orthonormal), `tick_s` seconds after the last one.
+## Takes the newest pose of the frame, which must be orthonormal. It is `tick_s` seconds newer than the last one.
 func note(place: Transform3D, tick_s: float) -> void:
 	if _is_known and tick_s > 0.0:
 		var moved: Vector3 = (place.origin - _place.origin) / tick_s

@@ -1,9 +1,9 @@
 extends RefCounted
-## Helps the nodes that follow a [SpidarG]: it finds their device and makes them run after it.
+## Helps the nodes that follow a [SpidarG]: finds their device, and makes them run after the device in each frame and tick.
 
 
 ## Returns the [SpidarG] at `path` as seen from `node`, or the nearest ancestor of `node` that is one if `path` is empty.
-## Returns [code]null[/code] if there is none, or if it is the stand-in of a missing library.
+## Returns [code]null[/code] if there is none, or if the add-on's library is missing.
 static func find(node: Node, path: NodePath) -> SpidarG:
 	if not ClassDB.class_exists(&"SpidarG"):
 		return null
@@ -34,8 +34,8 @@ static func problem(node: Node, path: NodePath, name: String) -> String:
 	return "%s does nothing: none of its ancestors is a SpidarG. Move it below a SpidarG, or set spidar_path." % name
 
 
-## Raises the process priorities of `node` by the smallest amount that makes it run after `leader` in each frame and tick.
-## Nodes with the same priority run in the order of the scene tree.
+## Makes `node` run after `leader` in each frame and physics tick: raises the process priorities of `node` as little as
+## possible. Nodes with the same priority run in the order of the scene tree.
 static func run_after(node: Node, leader: Node) -> void:
 	if leader == null:
 		return

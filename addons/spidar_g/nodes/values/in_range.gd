@@ -1,10 +1,10 @@
 @tool
 extends RefCounted
-## Checks a number that a property is set to. A number out of range is reported as an error that names the node, the field,
+## Checks a number that a property is set to. For a number out of range it pushes an error that names the node, the property,
 ## the value, the unit and the remedy.
 
 
-## Returns `value` if it is from `least` to `most`. Otherwise pushes an error that begins with `who`, and returns `old`.
+## Returns `value` if it lies from `least` to `most`. Otherwise pushes an error that begins with `who`, and returns `old`.
 static func checked(
 	who: String, field: StringName, value: float, old: float, unit: String, least: float, most: float
 ) -> float:

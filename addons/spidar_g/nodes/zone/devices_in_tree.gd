@@ -1,5 +1,5 @@
 extends RefCounted
-## Lists all [SpidarG] and [SpidarGHand] nodes of a scene tree. One watcher is shared by all nodes that need the list. It
+## Lists all [SpidarG] and [SpidarGHand] nodes of a scene tree. All nodes that need the list share one watcher. The watcher
 ## exists as long as one of them refers to it, so a tree without such nodes is not watched.
 
 ## Emitted when a device or a hand has entered or left the scene tree.

@@ -1,6 +1,6 @@
 extends RefCounted
-## Computes how deep a point is inside the collision shapes of an area, from the shapes alone. The physics server is not used,
-## so monitoring, layers and a recent move of the area do not matter.
+## Computes how deep a point is inside the collision shapes of an area. The depth is computed from the shapes and not by the
+## physics server, so monitoring, layers and a move of the area in the same tick do not matter.
 
 ## A convex polygon with more points than this is ignored, because its faces would take too long to compute.
 const MOST_HULL_POINTS: int = 128
@@ -20,9 +20,10 @@ static func problem(shape: Shape3D) -> String:
 	return "" if shape is WorldBoundaryShape3D else "a %s has no inside" % shape.get_class()
 
 
-## Returns the depth of a point of the world below the nearest surface of the area's shapes, in meters of the scene. It is
-## positive inside a shape and negative outside all shapes. Of overlapping shapes, the one in which the point is deepest is
-## used. Disabled shapes are ignored. Returns -INF if there is no usable shape.
+## Returns the depth of `point`, in world coordinates, below the surface of the area's shapes, in meters of the scene. The
+## depth is positive inside a shape. It is negative outside all shapes: minus the distance from the nearest one. Where shapes
+## overlap, the largest depth counts. With an uneven scale, and outside a convex polygon, the depth is only an estimate.
+## Disabled shapes are ignored. Returns -INF if there is no usable shape.
 func of(area: CollisionObject3D, point: Vector3) -> float:
 	var deepest: float = -INF
 	for owner: int in area.get_shape_owners():
@@ -59,7 +60,7 @@ func _depth(shape: Shape3D, point: Vector3) -> float:
 	return -INF
 
 
-# beyond: the distance of the point beyond the faces along each axis; negative inside.
+# beyond: how far the point is outside the faces along each axis; negative inside.
 static func _in_box(beyond: Vector3) -> float:
 	var most: float = maxf(beyond.x, maxf(beyond.y, beyond.z))
 	return -most if most <= 0.0 else -beyond.max(Vector3.ZERO).length()
