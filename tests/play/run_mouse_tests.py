@@ -48,6 +48,8 @@ class User:
 
     def __init__(self, godot, display, arguments, settings):
         self.window_id = None
+        self.cursor = None
+        self.keeps_distance = False  # the grip to the cursor, after keys that move it
         self.folder = tempfile.mkdtemp(prefix="spidar_mouse_")
         self.report_path = os.path.join(self.folder, "report.json")
         path = os.path.join(self.folder, SETTINGS)
@@ -83,7 +85,8 @@ class User:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True)
 
     def move(self, screen):
-        self.xdotool("mousemove", "--window", self.window(), round(screen[0]), round(screen[1]))
+        self.cursor = (round(screen[0]), round(screen[1]))
+        self.xdotool("mousemove", "--window", self.window(), *self.cursor)
 
     def window(self):
         """X's number of the demo's window, which may lie anywhere on the screen."""
@@ -137,13 +140,15 @@ class User:
             off = [there - here for there, here in zip(goal, grip["world"])]
             if max(map(abs, off)) < near_m:
                 return
+            if abs(off[0]) > near_m or abs(off[1]) > near_m:  # before keys: they keep the grip away from the cursor
+                here = self.cursor if self.keeps_distance and self.cursor else grip["screen"]
+                self.move((here[0] + PIXELS_M * off[0], here[1] - PIXELS_M * off[1]))
             clicks = round(-off[2] / WHEEL_STEP_M)
             if abs(off[2]) > near_m and not clicks:
                 self.hold_key("s" if off[2] > 0.0 else "w", abs(off[2]) / KEY_M_S)
+                self.keeps_distance = True
             elif abs(off[2]) > near_m:
                 self.xdotool("click", "--repeat", min(abs(clicks), 5), "--delay", 20, 4 if clicks > 0 else 5)
-            if abs(off[0]) > near_m or abs(off[1]) > near_m:
-                self.move((grip["screen"][0] + PIXELS_M * off[0], grip["screen"][1] - PIXELS_M * off[1]))
             self.wait_for_reports(4, report)
         raise GaveUp("the grip does not come to its place")
 

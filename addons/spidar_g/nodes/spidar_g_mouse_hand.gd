@@ -15,15 +15,17 @@ extends Node
 ## device.forces_enabled = true
 ## [/codeblock]
 ## These are the default bindings:
-## [br]- The cursor moves the grip in the view plane, at its current depth.
+## [br]- The cursor moves the grip in the view plane, at its current depth and at 1 m/s of device motion or less. At the first
+## motion, and after the wheel, the grip glides under the cursor at 0.25 m/s.
 ## [br]- The wheel moves the grip in depth, along the ground, or along the view if the camera looks straight down.
 ## [br]- The left button closes the fingers while it is held. They stop where something pushes them back by
-## [member squeeze_nm], or at their closed end.
+## [member squeeze], or at their closed end.
 ## [br]- Dragging with the right button turns the grip.
 ## [br]- Shift is the clutch: while it is held, the cursor moves and the grip stays. Afterwards the grip keeps its distance to
 ## the cursor.
-## [br]- A, D, W, S, Q and E move the grip along the axes of the device: left, right, away, near, down and up.
-## [br]- The arrow keys turn and tilt the grip, and Page Up and Page Down roll it.
+## [br]- A, D, W, S, Q and E move the grip along the axes of the device: left, right, away, near, down and up. Afterwards the
+## grip keeps its distance to the cursor.
+## [br]- The arrow keys turn and tilt the grip, and Page Up and Page Down roll it. Home turns it upright within 0.3 s.
 ## [br]Each binding is an action of the [InputMap]; its name is a property of this node, such as [code]spidar_g_grasp[/code].
 ## An action that the project does not have gets its default binding when the node begins to act, and never in the editor. An
 ## empty name switches an action off.
@@ -32,18 +34,13 @@ extends Node
 
 const _Bindings := preload("mouse_hand/bindings.gd")
 const _DepthCue := preload("mouse_hand/depth_cue.gd")
+const _Fingers := preload("mouse_hand/fingers.gd")
 const _Pointer := preload("mouse_hand/pointer.gd")
+const _Turning := preload("mouse_hand/turning.gd")
 const _Values := preload("mouse_hand/values.gd")
 
 ## The grasp angle of the open fingers, in radians.
-const OPEN_ANGLE_RAD: float = deg_to_rad(4.0)
-## Empty fingers close this much further than [member SpidarGConfig.jaw_closed_angle], in radians.
-const OVERCLOSE_RAD: float = deg_to_rad(2.0)
-## If the strings push the fingers back by more than this grasp torque, in newton meters, the fingers close up to
-## [constant PRESSING_RAD], so that a thin body can be squeezed as hard as a wide one.
-const PUSHED_NM: float = 0.008
-## The largest grasp angle of fingers that squeeze a body, in radians.
-const PRESSING_RAD: float = deg_to_rad(80.0)
+const OPEN_ANGLE_RAD: float = _Fingers.OPEN_ANGLE_RAD
 const _WITHOUT_DEVICE: String = (
 	"SpidarGMouseHand moves nothing: make it a child of a SpidarG node, or set its property spidar to one."
 )
@@ -65,45 +62,45 @@ const _WITHOUT_DEVICE: String = (
 			_detach()
 			_attach()
 ## Sets the position of the grip at the start, in meters of device motion from the center of the frame.
-@export_custom(PROPERTY_HINT_NONE, "suffix:m") var start_m: Vector3 = Vector3.ZERO:
+@export_custom(PROPERTY_HINT_NONE, "suffix:m") var start: Vector3 = Vector3.ZERO:
 	set(value):
-		start_m = _Values.finite(&"start_m", value, start_m, "m")
+		start = _Values.finite(&"start", value, start, "m")
 
 @export_group("Limits")
 ## Sets how far the grip moves from the center along each axis, in meters of device motion, from 0.01 to 0.5.
-@export_range(0.01, 0.5, 0.005, "suffix:m") var reach_m: float = 0.16:
+@export_range(0.01, 0.5, 0.005, "suffix:m") var reach: float = 0.16:
 	set(value):
-		reach_m = _Values.in_range(&"reach_m", value, reach_m, Vector2(0.01, 0.5), "m")
+		reach = _Values.in_range(&"reach", value, reach, Vector2(0.01, 0.5), "m")
 ## Sets how far the grip is turned about each axis, in radians, from 0 to PI/2. The inspector shows degrees.
-@export_range(0.0, 90.0, 1.0, "radians_as_degrees") var turn_limit_rad: float = deg_to_rad(40.0):
+@export_range(0.0, 90.0, 1.0, "radians_as_degrees") var turn_limit: float = deg_to_rad(40.0):
 	set(value):
-		turn_limit_rad = _Values.in_range(&"turn_limit_rad", value, turn_limit_rad, Vector2(0.0, 0.5 * PI), "rad")
+		turn_limit = _Values.in_range(&"turn_limit", value, turn_limit, Vector2(0.0, 0.5 * PI), "rad")
 ## Sets the grasp torque of the strings at which the fingers stop closing, in newton meters, from 0.001 to 1.
-@export_range(0.001, 1.0, 0.001, "suffix:N m") var squeeze_nm: float = 0.10:
+@export_range(0.001, 1.0, 0.001, "suffix:N m") var squeeze: float = 0.10:
 	set(value):
-		squeeze_nm = _Values.in_range(&"squeeze_nm", value, squeeze_nm, Vector2(0.001, 1.0), "N m")
+		squeeze = _Values.in_range(&"squeeze", value, squeeze, Vector2(0.001, 1.0), "N m")
 
 @export_group("Speeds")
 ## Sets how fast a key moves the grip, in meters of device motion per second, from 0 to 1.
-@export_range(0.0, 1.0, 0.01, "suffix:m/s") var key_speed_m_s: float = 0.12:
+@export_range(0.0, 1.0, 0.01, "suffix:m/s") var key_speed: float = 0.12:
 	set(value):
-		key_speed_m_s = _Values.in_range(&"key_speed_m_s", value, key_speed_m_s, Vector2(0.0, 1.0), "m/s")
+		key_speed = _Values.in_range(&"key_speed", value, key_speed, Vector2(0.0, 1.0), "m/s")
 ## Sets how fast a key turns the grip, in radians per second, from 0 to TAU. The inspector shows degrees.
-@export_range(0.0, 360.0, 1.0, "radians_as_degrees") var key_turn_rad_s: float = 0.9:
+@export_range(0.0, 360.0, 1.0, "radians_as_degrees") var key_turn_speed: float = 0.9:
 	set(value):
-		key_turn_rad_s = _Values.in_range(&"key_turn_rad_s", value, key_turn_rad_s, Vector2(0.0, TAU), "rad/s")
+		key_turn_speed = _Values.in_range(&"key_turn_speed", value, key_turn_speed, Vector2(0.0, TAU), "rad/s")
 ## Sets how far one notch of the wheel moves the grip, in meters of device motion, from 0 to 0.1.
-@export_range(0.0, 0.1, 0.001, "suffix:m") var wheel_step_m: float = 0.006:
+@export_range(0.0, 0.1, 0.001, "suffix:m") var wheel_step: float = 0.006:
 	set(value):
-		wheel_step_m = _Values.in_range(&"wheel_step_m", value, wheel_step_m, Vector2(0.0, 0.1), "m")
+		wheel_step = _Values.in_range(&"wheel_step", value, wheel_step, Vector2(0.0, 0.1), "m")
 ## Sets how far a drag by one pixel turns the grip, in radians, from 0 to 0.1.
-@export_range(0.0, 0.1, 0.001, "suffix:rad/px") var drag_turn_rad: float = 0.005:
+@export_range(0.0, 0.1, 0.001, "suffix:rad/px") var drag_turn: float = 0.005:
 	set(value):
-		drag_turn_rad = _Values.in_range(&"drag_turn_rad", value, drag_turn_rad, Vector2(0.0, 0.1), "rad")
+		drag_turn = _Values.in_range(&"drag_turn", value, drag_turn, Vector2(0.0, 0.1), "rad")
 ## Sets how fast the fingers close and open, in radians of grasp angle per second, from 0.01 to 10.
-@export_range(0.01, 10.0, 0.01, "suffix:rad/s") var close_speed_rad_s: float = 1.2:
+@export_range(0.01, 10.0, 0.01, "suffix:rad/s") var close_speed: float = 1.2:
 	set(value):
-		close_speed_rad_s = _Values.in_range(&"close_speed_rad_s", value, close_speed_rad_s, Vector2(0.01, 10.0), "rad/s")
+		close_speed = _Values.in_range(&"close_speed", value, close_speed, Vector2(0.01, 10.0), "rad/s")
 
 @export_group("Depth Cue")
 ## If [code]true[/code], a line from the grip down to the first surface and a ring on it show the depth of the hand.
@@ -154,15 +151,17 @@ const _WITHOUT_DEVICE: String = (
 @export var roll_left_action: StringName = &"spidar_g_roll_left"
 ## The action that rolls the grip to the right about z of the device. Default: Page Down.
 @export var roll_right_action: StringName = &"spidar_g_roll_right"
+## The action that turns the grip upright within 0.3 s, unless another action turns it meanwhile. Default: Home.
+@export var upright_action: StringName = &"spidar_g_upright"
 
-## The target position of the grip, in meters of device motion from the center, clamped to [member reach_m].
+## The target position of the grip, in meters of device motion from the center, clamped to [member reach].
 var position_m: Vector3 = Vector3.ZERO:
 	set(value):
-		position_m = _Values.finite(&"position_m", value, position_m, "m").clampf(-reach_m, reach_m)
-## The target orientation of the grip: pitch, yaw and roll in radians, clamped to [member turn_limit_rad].
+		position_m = _Values.finite(&"position_m", value, position_m, "m").clampf(-reach, reach)
+## The target orientation of the grip: pitch, yaw and roll in radians, clamped to [member turn_limit].
 var turn_rad: Vector3 = Vector3.ZERO:
 	set(value):
-		turn_rad = _Values.finite(&"turn_rad", value, turn_rad, "rad").clampf(-turn_limit_rad, turn_limit_rad)
+		turn_rad = _Values.finite(&"turn_rad", value, turn_rad, "rad").clampf(-turn_limit, turn_limit)
 ## The grasp angle to which the hand moves the fingers, in radians, from -PI to PI. The next physics tick moves it on, unless
 ## it is where the grasp action moves it.
 var grasp_angle_rad: float = OPEN_ANGLE_RAD:
@@ -173,17 +172,19 @@ var clutched: bool = false
 
 var _device: SpidarG = null
 var _cue: _DepthCue = null
-var _closing: bool = false
+var _fingers: _Fingers = _Fingers.new()
 var _pointer: _Pointer = _Pointer.new()
+var _turning: _Turning = _Turning.new()
 
 
-## Moves the hand to [param position], in meters of device motion, upright and open, under the cursor again.
-func recenter(position: Vector3 = start_m) -> void:
+## Moves the hand to [param position], in meters of device motion, upright and open. At the next motion of the cursor the hand
+## glides under it.
+func recenter(position: Vector3 = start) -> void:
 	position_m = position
 	turn_rad = Vector3.ZERO
 	grasp_angle_rad = OPEN_ANGLE_RAD
-	_closing = false
-	_pointer.forget_clutch()
+	_fingers.closing = false
+	_pointer.forget()
 
 
 ## Continues from [param pose] in the world and [param grasp_angle] in radians, to which a script has moved the grip. If
@@ -201,7 +202,9 @@ func follow(pose: Transform3D, grasp_angle: float, closed: bool) -> void:
 	position_m = in_device.origin / _device.workspace_scale
 	turn_rad = in_device.basis.get_euler()
 	grasp_angle_rad = grasp_angle
-	_closing = closed
+	_fingers.closing = closed
+	_turning.end_upright()
+	_pointer.forget()
 
 
 ## Returns [code]true[/code] while mouse and keys move the hand: the node is enabled and its device is the simulated one.
@@ -252,9 +255,9 @@ func _get_configuration_warnings() -> PackedStringArray:
 func _notification(what: int) -> void:
 	match what:
 		NOTIFICATION_PAUSED, NOTIFICATION_WM_WINDOW_FOCUS_OUT, NOTIFICATION_APPLICATION_FOCUS_OUT:
-			_pointer.end_turn()
+			_turning.end_by_mouse()
 		NOTIFICATION_DISABLED:
-			_pointer.end_turn()
+			_turning.end_by_mouse()
 			if _cue != null:
 				_cue.visible = false
 
@@ -276,7 +279,7 @@ func _detach() -> void:
 		_device.device_chosen.disconnect(_on_device_chosen)
 		_device.device_lost.disconnect(_on_device_lost)
 	_device = null
-	_closing = false
+	_fingers.closing = false
 	_update_acting()
 
 
@@ -300,7 +303,7 @@ func _update_acting() -> void:
 	if acts:
 		_Bindings.add_missing(self)
 	else:
-		_pointer.end_turn()
+		_turning.end_by_mouse()
 	set_physics_process(acts)
 	set_process_unhandled_input(acts)
 	_update_cue()
@@ -311,7 +314,12 @@ func _physics_process(delta: float) -> void:
 		_update_acting()
 		return
 	_move_by_keys(delta)
-	_move_fingers(delta)
+	turn_rad = _turning.step(turn_rad, delta)
+	if is_clutched():
+		_pointer.hold()
+	else:
+		position_m = _pointer.step(position_m, reach, delta)
+	grasp_angle_rad = _fingers.step(grasp_angle_rad, close_speed * delta, squeeze, _device)
 	_aim(get_target(), grasp_angle_rad)
 	if _cue != null:
 		_cue.show_below(_device, depth_cue_mask, get_viewport().get_camera_3d())
@@ -322,54 +330,47 @@ func _move_by_keys(delta: float) -> void:
 	var focus: Control = get_viewport().gui_get_focus_owner()
 	if focus is LineEdit or focus is TextEdit:
 		return
-	position_m += delta * key_speed_m_s * Vector3(
-		_Bindings.axis(move_left_action, move_right_action),
-		_Bindings.axis(move_down_action, move_up_action),
-		_Bindings.axis(move_away_action, move_near_action)
-	)
-	turn_rad += delta * key_turn_rad_s * Vector3(
-		_Bindings.axis(tilt_back_action, tilt_forward_action),
-		_Bindings.axis(turn_right_action, turn_left_action),
-		_Bindings.axis(roll_right_action, roll_left_action)
-	)
-
-
-func _move_fingers(delta: float) -> void:
-	var pushed_nm: float = -_device.get_achieved_wrench()[6]
-	var end_rad: float = _device.get_effective_config().jaw_closed_angle + OVERCLOSE_RAD
-	if not _closing:
-		grasp_angle_rad = maxf(minf(grasp_angle_rad, end_rad) - close_speed_rad_s * delta, OPEN_ANGLE_RAD)
-	elif pushed_nm < squeeze_nm:
-		end_rad = PRESSING_RAD if pushed_nm > PUSHED_NM else end_rad
-		grasp_angle_rad = minf(grasp_angle_rad + close_speed_rad_s * delta, end_rad)
+	var way: Vector3 = _Bindings.way(self)
+	var turn: Vector3 = _Bindings.turn(self)
+	position_m += delta * key_speed * way
+	turn_rad += delta * key_turn_speed * turn
+	if way != Vector3.ZERO:
+		_pointer.keep_distance()
+	if turn != Vector3.ZERO:
+		_turning.end_upright()
 
 
 func _unhandled_input(event: InputEvent) -> void:
 	if event is InputEventMouseMotion:
 		_on_motion(event as InputEventMouseMotion)
 	elif _Bindings.is_pressed(event, grasp_action):
-		_closing = true
+		_fingers.closing = true
 	elif _Bindings.is_released(event, grasp_action):
-		_closing = false
+		_fingers.closing = false
 	elif _Bindings.is_released(event, turn_action):
-		_pointer.end_turn()
+		_turning.end_by_mouse()
+	elif _Bindings.is_pressed(event, upright_action):
+		_turning.begin_upright(turn_rad)
 	elif is_clutched():
 		return
 	elif _Bindings.is_pressed(event, turn_action):
-		_pointer.begin_turn()
+		_turning.begin_by_mouse()
 	elif _Bindings.is_pressed(event, wheel_away_action):
-		_move_in_depth(wheel_step_m)
+		_move_in_depth(wheel_step)
 	elif _Bindings.is_pressed(event, wheel_near_action):
-		_move_in_depth(-wheel_step_m)
+		_move_in_depth(-wheel_step)
 
 
 func _on_motion(motion: InputEventMouseMotion) -> void:
 	var camera: Camera3D = get_viewport().get_camera_3d()
-	if _pointer.turning and not is_clutched():
-		turn_rad += drag_turn_rad * Vector3(motion.relative.y, motion.relative.x, 0.0)
-	elif camera != null and not _pointer.turning:
-		var under: Vector3 = _pointer.point(motion, camera, get_target().origin, is_clutched())
-		position_m = _frame().affine_inverse() * under / _device.workspace_scale
+	if _turning.by_mouse and not is_clutched():
+		turn_rad += drag_turn * Vector3(motion.relative.y, motion.relative.x, 0.0)
+		_turning.end_upright()
+	elif is_clutched() and not _turning.by_mouse:
+		_pointer.note_cursor(motion)
+	elif camera != null and not _turning.by_mouse:
+		var to_world: Transform3D = _frame().scaled_local(Vector3.ONE * _device.workspace_scale)
+		_pointer.follow(motion, camera, position_m, reach, to_world)
 
 
 func _move_in_depth(distance_m: float) -> void:

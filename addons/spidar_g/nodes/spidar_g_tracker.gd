@@ -48,7 +48,7 @@ enum TriggerSource {
 	## [SpidarG] has a [SpidarGHand], and otherwise as [constant GRASP].
 	AUTOMATIC,
 	## Measures how hard the fingers press the body between the pads, or the closed pads on each other:
-	## [method SpidarGHand.get_squeeze_torque] divided by [member full_squeeze_nm].
+	## [method SpidarGHand.get_squeeze_torque] divided by [member full_squeeze].
 	SQUEEZE,
 	## Measures how far the input action [member SpidarGConfig.grasp_action] is pressed.
 	ACTION,
@@ -110,12 +110,12 @@ const POSES: Array[StringName] = [&"default", &"grip", &"aim"]
 @export var trigger_source := TriggerSource.AUTOMATIC
 ## Sets the grasp torque at which the input [code]trigger[/code] is 1, in newton meters. A value that is not above 0 is
 ## refused with an error, and the old one stays.
-@export_range(0.001, 1.0, 0.001, "or_greater", "suffix:N m") var full_squeeze_nm: float = 0.05:
+@export_range(0.001, 1.0, 0.001, "or_greater", "suffix:N m") var full_squeeze: float = 0.05:
 	set(value):
 		if not (value > 0.0 and is_finite(value)):
-			push_error("SpidarGTracker.full_squeeze_nm = %s N m: give a finite number above 0; the old one stays." % value)
+			push_error("SpidarGTracker.full_squeeze = %s N m: give a finite number above 0; the old one stays." % value)
 			return
-		full_squeeze_nm = value
+		full_squeeze = value
 ## Sets the value of [code]grip[/code] or [code]trigger[/code] from which on [code]grip_click[/code] or
 ## [code]trigger_click[/code] is pressed. A value outside 0 to 1 is refused with an error, and the old one stays.
 @export_range(0.0, 1.0, 0.01) var click_at: float = 0.7:
@@ -352,7 +352,7 @@ func _set_inputs() -> void:
 	if not is_instance_valid(_hand) or _hand.get_parent() != spidar:
 		_hand = _Finder.find_hand(spidar)
 	_Inputs.set_with_click(_tracker, "grip", _Inputs.closed_part(spidar), click_at, release_below)
-	var trigger: float = _Inputs.trigger(trigger_source, spidar, _hand, full_squeeze_nm)
+	var trigger: float = _Inputs.trigger(trigger_source, spidar, _hand, full_squeeze)
 	_Inputs.set_with_click(_tracker, "trigger", trigger, click_at, release_below)
 
 

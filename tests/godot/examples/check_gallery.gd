@@ -94,7 +94,7 @@ func _check_shown(name: String) -> void:
 	_play.press(_play.mouse.move_up_action, true)
 	await _play.ticks(30)
 	_play.press(_play.mouse.move_up_action, false)
-	_play.check(_play.mouse.position_m.y > _play.mouse.start_m.y + 0.03, "keys move the hand in %s" % name)
+	_play.check(_play.mouse.position_m.y > _play.mouse.start.y + 0.03, "keys move the hand in %s" % name)
 	await _press_key(KEY_ESCAPE)
 	_play.check(menu.visible and root.get_camera_3d() == null, "Esc leaves %s" % name)
 	_play.check_equal(str(root.gui_get_focus_owner().name), name, "the focus is where it was")

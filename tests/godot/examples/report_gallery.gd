@@ -117,8 +117,8 @@ func _device(device: SpidarG) -> Dictionary:
 	for child: Node in device.get_children():
 		if child is SpidarGMouseHand:
 			told["wanted"] = _numbers((child as SpidarGMouseHand).get_target().origin)
-			told["wheel_step"] = (child as SpidarGMouseHand).wheel_step_m
-			told["key_speed"] = (child as SpidarGMouseHand).key_speed_m_s
+			told["wheel_step"] = (child as SpidarGMouseHand).wheel_step
+			told["key_speed"] = (child as SpidarGMouseHand).key_speed
 			told["turn"] = _numbers((child as SpidarGMouseHand).turn_rad)
 		elif child is SpidarGHand:
 			told["held"] = _name_of((child as SpidarGHand).get_held_body())

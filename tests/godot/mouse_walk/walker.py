@@ -12,8 +12,10 @@ WINDOW = "spidar_g examples"
 START_LIMIT_S = 60
 STEP_LIMIT_S = 15
 NEAR_M = 0.004  # of the device; more than half a notch of the wheel
+GLIDE_REPORTS = 30
 CURSOR_STEP_PX = 12
 CURSOR_STEP_S = 0.016
+MOVING_KEYS = ("a", "d", "q", "e", "w", "s")
 LEFT, RIGHT, WHEEL_UP, WHEEL_DOWN = 1, 3, 4, 5
 
 
@@ -44,7 +46,8 @@ class Walker:
         self.window = None
         self.actions = {"moves": 0, "buttons": 0, "wheel": 0, "keys": 0}
         self.state = None
-        self.clutch_used = False
+        self.mouse_taken = False  # in this example
+        self.keeps_distance = False  # the grip to the cursor: after the clutch, and after keys that move it
         self.history = []  # the states since it was emptied last
         self.changed = threading.Condition()
         self.game = subprocess.Popen(
@@ -89,6 +92,15 @@ class Walker:
                 if self.state["tick"] > first:
                     first, seen = self.state["tick"], seen + 1
             return self.state
+
+    def next_state_at_rest(self):
+        """The first state in which the grip is wanted where it was a report before: it does not glide to the cursor."""
+        for _ in range(GLIDE_REPORTS):
+            before = self.device()["wanted"]
+            state = self.next_state()
+            if math.dist(before, self.device(state)["wanted"]) < 1e-5:
+                return state
+        raise GaveUp("the grip glides and glides")
 
     def wait(self, what, condition, limit_s=STEP_LIMIT_S):
         """The first state for which the condition holds."""
@@ -154,6 +166,7 @@ class Walker:
         """Holds the key down so long."""
         self.xdotool("keydown", name, "sleep", round(time_s, 3), "keyup", name)
         self.actions["keys"] += 1
+        self.keeps_distance = self.keeps_distance or name in MOVING_KEYS
 
     def close_fingers(self, on=""):
         """Left button down; until the body of this name is held."""
@@ -173,13 +186,16 @@ class Walker:
         """The place where the hand wants the grip to be, to a point: depth by the wheel and the rest by the cursor; what a
         notch of the wheel leaves of the depth, by the keys W and S. Without `near` that is left as it is."""
         near = near or NEAR_M * self.device()["scale"]
+        if not self.mouse_taken:  # before keys: they would keep the grip away from the cursor
+            self.move_cursor(self.on_screen(self.state, goal), px_a_step)
+            self.mouse_taken = True
         for _ in range(6):
-            state = self.next_state()
+            state = self.next_state_at_rest()
             off = minus(goal, self.device(state)["wanted"])
             if math.hypot(*off) < near:
                 return
             self._bring_nearer(state, goal, off, near, px_a_step)
-        off = minus(goal, self.device(self.next_state(2))["wanted"])
+        off = minus(goal, self.device(self.next_state_at_rest())["wanted"])
         if math.hypot(*off) > 2.0 * near:
             raise GaveUp(f"the mouse does not bring the grip to {goal}: off by {off}")
 
@@ -200,7 +216,7 @@ class Walker:
         off = minus(goal, self.device(state)["wanted"])
         if max(abs(dot(off, right)), abs(dot(off, up))) > 0.0005:
             to = self.on_screen(state, goal)
-            if self.clutch_used:  # the grip keeps its distance to the cursor
+            if self.keeps_distance:
                 to = plus(self.cursor, minus(to, self.on_screen(state, self.device(state)["wanted"])))
             self.move_cursor(to, px_a_step)
 
@@ -208,7 +224,7 @@ class Walker:
         """A key press for the longest part of a way in the device's axes."""
         parts = [dot(way, axis) for axis in device["axes"]]
         axis = max(range(3), key=lambda number: abs(parts[number]))
-        name = ("ad", "qe", "ws")[axis][parts[axis] > 0.0]
+        name = MOVING_KEYS[2 * axis + (parts[axis] > 0.0)]
         self.key(name, abs(parts[axis]) / (device["key_speed"] * device["scale"]))
 
     @staticmethod
@@ -253,7 +269,7 @@ class Walker:
         state = self.wait("the gallery", lambda now: name in now["buttons"])
         self.click(state["buttons"][name])
         self.actions = {kind: 0 for kind in self.actions}
-        self.clutch_used = False
+        self.keeps_distance = self.mouse_taken = False
         return self.wait(f"{name} with forces", lambda now: now["example"] == name and now["devices"]
                          and all(device["active"] for device in now["devices"].values()))
 

@@ -5,7 +5,6 @@ from walker import GaveUp, minus, plus
 
 FELT_N = 0.5  # that a push counts as felt
 GRAVITY_M_S2 = 9.8
-KEY_RAD_S = 0.9  # SpidarGMouseHand's own
 
 
 def at(x, y, z):
@@ -281,6 +280,7 @@ def tracker(walker, check):
 
 def mouse_hand(walker, check):
     """Every line of the board is tried; the block is put on the step"""
+    walker.bring(plus(walker.device()["wanted"], at(0.0, 0.02, 0.0)))
     for key, axis, sign in (("a", 0, -1), ("d", 0, 1), ("q", 1, -1), ("e", 1, 1), ("w", 2, -1), ("s", 2, 1)):
         way = changed(walker, "wanted", lambda key=key: walker.key(key, 0.2))
         check(sign * way[axis] > 0.005, f"key {key} moves by {[round(1e3 * part) for part in way]} mm")
@@ -296,7 +296,9 @@ def mouse_hand(walker, check):
     way = changed(walker, "wanted", lambda: with_shift(walker, 60))
     check(max(map(abs, way)) < 0.002, "Shift holds it")
     with_shift(walker, -60)
+    walker.key("Left", 0.2)
     turn_upright(walker)
+    check(True, "Home turns it upright")
     lift(walker, check, "Block", 0.1)
     walker.bring(on(walker, "Step", y=0.09))
     walker.bring(on(walker, "Step", y=0.045), 0.006)
@@ -321,12 +323,8 @@ def drag(walker, px):
 
 
 def turn_upright(walker):
-    """No key does it at once: what the other keys left of a turn is turned back by them."""
-    for _ in range(4):
-        turn = walker.device(walker.next_state(2))["turn"]
-        for part, keys in zip(turn, (("Up", "Down"), ("Right", "Left"), ("Next", "Prior"))):
-            if abs(part) > 0.04:
-                walker.key(keys[part < 0.0], abs(part) / KEY_RAD_S)
+    walker.key("Home")
+    walker.wait("an upright grip", lambda state: not any(walker.device(state)["turn"]))
 
 
 def with_shift(walker, px):
@@ -336,7 +334,7 @@ def with_shift(walker, px):
     walker.move_cursor(plus(walker.cursor, [px, 0]))
     walker.next_state()
     walker.xdotool("keyup", "shift")
-    walker.clutch_used = True
+    walker.keeps_distance = True
 
 
 WALKS = (

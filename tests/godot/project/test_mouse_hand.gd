@@ -55,8 +55,8 @@ func test_dragging_with_the_right_button_turns_and_does_not_move() -> void:
 	check_grip_at(Vector3.ZERO, "it does not move")
 	move_cursor(Vector2(300.0, 200.0), Vector2(0.0, 4000.0))
 	await settle()
-	check_near(mouse.turn_rad.x, mouse.turn_limit_rad, 1e-5, "the hand's pitch is at its limit")
-	check_near(grip().basis.get_euler().x, mouse.turn_limit_rad, 0.05, "and so is the grip's, but for the strings' pull")
+	check_near(mouse.turn_rad.x, mouse.turn_limit, 1e-5, "the hand's pitch is at its limit")
+	check_near(grip().basis.get_euler().x, mouse.turn_limit, 0.05, "and so is the grip's, but for the strings' pull")
 	button(MOUSE_BUTTON_RIGHT, false)
 	point_at(Vector3(0.03, 0.0, 0.0))
 	await settle()
@@ -74,7 +74,7 @@ func test_the_left_button_closes_while_it_is_held() -> void:
 
 
 func test_closing_stops_when_the_fingers_are_pushed_back() -> void:
-	await set_up_mouse(func(node: SpidarGMouseHand) -> void: node.squeeze_nm = 0.025)
+	await set_up_mouse(func(node: SpidarGMouseHand) -> void: node.squeeze = 0.025)
 	var body: RigidBody3D = add_free_box(Vector3(0.04, 0.05, 0.04), 0.1)
 	await physics_frames(10)
 	point_at(body.global_position)
@@ -83,7 +83,7 @@ func test_closing_stops_when_the_fingers_are_pushed_back() -> void:
 	await settle()
 	check_equal(hand.get_held_body(), body, "held")
 	var squeeze: float = -device.get_achieved_wrench()[6]
-	check_near(squeeze, mouse.squeeze_nm, 0.004, "squeezed as hard as squeeze_nm, N m")
+	check_near(squeeze, mouse.squeeze, 0.004, "squeezed as hard as squeeze, N m")
 	var end: float = device.get_effective_config().jaw_closed_angle
 	check(mouse.grasp_angle_rad < end - 0.1, "and not closed to the end: %f rad of %f" % [mouse.grasp_angle_rad, end])
 	var height: float = body.global_position.y
@@ -108,7 +108,7 @@ func test_a_narrow_body_is_pressed_hard_too() -> void:
 		var squeeze: float = -device.get_achieved_wrench()[6]
 		print("INFO %.0f mm wide: squeezed with %.3f N m" % [1e3 * width, squeeze])
 		check_equal(hand.get_held_body(), body, "%.0f mm wide: held" % (1e3 * width))
-		check(squeeze > 0.045 and squeeze < mouse.squeeze_nm + 0.01, "%.0f mm: %.3f N m" % [1e3 * width, squeeze])
+		check(squeeze > 0.045 and squeeze < mouse.squeeze + 0.01, "%.0f mm: %.3f N m" % [1e3 * width, squeeze])
 		button(MOUSE_BUTTON_LEFT, false)
 		device.free()
 		body.free()
@@ -179,16 +179,16 @@ func test_the_clutch_holds_the_grip_and_keeps_its_distance_to_the_cursor() -> vo
 
 func test_the_grip_is_kept_within_reach() -> void:
 	await set_up_mouse()
-	mouse.reach_m = 0.05
+	mouse.reach = 0.05
 	point_at(Vector3(0.3, 0.0, 0.0))
 	await settle()
 	check_grip_at(Vector3(0.05, 0.0, 0.0), "at the limit")
 
 
 func test_follow_goes_on_from_a_pose_and_recenter_goes_to_the_start() -> void:
-	await set_up_mouse(func(node: SpidarGMouseHand) -> void: node.start_m = Vector3(0.02, 0.03, 0.0))
+	await set_up_mouse(func(node: SpidarGMouseHand) -> void: node.start = Vector3(0.02, 0.03, 0.0))
 	await settle()
-	check_grip_at(Vector3(0.02, 0.03, 0.0), "it begins at start_m")
+	check_grip_at(Vector3(0.02, 0.03, 0.0), "it begins at start")
 	mouse.follow(Transform3D(Basis(Vector3.UP, 0.3), Vector3(-0.03, 0.0, 0.02)), deg_to_rad(30.0), true)
 	await settle()
 	check_grip_at(Vector3(-0.03, 0.0, 0.02), "the pose of follow()")

@@ -1,7 +1,7 @@
 ## SpidarGMouseHand: when it acts, what it leaves behind, what it does with bad values, and what shows the depth.
 extends "res://mouse_hand_scene.gd"
 
-const Pointer := preload("res://addons/spidar_g/nodes/mouse_hand/pointer.gd")
+const Turning := preload("res://addons/spidar_g/nodes/mouse_hand/turning.gd")
 
 
 func test_it_adds_the_actions_that_the_project_lacks_and_no_others() -> void:
@@ -62,7 +62,7 @@ func test_disabled_it_does_nothing_and_then_goes_on_from_the_grip() -> void:
 	mouse.enabled = false
 	check(not mouse.is_acting() and not mouse.is_physics_processing(), "does not run")
 	check(not mouse.is_processing_unhandled_input(), "hears nothing")
-	check(not mouse._pointer.turning, "lets the cursor go")
+	check(not mouse._turning.by_mouse, "lets the cursor go")
 	await frames(2)
 	check(cue() == null, "draws nothing")
 	point_at(Vector3(0.05, 0.0, 0.0))
@@ -130,8 +130,8 @@ func test_the_cursor_is_let_go_when_the_node_rests() -> void:
 		await set_up_mouse()
 		button(MOUSE_BUTTON_RIGHT, true)
 		# A headless Godot captures no cursor; tests/play/run_mouse_tests.py has one that does.
-		var pointer: Pointer = mouse._pointer
-		check(pointer.turning, "%s: the mouse turns the grip" % way)
+		var turning: Turning = mouse._turning
+		check(turning.by_mouse, "%s: the mouse turns the grip" % way)
 		match way:
 			"leaves the tree":
 				device.remove_child(mouse)
@@ -144,7 +144,7 @@ func test_the_cursor_is_let_go_when_the_node_rests() -> void:
 				tree.root.propagate_notification(Node.NOTIFICATION_WM_WINDOW_FOCUS_OUT)
 		await frames(1)
 		tree.paused = false
-		check(not pointer.turning, "%s: no more" % way)
+		check(not turning.by_mouse, "%s: no more" % way)
 		device.free()
 		await frames(1)
 
@@ -152,10 +152,10 @@ func test_the_cursor_is_let_go_when_the_node_rests() -> void:
 func test_bad_values_are_refused_and_change_nothing() -> void:
 	await set_up_mouse()
 	var ranges: Dictionary[StringName, Array] = {
-		&"reach_m": [NAN, -1.0, 0.0, 10.0], &"turn_limit_rad": [NAN, -0.1, 3.0], &"squeeze_nm": [NAN, 0.0, INF],
-		&"key_speed_m_s": [NAN, -1.0, 5.0], &"key_turn_rad_s": [NAN, -1.0, 10.0], &"wheel_step_m": [NAN, -0.1, 1.0],
-		&"drag_turn_rad": [NAN, -0.1, 1.0], &"close_speed_rad_s": [NAN, 0.0, 100.0], &"grasp_angle_rad": [NAN, 4.0],
-		&"start_m": [Vector3(NAN, 0.0, 0.0)], &"position_m": [Vector3(0.0, INF, 0.0)], &"turn_rad": [Vector3(0.0, 0.0, NAN)],
+		&"reach": [NAN, -1.0, 0.0, 10.0], &"turn_limit": [NAN, -0.1, 3.0], &"squeeze": [NAN, 0.0, INF],
+		&"key_speed": [NAN, -1.0, 5.0], &"key_turn_speed": [NAN, -1.0, 10.0], &"wheel_step": [NAN, -0.1, 1.0],
+		&"drag_turn": [NAN, -0.1, 1.0], &"close_speed": [NAN, 0.0, 100.0], &"grasp_angle_rad": [NAN, 4.0],
+		&"start": [Vector3(NAN, 0.0, 0.0)], &"position_m": [Vector3(0.0, INF, 0.0)], &"turn_rad": [Vector3(0.0, 0.0, NAN)],
 	}
 	for field: StringName in ranges:
 		var before: Variant = mouse.get(field)

@@ -132,8 +132,8 @@ func test_squeezing_is_the_input_trigger() -> void:
 	var squeeze: float = (device.get_child(-1) as SpidarGHand).get_squeeze_torque()
 	print("INFO squeeze of the closed pads: %.4f N m, trigger %.3f" % [squeeze, controller.get_float("trigger")])
 	check(squeeze > 0.02, "squeezed: %f N m" % squeeze)
-	check_near(controller.get_float("trigger"), minf(1.0, squeeze / tracker.full_squeeze_nm), 0.01, "as a part of the full squeeze")
-	tracker.full_squeeze_nm = squeeze
+	check_near(controller.get_float("trigger"), minf(1.0, squeeze / tracker.full_squeeze), 0.01, "as a part of the full squeeze")
+	tracker.full_squeeze = squeeze
 	await physics_frames(5)
 	check(controller.is_button_pressed("trigger_click"), "and clicks")
 	await _grasp_slowly(SQUEEZE_ANGLE, 0.0)
@@ -273,9 +273,9 @@ func test_bad_values_are_refused_and_a_missing_device_is_named() -> void:
 	check(tracker._get_configuration_warnings()[0].contains("spidar_path"), "the remedy")
 	check(not tracker.is_physics_processing() and not tracker.is_processing(), "costs nothing")
 	check(not tracker.calibrate_place(Transform3D.IDENTITY), "nothing to calibrate")
-	tracker.full_squeeze_nm = NAN
-	tracker.full_squeeze_nm = 0.0
-	check_near(tracker.full_squeeze_nm, 0.05, 1e-9, "full_squeeze_nm stays")
+	tracker.full_squeeze = NAN
+	tracker.full_squeeze = 0.0
+	check_near(tracker.full_squeeze, 0.05, 1e-9, "full_squeeze stays")
 	tracker.click_at = 2.0
 	tracker.release_below = NAN
 	check_near(tracker.click_at, 0.7, 1e-9, "click_at stays")

@@ -28,6 +28,7 @@ const KEYS: Dictionary[StringName, Key] = {
 	&"tilt_forward_action": KEY_DOWN,
 	&"roll_left_action": KEY_PAGEUP,
 	&"roll_right_action": KEY_PAGEDOWN,
+	&"upright_action": KEY_HOME,
 }
 
 
@@ -56,8 +57,26 @@ static func _add(property: StringName, action: StringName, event: InputEvent) ->
 		) % [property, action, event.as_text(), property])
 
 
-static func axis(negative: StringName, positive: StringName) -> float:
-	return strength(positive) - strength(negative)
+## Returns the way along the axes of the device on which the pressed keys move the grip of `node`, each part from -1 to 1.
+static func way(node: Node) -> Vector3:
+	return Vector3(
+		_axis(node, &"move_left_action", &"move_right_action"),
+		_axis(node, &"move_down_action", &"move_up_action"),
+		_axis(node, &"move_away_action", &"move_near_action")
+	)
+
+
+## Returns the turn about the axes of the device by which the pressed keys turn the grip of `node`, each part from -1 to 1.
+static func turn(node: Node) -> Vector3:
+	return Vector3(
+		_axis(node, &"tilt_back_action", &"tilt_forward_action"),
+		_axis(node, &"turn_right_action", &"turn_left_action"),
+		_axis(node, &"roll_right_action", &"roll_left_action")
+	)
+
+
+static func _axis(node: Node, negative: StringName, positive: StringName) -> float:
+	return strength(node.get(positive) as StringName) - strength(node.get(negative) as StringName)
 
 
 static func strength(action: StringName) -> float:
