@@ -44,30 +44,31 @@ For users who look up one setting, and for engineers who need a default. After r
 
 This page is written by a script from the library and the class help: `python3 tools/docs/settings_page.py $GODOT`, where `$GODOT` is the path of a Godot 4.4 or later. The same command with `--check` tells whether the page is current.
 
-* A property name carries no unit. The inspector shows the unit behind the value. The tables have it in the column of the range.
+* The inspector shows the unit behind the value, and the tables show it in the column of the range. The name of a property carries no unit, except for the frequencies of `SpidarGConfig` (`_hz`).
 * An angle is in radians in a script and in degrees in the inspector.
-* A length of the device is in meters of the device, not of the scene: `SpidarG.workspace_scale` does not act on it.
-* An array with one value for each string has eight values, for the strings 0 to 7, or none.
+* "or more" and "or less" after a range mean that the slider of the inspector ends there, but that values beyond it can be typed. The class help and the message of a refused value say which values are accepted.
+* Lengths and stiffnesses are those of the device, not of the scene: `SpidarG.workspace_scale` does not act on them.
+* An array with one value for each string is empty or has eight values, for the strings 0 to 7.
 """
 
 CONFIG = """
 ## SpidarGConfig
 
-The resource in `SpidarG.config`. A script may set a larger range than the inspector offers. `SpidarGConfig.get_problem()` returns one sentence with field, value, unit and remedy when a value makes no sense; a device does not open with such a config, and an open device keeps its last good settings.
+The resource in `SpidarG.config`. If a value is out of range or contradicts another one, `SpidarGConfig.get_problem()` returns a sentence with field, value, unit and remedy. A device does not open with such a config, and an open device keeps its last good settings.
 
-"Live" means that an open device takes the change over at once. "Reopens" means that the device is closed and opened anew: a held body is dropped, and a real device must be armed again.
+"Live" means that an open device uses the new value without being closed. "Reopens" means that the device is closed and opened anew: a held body is dropped, and a real device must be armed again.
 """
 
 HAND = """
 ## SpidarGHand
 
-The tool node below a `SpidarG`. Every property may change while the device is open; the next physics tick uses the new value. The inspector offers less than a script may set; a value outside the script's range is refused with a message.
+The node below a `SpidarG` that touches and grasps bodies. Each of these properties may change while the device is open; the next physics tick uses the new value. A value outside the accepted range is refused with a message, whether it comes from the inspector or from a script.
 """
 
 PROJECT = """
 ## Project settings
 
-*Project > Project Settings > General > Spidar G*. These settings hold for every `SpidarG` of the project. A `SpidarG` and a `SpidarGHand` read them when they enter the scene tree, and a `SpidarG` also when it opens its device.
+*Project > Project Settings > General > Spidar G*. These settings hold for every `SpidarG` of the project. A `SpidarG` and a `SpidarGHand` read them when they enter the scene tree. A `SpidarG` also reads them when it opens its device.
 """
 
 
@@ -122,18 +123,17 @@ def with_unit(text, unit):
 
 
 def split_range(hint_string):
-    """low, high, unit, whether the value is shown in degrees, whether more is allowed."""
+    """low, high, unit, whether the value is shown in degrees, and the words for values beyond that can be typed."""
     low, high, *options = hint_string.split(",")
     unit = next((option[len("suffix:"):] for option in options if option.startswith("suffix:")), "")
-    return float(low), float(high), unit, "radians_as_degrees" in options, "or_greater" in options
+    beyond = (" or less" if "or_less" in options else "") + (" or more" if "or_greater" in options else "")
+    return float(low), float(high), unit, "radians_as_degrees" in options, beyond
 
 
 def shown_range(entry):
     if entry["hint"] == HINT_RANGE:
-        low, high, unit, degrees, greater = split_range(entry["hint_string"])
-        if degrees:
-            return f"{number(low)} to {number(high)} degrees"
-        return with_unit(f"{number(low)} to {number(high)}", unit) + (" or more" if greater else "")
+        low, high, unit, degrees, beyond = split_range(entry["hint_string"])
+        return with_unit(f"{number(low)} to {number(high)}", "degrees" if degrees else unit) + beyond
     if entry["hint"] == HINT_ENUM and entry["type"] == "int":
         choices = [choice.split(":")[0] for choice in entry["hint_string"].split(",")]
         return ", ".join(choices)
@@ -203,7 +203,7 @@ def hand_tables(entries):
         rows = [(f"`{entry['name']}`", told[entry["name"]], shown_range(entry), script.get(entry["name"], "the same"),
                  shown_default(entry)) for entry in members]
         yield f"\n### {title} of the hand\n" + \
-            table(("property", "meaning", "range in the inspector, and unit", "range in a script", "default"), rows)
+            table(("property", "meaning", "range in the inspector, and unit", "accepted range", "default"), rows)
 
 
 def project_table(entries):
@@ -232,8 +232,8 @@ def main():
     with open(PAGE, encoding="utf-8") as file:
         current = file.read() == text
     if not current:
-            print("docs/reference/settings.md is stale: run python3 tools/docs/settings_page.py GODOT")
-        print("1 passed, 0 failed" if current else "0 passed, 1 failed")
+        print("docs/reference/settings.md is stale: run python3 tools/docs/settings_page.py GODOT")
+    print("1 passed, 0 failed" if current else "0 passed, 1 failed")
     return 0 if current else 1
 
 
