@@ -18,7 +18,7 @@ def main():
     body = header[header.index("kHidReportDescriptor") : header.index("};")]
     code = [int(byte, 16) for byte in re.findall(r"0x([0-9A-F]{2}),", re.sub(r"//.*", "", body))]
     page = read("docs/reference/hid_protocol.md")
-    blocks = re.findall(r"```\n((?:[0-9A-F]{2}\s+)+)```", page)
+    blocks = re.findall(r"```(?:text)?\n((?:[0-9A-F]{2}\s+)+)```", page)
     shown = [int(byte, 16) for byte in blocks[0].split()] if len(blocks) == 1 else []
     same = bool(code) and code == shown
     if not same:

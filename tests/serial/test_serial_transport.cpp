@@ -159,7 +159,8 @@ TEST_CASE("serial transport: what keeps a port from being opened is told with it
         BoardBus bus(bus_of({{0, kB3mInfo, 0}}), link_of_this_test());
         SerialTransport transport(settings_for(bus.link()));
         CHECK(transport.open() == Status::protocol_mismatch);
-        CHECK(transport.problem().find("String 5") != std::string::npos);
+        CHECK(transport.problem().find("have 4 motors, and a SPIDAR-G needs 8") !=
+              std::string::npos);
     }
     SUBCASE("a table that does not fit") {
         BoardBus bus(one_b5m(), link_of_this_test());

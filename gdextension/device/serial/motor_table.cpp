@@ -19,6 +19,15 @@ SerialMotorTable motors_in_order(std::span<const BoardLayout> boards,
 }
 
 std::string validate(const SerialMotorTable &motors, std::span<const BoardLayout> boards) {
+    std::size_t count = 0;
+    for (const BoardLayout &board : boards) {
+        count += board.motors();
+    }
+    if (count < motors.size()) {
+        return "The boards on the bus have " + std::to_string(count) +
+               " motors, and a SPIDAR-G needs " + std::to_string(motors.size()) +
+               "; connect another board, or its cable.";
+    }
     for (std::size_t i = 0; i < motors.size(); ++i) {
         const SerialMotor &one = motors[i];
         const std::string name = "String " + std::to_string(i + 1) + ": board " +

@@ -27,7 +27,7 @@ TEST_CASE("serial motors: in order, they go through the boards") {
     CHECK(places[3] == 0);
     CHECK(places[7] == 1);
     const BoardLayout one[] = {kFirst};
-    CHECK(validate(motors_in_order(one, {}), one).find("String 5") == 0);
+    CHECK(validate(motors_in_order(one, {}), one).find("The boards on the bus have 4 motors") == 0);
 }
 
 TEST_CASE("serial motors: a table that cannot be is told") {
