@@ -95,7 +95,8 @@ TEST_CASE("serial loop: cable pulled while it pulls, and plugged in again") {
     MESSAGE("CLOSED " << closed_ms << " ms after the cable was pulled");
     CHECK(closed);
     CHECK(closed_ms <= 5.0);
-    CHECK(bus.seen().strongest > 0); // the boards hold their current: docs/reference/serial_boards.md
+    CHECK(bus.seen().strongest >
+          0); // the boards hold their current: docs/reference/serial_boards.md
 
     REQUIRE(bus.plug());
     const std::int64_t plugged_ns = monotonic_ns();

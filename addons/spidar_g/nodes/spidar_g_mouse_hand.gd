@@ -188,8 +188,8 @@ func recenter(position: Vector3 = start) -> void:
 
 
 ## Continues from [param pose] in the world and [param grasp_angle] in radians, to which a script has moved the grip. If
-## [param closed] is [code]true[/code], the fingers stay closed until the grasp action is pressed and released. Requires a
-## device.
+## [param closed] is [code]true[/code], the fingers close on from this angle until something stops them, and open after the
+## grasp action is pressed and released. Otherwise they open. Requires a device.
 func follow(pose: Transform3D, grasp_angle: float, closed: bool) -> void:
 	if not _has_device():
 		push_error("SpidarGMouseHand.follow: there is no device. " + _WITHOUT_DEVICE)

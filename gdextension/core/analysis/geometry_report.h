@@ -41,11 +41,11 @@ struct GeometryReport {
     // each axis, with the grip open.
     double closure_share = 0.0;
     int poses = 0;
-    // Largest force that the strings can give at rest along each of +-x, +-y and +-z, within the
-    // tension limits.
+    // Largest force that the strings can give at the rest pose in every one of the directions +-x,
+    // +-y and +-z, within the tension limits: the smallest of the six capacities.
     double force_capacity_n = 0.0;
-    // Largest moment that the strings can give at rest about each axis in both senses, within the
-    // tension limits.
+    // Largest moment that the strings can give at the rest pose about every axis in both senses,
+    // within the tension limits: the smallest of the six capacities.
     double moment_capacity_nm = 0.0;
     // One plain sentence per problem; empty when no problem was found.
     std::vector<std::string> complaints;

@@ -35,11 +35,11 @@ inline constexpr int kRivalPeriod = 8;
 // kRivalPeriod for grips without a closed form or with the general steps, where a search costs
 // more. It then runs only while the residual exceeds kWarmResidualGate_m.
 inline constexpr int kSlowRivalPeriod = 14;
-// kRivalLooks for the same grips as kSlowRivalPeriod.
-inline constexpr int kSlowRivalLooks = 5;
 // Number of searches in a row, from the closed form, that must prefer a rival before it is taken:
 // 56 ms at 1 kHz.
 inline constexpr int kRivalLooks = 7;
+// Like kRivalLooks, for grips without a closed form or with the general steps: 70 ms at 1 kHz.
+inline constexpr int kSlowRivalLooks = 5;
 // Largest change of pose per tick that counts as standing still: 0.01 encoder counts per second.
 inline constexpr double kStill_m = 2.5e-10;
 // A warm tick ends when the error that it leaves is below this share of the residual. Errors add by

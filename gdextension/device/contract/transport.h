@@ -17,8 +17,9 @@ struct DeviceReading {
     std::uint64_t device_time_us = 0; // clock of the device; 0 when it has none
     std::uint16_t sequence = 0;
     std::uint8_t buttons = 0;
-    // False: the counts have no reference yet. A real device is in this state before it is zeroed,
-    // and after it was plugged in again.
+    // False: the device has no reference for its counts. A USB device reports this before it is
+    // zeroed and after it was plugged in again; serial boards always do, and the servo step keeps
+    // their zero.
     bool zeroed = true;
     // Number of valid reports that arrived since the last reading, before this one, and were not
     // read. They do not count as lost.

@@ -117,8 +117,8 @@ public:
     // whose bit is cleared is tied on again, taut.
     void set_broken_strings(std::uint8_t mask) noexcept;
 
-    // Runs dt_s in whole steps of 1 / kPlantRate_hz and carries the remainder. Ignores a time that
-    // is not finite or not positive.
+    // Runs dt_s, at most kMaxAdvance_s, in whole steps of 1 / kPlantRate_hz and carries the
+    // remainder. Ignores a time that is not finite or not positive.
     void advance(double dt_s) noexcept;
 
     [[nodiscard]] CountArray counts() const noexcept;

@@ -22,7 +22,7 @@ func forget() -> void:
 	_angular_seen = Vector3.ZERO
 
 
-## Takes the newest pose of the frame, which must be orthonormal. It is `tick_s` seconds newer than the last one.
+## Takes the newest pose of the frame of reference, which must be orthonormal. It is `tick_s` seconds newer than the last one.
 func note(place: Transform3D, tick_s: float) -> void:
 	if _is_known and tick_s > 0.0:
 		var moved: Vector3 = (place.origin - _place.origin) / tick_s

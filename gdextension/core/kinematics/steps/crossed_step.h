@@ -121,7 +121,8 @@ using LaneMatrix = std::array<Lanes, 6>;
             m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
 
-// Residuals times directions, added over both ends and subtracted.
+// Residuals times directions, summed over the strings of each pole end: the sum over both ends of a
+// pole (for P0), and the + end minus the - end (for r).
 struct Gradients {
     LaneVec sum;
     LaneVec difference;
