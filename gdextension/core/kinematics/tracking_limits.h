@@ -42,7 +42,9 @@ inline constexpr double kThirdStep_m = 2e-5;
 inline constexpr double kForgetStep_m = 0.05;
 // Smallest scaled pivot of an accepted pose: below it the lengths do not determine some direction.
 inline constexpr double kRankDeficientPivot = 1e-12;
-// A warm tick ends when its error is below this plus kTrackingShare of the residual.
+// Error that a warm tick may leave without another step. The fast steps add kTrackingShare of the
+// residual to it. The general steps use only that share for lengths with errors, and only this
+// value for other lengths.
 inline constexpr double kTrackingFloor_m = 1e-12;
 // A higher order of extrapolation is used if its squared error in the last tick was below this
 // share of that of the next lower order.

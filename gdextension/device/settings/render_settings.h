@@ -52,7 +52,7 @@ struct GainCaps {
     double damping_n_s_m = 0.0;
     double turn_damping_nm_s_rad = 0.0;
     double grasp_damping_nm_s_rad = 0.0;
-    // True if latency and rate limit stiffness_n_m below the settings' cap.
+    // True if stiffness_n_m is below the settings' cap because of the latency and the servo rate.
     bool from_latency = false;
 };
 [[nodiscard]] GainCaps gain_caps(const RenderSettings &settings, double rate_hz) noexcept;

@@ -6,8 +6,9 @@ const RENEWED_FOR_S: float = 0.05
 ## The minimum duration of each refresh, in physics ticks. It is longer than the duration above if there are fewer
 ## than 50 ticks per second.
 const RENEWED_FOR_TICKS: float = 2.5
-## The time in which the servo loop moves to a new amplitude, in seconds. Each step requests the amplitude that the clip has
-## at the end of this time, or one physics tick later if that is longer.
+## The time in which the servo loop moves to a new amplitude, in seconds. Each step looks ahead by this
+## time, or by one physics tick if a tick is longer. It requests the amplitude that the clip has then, or the peak if the clip
+## has one in between.
 const CROSS_FADE_S: float = 0.016
 
 var spidar: SpidarG

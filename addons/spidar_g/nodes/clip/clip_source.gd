@@ -23,7 +23,7 @@ static func find(player: Node, path: NodePath) -> RefCounted:
 	return source
 
 
-## Returns why `event` does not come from this source, with a remedy. Returns an empty string if it does.
+## Returns why this source cannot give the event `event`, with a remedy. Returns an empty string if it can.
 func problem(event: Event, path: NodePath) -> String:
 	if not path.is_empty() and node == null:
 		return "source_path \"%s\" leads to no SpidarG, SpidarGHand, SpidarGSurface or physics body. Choose one, or clear the path." % path

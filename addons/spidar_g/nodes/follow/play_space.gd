@@ -3,7 +3,7 @@ extends RefCounted
 ## multiplies the positions by XRServer.world_scale, and the XR origin moves the poses into the world.
 
 
-## Returns [code]true[/code] if the transform is finite and a pure rotation.
+## Returns [code]true[/code] if the transform is finite and only rotates and moves: no scale, shear or mirroring.
 static func is_rigid(place: Transform3D) -> bool:
 	return place.is_finite() and place.basis.is_conformal() and absf(place.basis.determinant() - 1.0) < 1e-3
 

@@ -127,7 +127,7 @@ private:
     // Nothing is in reach: puts the proxy at the device.
     void follow(const ToolPose &device) noexcept;
     // Adds to `sum` what the hand feels of a force on a point of the tool: the part that the joints
-    // do not carry.
+    // of a held body (the hinge of a door) do not carry.
     void add_force(const ToolPart &part, const Jaws &jaws, const Vec3 &point_m, const Vec3 &force_n,
                    std::array<double, kDofCount> &sum) const noexcept;
     // Adds the forces of joints to wrench_, except those of their limits, which are rows.

@@ -30,7 +30,9 @@ public:
     void add(const Vec3 &on_tool_core, double tool_skin_m, const Vec3 &on_shape_core,
              double shape_skin_m, const Vec3 &normal, std::uint32_t face,
              bool core_inside) noexcept;
-    // Selects points in the device frame. Points nearer to each other than spacing_m count as one.
+    // Selects points and appends them to `out`, in the device frame. shape_at: pose of the shape in
+    // the device frame. Of points with one normal, those within spacing_m of a selected point are
+    // left out.
     void choose(const Placement &shape_at, double spacing_m, ClosestPoints &out) noexcept;
 
 private:

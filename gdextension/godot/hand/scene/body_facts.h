@@ -47,7 +47,8 @@ struct BodyFacts {
 
 class BodyFactsReader {
 public:
-    // Reads the project's default material. Called when the hand enters the scene tree.
+    // Reads the project's default SpidarGMaterial (project setting spidar_g/hand/default_material).
+    // Called when the hand enters the scene tree.
     void open();
     // object: instance id of the object that belongs to the body; 0: none. is_node: the object is
     // the CollisionObject3D that made the body.

@@ -17,7 +17,8 @@ struct TurnedBox {
     Vec3 half_extents_m{0.0};
 };
 
-// Returns the bound (unit: m). Negative when the boxes overlap along all six directions.
+// Returns a lower bound of the distance between two boxes (unit: m): their largest separation along
+// the six axes of the boxes. Negative when they overlap along all six.
 [[nodiscard]] inline double clearance(const TurnedBox &a, const TurnedBox &b) noexcept {
     const Mat3 turn = glm::transpose(a.at.rotation) * b.at.rotation;
     const Vec3 apart = b.at.origin_m - a.at.origin_m;
