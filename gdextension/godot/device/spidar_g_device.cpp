@@ -86,8 +86,9 @@ std::unique_ptr<spidar::Transport> SpidarG::choose_transport(Status &status, std
         if (choice == Choice::TRANSPORT_DEVICE) {
             return nullptr;
         }
-        fallback_ = problem;
-        if (status != Status::no_device) { // having no device is normal during development
+        // Having no device is normal during development: no error, and no advice on cables.
+        fallback_ = status == Status::no_device ? "No matching SPIDAR-G is plugged in." : problem;
+        if (status != Status::no_device) {
             UtilityFunctions::push_warning(named("the simulated device is used. " + problem));
         }
     }
