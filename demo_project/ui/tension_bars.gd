@@ -1,6 +1,6 @@
 @tool
 extends Control
-## Eight bars, one for each string: its tension in newtons, in the color that the string has in the scene.
+## Eight bars, one for each string from 1 to 8: its tension in newtons, in the color that the string has in the scene.
 
 const DemoPalette := preload("res://scene/demo_palette.gd")
 
@@ -58,6 +58,6 @@ func _draw() -> void:
 			SpidarGView.tension_colour(tensions_n[index], limit_n)
 		)
 		draw_string(
-			font, Vector2(left, size.y - 2), str(index), HORIZONTAL_ALIGNMENT_CENTER, width, small_px,
+			font, Vector2(left, size.y - 2), str(index + 1), HORIZONTAL_ALIGNMENT_CENTER, width, small_px,
 			DemoPalette.TEXT_SOFT
 		)

@@ -64,6 +64,7 @@ void add_scene(const std::vector<NearShape> &near, const HandFeel &feel, TouchSc
         part.belt_m_s = shape.belt_m_s;
         part.belt_rad_s = shape.belt_rad_s;
         part.stiffness_n_m = softness_of(shape, feel);
+        part.stiffness_at_once = feel.pushed_n_m_kg > 0.0 && shape.mass_kg > 0.0;
         part.damping_n_s_m = shape.facts.damping_n_s_m;
         part.friction = shape.facts.slipping_friction(feel.friction);
         part.traits = shape.traits;

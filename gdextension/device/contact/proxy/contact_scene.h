@@ -28,6 +28,9 @@ struct ScenePart {
     // Stiffness that the hand feels when it presses this part, the springs between device and proxy
     // included; these are its upper limit. 0: rigid.
     double stiffness_n_m = 0.0;
+    // A new stiffness acts at once, not within kFeelFade_s: the part is soft because the push moves
+    // it, and becomes rigid when it is pinched.
+    bool stiffness_at_once = false;
     double damping_n_s_m = 0.0;
     // Coulomb coefficient of a sliding contact.
     double friction = 0.0;

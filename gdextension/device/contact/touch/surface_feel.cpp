@@ -83,6 +83,15 @@ SurfaceFeel approach(const SurfaceFeel &now, const SurfaceFeel &wanted, double l
     return feel;
 }
 
+SurfaceFeel begin(const SurfaceFeel &now, const SurfaceFeel &wanted,
+                  bool stiffness_at_once) noexcept {
+    SurfaceFeel feel = approach(now, wanted, kFeelFade_s, 0.0);
+    if (stiffness_at_once) {
+        feel.stiffness_n_m = wanted.stiffness_n_m;
+    }
+    return feel;
+}
+
 bool same(const ProxySettings &a, const ProxySettings &b) noexcept {
     return a.stiffness == b.stiffness && a.damping_s == b.damping_s;
 }

@@ -29,7 +29,11 @@ void set_feel(const SurfaceFeel &feel, ScenePart &part) noexcept;
 // old one ends at once, because nobody keeps it alive, and the new one rises from flat.
 [[nodiscard]] SurfaceFeel approach(const SurfaceFeel &now, const SurfaceFeel &wanted, double left_s,
                                    double dt_s) noexcept;
-// The same two functions for the springs between grip and proxy.
+// Returns the feel of the first cycle after a change from `now` to `wanted`: what cannot wait is
+// taken over. That is another relief, and the stiffness if stiffness_at_once is true.
+[[nodiscard]] SurfaceFeel begin(const SurfaceFeel &now, const SurfaceFeel &wanted,
+                                bool stiffness_at_once) noexcept;
+// Like same() and approach() above, for the springs between grip and proxy.
 [[nodiscard]] bool same(const ProxySettings &a, const ProxySettings &b) noexcept;
 [[nodiscard]] ProxySettings approach(const ProxySettings &now, const ProxySettings &wanted,
                                      double left_s, double dt_s) noexcept;

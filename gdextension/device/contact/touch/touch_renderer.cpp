@@ -95,8 +95,8 @@ void TouchRenderer::tune(GainClamp &clamp) noexcept {
     // One time constant for all DOF, so that none is damped above its cap.
     const double damping_n_s_m = capped(asked_damping_n_s_m_, caps_.damping_n_s_m,
                                         GainClamp::Gain::damping, 0, false, clamp);
-    double stiffest_n_m = 0.0;
     wanted_settings_.damping_s = kMostDamping_s;
+    double stiffest_n_m = 0.0;
     for (std::size_t dof = 0; dof < asked_.size(); ++dof) {
         const double stiffness = wanted_settings_.stiffness[dof];
         stiffest_n_m = std::max(stiffest_n_m, dof < 3 ? stiffness : 0.0);
@@ -172,8 +172,7 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
     const ContactScene old = scene_;
     const std::array<Track, kMaxSceneParts> old_tracks = tracks_;
     scene_.count = touch.scene.count;
-    // Extrapolates a moving part from the end of the last cycle by the time by which the grip is
-    // predicted.
+    // Extrapolates a moving part from the end of the last cycle by the prediction time of the grip.
     const double later_s = clock_.carried_s() + lead_s_ - cycle_s_;
     for (int s = 0; s < scene_.count; ++s) {
         const auto k = static_cast<std::size_t>(s);
@@ -208,7 +207,7 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
             track.impulse_ns = was.impulse_ns;
             track.angular_impulse_nms = was.angular_impulse_nms;
             track.feel_left_s = same(track.wanted, was.wanted) ? was.feel_left_s : kFeelFade_s;
-            set_feel(approach(feel_of(*before), track.wanted, kFeelFade_s, 0.0), part);
+            set_feel(begin(feel_of(*before), track.wanted, part.stiffness_at_once), part);
             if (apart_s > 0.0) {
                 track.seen_acceleration_m_s2 = (track.velocity_m_s - was.velocity_m_s) / apart_s;
                 track.acceleration_m_s2 =
@@ -388,7 +387,8 @@ bool TouchRenderer::is_sound() const noexcept {
                  are_flags(caps_.from_latency, loaded_, settled_) && clock_.is_sound() &&
                  proxy_.is_sound();
     for (std::size_t k = 0; k < scene_.parts.size(); ++k) {
-        sound = sound && are_flags(scene_.parts[k].traits.catches_again,
+        const ScenePart &part = scene_.parts[k];
+        sound = sound && are_flags(part.traits.catches_again, part.stiffness_at_once,
                                    tracks_[k].wanted.traits.catches_again);
     }
     for (const ToolPart &part : tool_.parts) {

@@ -34,7 +34,8 @@ Status validate_part(const ScenePart &part) noexcept {
     }
     const bool good = part.shape != nullptr && part.shape->kind() != ShapeKind::relief &&
                       part.stiffness_n_m >= 0.0 && part.damping_n_s_m >= 0.0 &&
-                      part.friction >= 0.0 && are_flags(part.traits.catches_again);
+                      part.friction >= 0.0 &&
+                      are_flags(part.traits.catches_again, part.stiffness_at_once);
     return good ? validate_traits(part.traits) : Status::invalid_request;
 }
 

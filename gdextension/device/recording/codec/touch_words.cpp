@@ -14,7 +14,7 @@ static_assert(count_members<JointAxis>() == 7, "JointAxis changed: list its fiel
 static_assert(count_members<Tool>() == 6, "Tool changed: list its fields here");
 static_assert(count_members<Jaws>() == 2, "Jaws changed: list its fields here");
 static_assert(count_members<ToolPart>() == 5, "ToolPart changed: list its fields here");
-static_assert(count_members<ScenePart>() == 12, "ScenePart changed: list its fields here");
+static_assert(count_members<ScenePart>() == 13, "ScenePart changed: list its fields here");
 static_assert(count_members<SurfaceTraits>() == 6, "SurfaceTraits changed: list its fields here");
 static_assert(count_members<SurfaceTexture>() == 4, "SurfaceTexture changed: list its fields here");
 
@@ -64,6 +64,7 @@ void visit_part(Part &part,
     visit_vector("belt_m_s", 0, part.belt_m_s, visit);
     visit_vector("belt_rad_s", 0, part.belt_rad_s, visit);
     visit("stiffness_n_m", 0, part.stiffness_n_m);
+    visit("stiffness_at_once", 0, part.stiffness_at_once);
     visit("damping_n_s_m", 0, part.damping_n_s_m);
     visit("friction", 0, part.friction);
     visit("static_friction", 0, part.traits.static_friction);

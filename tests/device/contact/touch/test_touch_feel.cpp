@@ -138,6 +138,17 @@ TEST_CASE("touch feel: a change before anything is touched is there at once") {
     CHECK(other.forces[0].y < 0.7 * slide.forces[0].y);
 }
 
+TEST_CASE("touch feel: what is soft because the push moves it becomes rigid at once") {
+    Slide slide;
+    floor_of(slide.scene.touch).stiffness_at_once = true;
+    floor_of(slide.scene.touch).stiffness_n_m = 50.0;
+    slide.frames(30);
+    const std::size_t changed = slide.forces.size();
+    floor_of(slide.scene.touch).stiffness_n_m = 0.0;
+    slide.frames(1);
+    CHECK(slide.forces[changed].y > 5.0 * slide.forces[changed - 1].y);
+}
+
 TEST_CASE("touch feel: a slider that moves in every frame is followed") {
     Slide slide;
     slide.frames(10);
