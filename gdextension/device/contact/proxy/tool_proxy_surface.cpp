@@ -23,6 +23,12 @@ constexpr double kFinestPassing = 0.125;
 // and proxy. A harder push would make a valley so stiff that the link's latency lets the hand shake
 // in it: the texture is flattened there.
 constexpr double kTextureShare = 0.25;
+// Steepest slope of a texture that is rendered. What pulls along the surface is then at most twice the
+// push, also where shapes in a wedge push harder than the texture was flattened for.
+constexpr double kSteepest = 2.0;
+// A texture with a shorter wavelength is smooth: no motion is slow enough for it, and its square must
+// not vanish (unit: m).
+constexpr double kShortestWave_m = 1e-6;
 // Adhesion rises with the stiffness between grip and proxy and then falls as steeply: it ends at
 // this multiple of the distance to its maximum.
 constexpr double kAdhesionWays = 2.0;
@@ -99,6 +105,9 @@ double ToolProxy::reach_m(const SurfaceTraits &traits) const noexcept {
 double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, double push_n,
                              const Vec3 &speed_m_s, double dt_s) const noexcept {
     const SurfaceTexture &texture = other.traits.texture;
+    if (texture.wavelength_m < kShortestWave_m) {
+        return 0.0;
+    }
     const Mat3 &turn = other.at.rotation;
     const Vec3 local_m = glm::transpose(turn) * (contact.point_m - other.at.origin_m);
     const Vec3 normal = glm::transpose(turn) * contact.normal;
@@ -134,6 +143,10 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
     // The stiffness that a texture adds along the surface is damped like a contact.
     contact.drawn_n = -(settings_.damping_s * kept * stiffens_n_m) * slides_m_s;
     contact.slope = along_surface(kept * (turn * relief.slope), contact.normal);
+    const double steepness = glm::length(contact.slope);
+    if (steepness > kSteepest) {
+        contact.slope *= kSteepest / steepness;
+    }
     return kept * relief.height_m;
 }
 

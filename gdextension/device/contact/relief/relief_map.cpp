@@ -75,7 +75,11 @@ struct Weights {
 };
 
 Weights weights_at(double position, int count) noexcept {
-    const double within = position - count * std::floor(position / count);
+    double within = position - count * std::floor(position / count);
+    // A position that is not finite, or so large that its digits do not tell the place.
+    if (!(within >= 0.0 && within <= count)) {
+        within = 0.0;
+    }
     const double floor = std::floor(within);
     const double t = within - floor;
     const double s = 1.0 - t;

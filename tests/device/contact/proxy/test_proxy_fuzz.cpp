@@ -35,6 +35,21 @@ JointAxis any_axis(CaseRandom &random, double most) {
     return axis;
 }
 
+const CookedShape &any_relief() {
+    static const ShapePtr relief = [] {
+        CaseRandom random(9, 0);
+        ShapeDescription shape;
+        shape.kind = ShapeKind::relief;
+        shape.columns = 32;
+        shape.rows = 16;
+        for (int i = 0; i < shape.columns * shape.rows; ++i) {
+            shape.heights_m.push_back(static_cast<float>(random.between(0.0, 1.0)));
+        }
+        return cooked(shape);
+    }();
+    return *relief;
+}
+
 SurfaceTraits any_traits(CaseRandom &random) {
     SurfaceTraits traits;
     traits.static_friction = std::min(any_size(random), 3.0); // the renderer's cap
@@ -70,6 +85,7 @@ TEST_CASE("proxy: joints and materials of any size give finite forces, within wh
             part.stiffness_n_m = any_size(random);
             part.damping_n_s_m = std::min(any_size(random), 5.0);
             part.traits = any_traits(random);
+            part.traits.texture.relief = (scene + i) % 3 == 0 ? &any_relief() : nullptr;
         }
         rig.tool.joint_count = static_cast<int>(random.between(0.0, kMaxToolJoints + 0.99));
         for (int j = 0; j < rig.tool.joint_count; ++j) {

@@ -91,6 +91,18 @@ TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
     }
 }
 
+TEST_CASE("relief: a place that is no place gives some height of the relief") {
+    const CookResult made = cook(noise(32, 16, 5));
+    REQUIRE(made.shape != nullptr);
+    for (const double place : {1e300, -1e300, 1e18, std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity(), std::nan("")}) {
+        const ReliefPoint point = relief_point(made.shape->relief(), 0.0, place, place);
+        CHECK(point.height >= 0.0);
+        CHECK(point.height <= 1.0);
+        CHECK(std::isfinite(point.slope_u));
+    }
+}
+
 TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that are wanted") {
     const CookResult made = cook(noise(256, 256, 7));
     REQUIRE(made.shape != nullptr);
