@@ -55,6 +55,8 @@ struct ProxyContact {
     bool sticks = false;
     // Slope of a texture's height at the contact, along the surface.
     Vec3 slope{0.0};
+    // Push that the contact would have alone, where a texture is rendered.
+    double alone_n = 0.0;
     // Force on the tool by texture, adhesion and magnet.
     Vec3 drawn_n{0.0};
 };

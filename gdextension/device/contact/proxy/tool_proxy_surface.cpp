@@ -23,9 +23,9 @@ constexpr double kFinestPassing = 0.125;
 // and proxy. A harder push would make a valley so stiff that the link's latency lets the hand shake
 // in it: the texture is flattened there.
 constexpr double kTextureShare = 0.25;
-// Steepest slope of a texture that is rendered. What pulls along the surface is then at most twice the
-// push, also where shapes in a wedge push harder than the texture was flattened for.
-constexpr double kSteepest = 2.0;
+// Largest share of the push that a contact would have alone by which a texture pulls along the surface.
+// In a gap that is too narrow for the tool, opposite contacts push without bound against each other.
+constexpr double kMostShare = 2.0;
 // A texture with a shorter wavelength is smooth: no motion is slow enough for it, and its square must
 // not vanish (unit: m).
 constexpr double kShortestWave_m = 1e-6;
@@ -143,10 +143,7 @@ double ToolProxy::press_into(ProxyContact &contact, const ScenePart &other, doub
     // The stiffness that a texture adds along the surface is damped like a contact.
     contact.drawn_n = -(settings_.damping_s * kept * stiffens_n_m) * slides_m_s;
     contact.slope = along_surface(kept * (turn * relief.slope), contact.normal);
-    const double steepness = glm::length(contact.slope);
-    if (steepness > kSteepest) {
-        contact.slope *= kSteepest / steepness;
-    }
+    contact.alone_n = push_n;
     return kept * relief.height_m;
 }
 
@@ -210,7 +207,7 @@ void ToolProxy::act_by_traits(const Tool &tool, const ContactScene &scene) noexc
     for (int i = 0; i < count_; ++i) {
         ProxyContact &contact = contacts_[static_cast<std::size_t>(i)];
         // Downhill, as the gradient of the height's energy.
-        contact.drawn_n -= contact.push_n * contact.slope;
+        contact.drawn_n -= std::min(contact.push_n, kMostShare * contact.alone_n) * contact.slope;
         if (contact.drawn_n == Vec3(0.0)) {
             continue;
         }
