@@ -182,7 +182,7 @@ def calibrate(editor, pictures):
     editor.click("Motion")
     editor.wait("half of the motion", lambda report: report["controls"]["Progress"]["value"] > 0.5)
     editor.picture(pictures, "calibration_motion")
-    editor.wait("calibrated", lambda report: report["controls"]["Message"]["text"].startswith("Calibrated"))
+    editor.wait("calibrated", lambda report: report["controls"]["Message"]["text"].startswith("The calibration is complete"))
     editor.click("Next")
     editor.click("WeighAll")
     editor.wait("all weighed", lambda report: "(done)" in report["controls"]["Title"]["text"])

@@ -108,7 +108,7 @@ def calibrate(editor, boards, pictures, check):
     boards.tell("script free")
     editor.wait("half of the motion", lambda report: report["controls"]["Progress"]["value"] > 0.5)
     editor.picture(pictures, "serial_calibration_motion")
-    editor.wait("calibrated", lambda report: message(report).startswith("Calibrated"))
+    editor.wait("calibrated", lambda report: message(report).startswith("The calibration is complete"))
     go(boards, "script home")
     editor.click("Taut")
     editor.click("Next")
