@@ -364,9 +364,10 @@ TEST_CASE("traits: a scene with senseless ones is refused") {
     const auto image = ridges(32);
     traits.texture.relief = image.get();
     CHECK(validate(touch) == Status::ok);
+    const CookedShape *const floor = touch.scene.parts[0].shape;
     touch.scene.parts[0].shape = image.get(); // and a relief no solid
     CHECK(validate(touch) == Status::invalid_request);
-    touch.scene.parts[0].shape = FloorScene().touch.scene.parts[0].shape;
+    touch.scene.parts[0].shape = floor;
     traits.texture.relief = nullptr;
     traits.magnet_n = -1.0;
     CHECK(validate(touch) == Status::invalid_request);
