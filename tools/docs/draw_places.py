@@ -11,7 +11,8 @@ import random
 import re
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree
+
+import class_help
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHORTEST_COMMENT = 30
@@ -61,13 +62,8 @@ def sentences():
 
 def help_texts():
     found = []
-    for path in tracked("gdextension/doc_classes/*.xml"):
-        tree = ElementTree.parse(path).getroot()
-        for kind in ("methods/method", "members/member", "signals/signal", "constants/constant"):
-            for node in tree.findall(kind):
-                inner = node.find("description")
-                text = " ".join(((inner if inner is not None else node).text or "").split())
-                found.append((f"{tree.get('name')}.{node.get('name')}", text))
+    for each in class_help.read_folder(class_help.LIBRARY):
+        found += [(f"{each.name}.{item.name}", " ".join(item.text.split())) for item in each.items]
     for path in tracked("addons/spidar_g/nodes/*.gd"):
         lines = path.read_text(encoding="utf-8").split("\n")
         for row, line in enumerate(lines):

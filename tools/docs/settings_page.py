@@ -13,11 +13,11 @@ import re
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as ElementTree
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
+import class_help  # noqa: E402
 from godot_project import prepare_project  # noqa: E402
 
 PAGE = os.path.join(ROOT, "docs", "reference", "settings.md")
@@ -93,13 +93,13 @@ def as_markdown(text):
 
 def meanings(class_name):
     """The first sentence of each member's help."""
-    path = os.path.join(ROOT, "gdextension", "doc_classes", class_name + ".xml")
-    members = ElementTree.parse(path).getroot().find("members")
+    path = os.path.join(class_help.LIBRARY, class_name + ".xml")
+    members = [item for item in class_help.read_class(path).items if item.kind == "member"]
     found = {}
     for member in members:
-        first = re.split(r"(?<=[.])\s", " ".join((member.text or "").split()), maxsplit=1)[0]
+        first = re.split(r"(?<=[.])\s", " ".join(member.text.split()), maxsplit=1)[0]
         first = re.sub(r":\s-\s.*", ".", first)  # a list follows
-        found[member.get("name")] = as_markdown(first).replace("|", "\\|")
+        found[member.name] = as_markdown(first).replace("|", "\\|")
     return found
 
 

@@ -11,6 +11,7 @@
 #include "device/recording/codec/command_fields.h"
 #include "device/recording/codec/touch_words.h"
 #include "support/recording_fixture.h"
+#include "support/relief_samples.h"
 #include "support/stalling_disk.h"
 #include "support/touch_scenes.h"
 
@@ -73,16 +74,7 @@ private:
     int still_;
     ToolResult ball_ = make_sphere(kBall_m);
     ToolResult bar_ = make_tool(*box(Vec3(0.02, 0.004, 0.004)));
-    ShapePtr image_ = cooked([] {
-        ShapeDescription shape;
-        shape.kind = ShapeKind::relief;
-        shape.columns = 16;
-        shape.rows = 16;
-        for (int i = 0; i < 256; ++i) {
-            shape.heights_m.push_back(0.1F * static_cast<float>(i * i % 11));
-        }
-        return shape;
-    }());
+    ShapePtr image_ = cooked(relief_noise(16, 16, 1));
     ShapePtr floor_ = cooked_half_space();
     ShapePtr box_ = box(Vec3(0.008, 0.009, 0.01));
     ShapePtr hills_ = cooked(field(

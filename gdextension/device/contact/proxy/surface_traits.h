@@ -20,6 +20,8 @@ struct SurfaceTexture {
     // wide. It is projected on the part along each axis of the part's frame; a projection counts by
     // the square of the normal's component along its axis. The game keeps it alive.
     const CookedShape *relief = nullptr;
+
+    friend bool operator==(const SurfaceTexture &, const SurfaceTexture &) = default;
 };
 
 struct SurfaceTraits {
@@ -37,6 +39,8 @@ struct SurfaceTraits {
     // proxy), so that the pull rises no more steeply than the force of those springs.
     double magnet_range_m = 0.0;
     SurfaceTexture texture;
+
+    friend bool operator==(const SurfaceTraits &, const SurfaceTraits &) = default;
 };
 
 // Returns whether some trait besides friction can be felt.

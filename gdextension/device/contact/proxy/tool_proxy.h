@@ -69,7 +69,10 @@ struct PartForce {
 
 struct ProxySettings {
     // Stiffness between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
-    DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
+    DofGains stiffness {
+        1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0,
+            0.4 friend bool operator==(const ProxySettings &, const ProxySettings &) = default;
+    };
     // Damping divided by stiffness (unit: s): of each contact, along its normal and its surface, of
     // the jaws' stop and of joints. The default is 2 N s/m at 1000 N/m.
     double damping_s = 0.002;

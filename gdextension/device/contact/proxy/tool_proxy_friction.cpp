@@ -26,6 +26,10 @@ double most_friction(const ScenePart &part) noexcept {
     return std::max(part.friction, part.traits.static_friction);
 }
 
+bool on_same_surface(const ProxyContact &a, const ProxyContact &b) noexcept {
+    return a.scene_id == b.scene_id && glm::dot(a.normal, b.normal) >= kSameSurface;
+}
+
 } // namespace
 
 const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact,
@@ -44,9 +48,7 @@ const ProxyContact *ToolProxy::nearest_before(const ProxyContact &contact,
         // touches again continues with the friction of the other.
         const bool counts =
             touching ? other.push_n > 0.0 && other.tool_id == contact.tool_id : other.rubs;
-        if (counts && other.scene_id == contact.scene_id &&
-            glm::dot(other.normal, contact.normal) >= kSameSurface &&
-            (nearest == nullptr || is_nearer(other))) {
+        if (counts && on_same_surface(other, contact) && (nearest == nullptr || is_nearer(other))) {
             nearest = &other;
         }
     }
@@ -70,8 +72,7 @@ double ToolProxy::stretch_together_m(const ProxyContact &contact, double own_m) 
     double push_n = 0.0;
     for (int i = 0; i < before_count_; ++i) {
         const ProxyContact &other = before_[static_cast<std::size_t>(i)];
-        if (other.scene_id == contact.scene_id && other.push_n > 0.0 &&
-            glm::dot(other.normal, contact.normal) >= kSameSurface) {
+        if (other.push_n > 0.0 && on_same_surface(other, contact)) {
             sum_nm += other.push_n * glm::length(other.stretch_m);
             push_n += other.push_n;
         }

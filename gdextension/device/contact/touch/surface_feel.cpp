@@ -49,16 +49,6 @@ void set_feel(const SurfaceFeel &feel, ScenePart &part) noexcept {
     part.traits = feel.traits;
 }
 
-bool same(const SurfaceFeel &a, const SurfaceFeel &b) noexcept {
-    const SurfaceTraits &x = a.traits;
-    const SurfaceTraits &y = b.traits;
-    return a.stiffness_n_m == b.stiffness_n_m && a.damping_n_s_m == b.damping_n_s_m &&
-           a.friction == b.friction && x.static_friction == y.static_friction &&
-           x.catches_again == y.catches_again && x.adhesion_n == y.adhesion_n &&
-           x.magnet_n == y.magnet_n && x.magnet_range_m == y.magnet_range_m &&
-           same_pattern(x.texture, y.texture) && x.texture.depth_m == y.texture.depth_m;
-}
-
 SurfaceFeel approach(const SurfaceFeel &now, const SurfaceFeel &wanted, double left_s,
                      double dt_s) noexcept {
     if (!(left_s > dt_s)) {
@@ -90,10 +80,6 @@ SurfaceFeel begin(const SurfaceFeel &now, const SurfaceFeel &wanted,
         feel.stiffness_n_m = wanted.stiffness_n_m;
     }
     return feel;
-}
-
-bool same(const ProxySettings &a, const ProxySettings &b) noexcept {
-    return a.stiffness == b.stiffness && a.damping_s == b.damping_s;
 }
 
 ProxySettings approach(const ProxySettings &now, const ProxySettings &wanted, double left_s,

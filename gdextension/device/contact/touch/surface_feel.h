@@ -17,11 +17,12 @@ struct SurfaceFeel {
     double damping_n_s_m = 0.0;
     double friction = 0.0;
     SurfaceTraits traits;
+
+    friend bool operator==(const SurfaceFeel &, const SurfaceFeel &) = default;
 };
 
 [[nodiscard]] SurfaceFeel feel_of(const ScenePart &part) noexcept;
 void set_feel(const SurfaceFeel &feel, ScenePart &part) noexcept;
-[[nodiscard]] bool same(const SurfaceFeel &a, const SurfaceFeel &b) noexcept;
 
 // Returns the feel after one more cycle of dt_s on the way from `now` to `wanted`, which is reached
 // in left_s (at most kFeelFade_s). If the pattern of the texture changes, the old one flattens in
@@ -33,8 +34,7 @@ void set_feel(const SurfaceFeel &feel, ScenePart &part) noexcept;
 // taken over. That is another relief, and the stiffness if stiffness_at_once is true.
 [[nodiscard]] SurfaceFeel begin(const SurfaceFeel &now, const SurfaceFeel &wanted,
                                 bool stiffness_at_once) noexcept;
-// Like same() and approach() above, for the springs between grip and proxy.
-[[nodiscard]] bool same(const ProxySettings &a, const ProxySettings &b) noexcept;
+// Like approach() above, for the springs between grip and proxy.
 [[nodiscard]] ProxySettings approach(const ProxySettings &now, const ProxySettings &wanted,
                                      double left_s, double dt_s) noexcept;
 

@@ -118,7 +118,7 @@ GainClamp TouchRenderer::accept(const TouchScene &touch, std::uint64_t sequence,
     tune(clamp);
     if (empty()) {
         use_wanted_springs(); // nobody feels the change
-    } else if (!same(wanted_settings_, wanted_before)) {
+    } else if (wanted_settings_ != wanted_before) {
         springs_left_s_ = kFeelFade_s;
     }
     tool_ = touch.tool;
@@ -206,7 +206,7 @@ void TouchRenderer::renew(const TouchScene &touch, double apart_s, GainClamp &cl
             const Track &was = old_tracks[static_cast<std::size_t>(before - old.parts.data())];
             track.impulse_ns = was.impulse_ns;
             track.angular_impulse_nms = was.angular_impulse_nms;
-            track.feel_left_s = same(track.wanted, was.wanted) ? was.feel_left_s : kFeelFade_s;
+            track.feel_left_s = track.wanted == was.wanted ? was.feel_left_s : kFeelFade_s;
             set_feel(begin(feel_of(*before), track.wanted, part.stiffness_at_once), part);
             if (apart_s > 0.0) {
                 track.seen_acceleration_m_s2 = (track.velocity_m_s - was.velocity_m_s) / apart_s;

@@ -7,6 +7,7 @@
 #include "core/base/finite.h"
 #include "support/case_random.h"
 #include "support/proxy_rig.h"
+#include "support/relief_samples.h"
 
 using namespace spidar;
 using namespace spidar::test;
@@ -35,21 +36,6 @@ JointAxis any_axis(CaseRandom &random, double most) {
     return axis;
 }
 
-const CookedShape &any_relief() {
-    static const ShapePtr relief = [] {
-        CaseRandom random(9, 0);
-        ShapeDescription shape;
-        shape.kind = ShapeKind::relief;
-        shape.columns = 32;
-        shape.rows = 16;
-        for (int i = 0; i < shape.columns * shape.rows; ++i) {
-            shape.heights_m.push_back(static_cast<float>(random.between(0.0, 1.0)));
-        }
-        return cooked(shape);
-    }();
-    return *relief;
-}
-
 SurfaceTraits any_traits(CaseRandom &random) {
     SurfaceTraits traits;
     traits.static_friction = std::min(any_size(random), 3.0); // the renderer's cap
@@ -67,6 +53,7 @@ SurfaceTraits any_traits(CaseRandom &random) {
 } // namespace
 
 TEST_CASE("proxy: joints and materials of any size give finite forces, within what pulls") {
+    const ShapePtr relief = cooked(relief_noise(32, 16, 9));
     constexpr int kScenes = 300;
     constexpr int kTicks = 120;
     for (int scene = 0; scene < kScenes; ++scene) {
@@ -85,7 +72,7 @@ TEST_CASE("proxy: joints and materials of any size give finite forces, within wh
             part.stiffness_n_m = any_size(random);
             part.damping_n_s_m = std::min(any_size(random), 5.0);
             part.traits = any_traits(random);
-            part.traits.texture.relief = (scene + i) % 3 == 0 ? &any_relief() : nullptr;
+            part.traits.texture.relief = (scene + i) % 3 == 0 ? relief.get() : nullptr;
         }
         rig.tool.joint_count = static_cast<int>(random.between(0.0, kMaxToolJoints + 0.99));
         for (int j = 0; j < rig.tool.joint_count; ++j) {

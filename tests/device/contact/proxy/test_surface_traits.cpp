@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "support/proxy_rig.h"
+#include "support/relief_samples.h"
 
 using namespace spidar;
 using namespace spidar::test;
@@ -209,27 +208,9 @@ TEST_CASE("traits: a texture is conservative: a way there and back gives nothing
     CHECK(std::abs(work_j) < 0.02 * most_j);
 }
 
-namespace {
-
-// Ridges across X, four in a tile, of so many columns.
-std::shared_ptr<const CookedShape> ridges(int columns) {
-    ShapeDescription shape;
-    shape.kind = ShapeKind::relief;
-    shape.columns = columns;
-    shape.rows = columns;
-    for (int i = 0; i < columns * columns; ++i) {
-        const double phase = 2.0 * std::numbers::pi * 4.0 * (i % columns) / columns;
-        shape.heights_m.push_back(static_cast<float>(0.5 + 0.5 * std::cos(phase)));
-    }
-    return cook(std::move(shape)).shape;
-}
-
-} // namespace
-
 TEST_CASE("traits: ridges of an image are felt as ridges, at any number of pixels") {
     for (const int columns : {32, 64, 256}) {
-        const auto image = ridges(columns);
-        REQUIRE(image != nullptr);
+        const auto image = cooked(relief_waves(columns, columns, 4, 0));
         for (const double speed_m_s : {0.02, 0.08}) {
             BallOnFloor rig;
             rig.floor.traits.texture = {0.016, 0.0002, Vec3(0.0), image.get()};
@@ -258,7 +239,7 @@ TEST_CASE("traits: ridges of an image are felt as ridges, at any number of pixel
 }
 
 TEST_CASE("traits: an image lies on each side of a part, and never steps at its edges") {
-    const auto image = ridges(64);
+    const auto image = cooked(relief_waves(64, 64, 4, 0));
     ProxyRig rig;
     ScenePart &ball = rig.add(round_shape(ShapeKind::sphere, 0.05));
     rig.add_tool(make_sphere(kBall_m));
@@ -282,16 +263,7 @@ TEST_CASE("traits: an image lies on each side of a part, and never steps at its 
 }
 
 TEST_CASE("traits: a noisy image gives no work for nothing, and is not stiffer than its share") {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> height(0.0F, 1.0F);
-    ShapeDescription shape;
-    shape.kind = ShapeKind::relief;
-    shape.columns = 128;
-    shape.rows = 128;
-    for (int i = 0; i < 128 * 128; ++i) {
-        shape.heights_m.push_back(height(random));
-    }
-    const auto image = cook(std::move(shape)).shape;
+    const auto image = cooked(relief_noise(128, 128, 3));
     BallOnFloor rig;
     rig.floor.traits.texture = {0.02, 0.0005, Vec3(0.0), image.get()};
     rig.press(0.002);
@@ -361,7 +333,7 @@ TEST_CASE("traits: a scene with senseless ones is refused") {
     CHECK(validate(touch) == Status::ok);
     traits.texture.relief = touch.scene.parts[0].shape; // a solid is no relief
     CHECK(validate(touch) == Status::invalid_request);
-    const auto image = ridges(32);
+    const auto image = cooked(relief_waves(32, 32, 4, 0));
     traits.texture.relief = image.get();
     CHECK(validate(touch) == Status::ok);
     const CookedShape *const floor = touch.scene.parts[0].shape;

@@ -11,46 +11,13 @@
 #include "device/contact/relief/relief_map.h"
 #include "device/contact/shapes/cooked_shape.h"
 #include "device/contact/shapes/tool_shape.h"
+#include "support/relief_samples.h"
 
 using namespace spidar;
-
-namespace {
-
-ShapeDescription described(int columns, int rows, std::vector<float> heights) {
-    ShapeDescription shape;
-    shape.kind = ShapeKind::relief;
-    shape.columns = columns;
-    shape.rows = rows;
-    shape.heights_m = std::move(heights);
-    return shape;
-}
-
-// Waves along u and v, this many in a tile.
-ShapeDescription waves(int columns, int rows, int along_u, int along_v) {
-    std::vector<float> heights;
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            const double phase = 2.0 * std::numbers::pi *
-                                 (static_cast<double>(along_u * column) / columns +
-                                  static_cast<double>(along_v * row) / rows);
-            heights.push_back(static_cast<float>(0.5 + 0.5 * std::cos(phase)));
-        }
-    }
-    return described(columns, rows, std::move(heights));
-}
-
-ShapeDescription noise(int columns, int rows, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> height(0.0F, 1.0F);
-    std::vector<float> heights(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    std::ranges::generate(heights, [&] { return height(random); });
-    return described(columns, rows, std::move(heights));
-}
-
-} // namespace
+using namespace spidar::test;
 
 TEST_CASE("relief: waves are waves, lower by what a cubic B-spline smooths") {
-    const CookResult made = cook(waves(64, 32, 4, 0));
+    const CookResult made = cook(relief_waves(64, 32, 4, 0));
     REQUIRE(made.shape != nullptr);
     // Of samples of a wave: (4 + 2 cos(step)) / 6 of it, exactly, at the heights themselves.
     const double step = 2.0 * std::numbers::pi * 4.0 / 64.0;
@@ -65,7 +32,7 @@ TEST_CASE("relief: waves are waves, lower by what a cubic B-spline smooths") {
 }
 
 TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
-    const CookResult made = cook(noise(32, 16, 5));
+    const CookResult made = cook(relief_noise(32, 16, 5));
     REQUIRE(made.shape != nullptr);
     std::mt19937 random(6);
     std::uniform_real_distribution<double> place(-3.0, 3.0);
@@ -92,7 +59,7 @@ TEST_CASE("relief: it repeats, and its slopes are those of its heights") {
 }
 
 TEST_CASE("relief: a place that is no place gives some height of the relief") {
-    const CookResult made = cook(noise(32, 16, 5));
+    const CookResult made = cook(relief_noise(32, 16, 5));
     REQUIRE(made.shape != nullptr);
     for (const double place : {1e300, -1e300, 1e18, std::numeric_limits<double>::infinity(),
                                -std::numeric_limits<double>::infinity(), std::nan("")}) {
@@ -104,7 +71,7 @@ TEST_CASE("relief: a place that is no place gives some height of the relief") {
 }
 
 TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that are wanted") {
-    const CookResult made = cook(noise(256, 256, 7));
+    const CookResult made = cook(relief_noise(256, 256, 7));
     REQUIRE(made.shape != nullptr);
     CHECK(made.shape->relief().front().columns == 256);
     CHECK(made.shape->relief().back().columns == 8);
@@ -137,7 +104,7 @@ TEST_CASE("relief: made coarser, it keeps to the spacing and the curvature that 
 }
 
 TEST_CASE("relief: it is no solid, and no tool") {
-    const CookResult made = cook(waves(16, 16, 2, 0));
+    const CookResult made = cook(relief_waves(16, 16, 2, 0));
     REQUIRE(made.shape != nullptr);
     CHECK_FALSE(made.shape->convex());
     CHECK(made.shape->bytes() > 2 * 16 * 16 * sizeof(float)); // the heights, and their copy
@@ -145,13 +112,13 @@ TEST_CASE("relief: it is no solid, and no tool") {
 }
 
 TEST_CASE("relief: a description without sense is refused with what is wrong") {
-    CHECK(cook(described(3, 8, std::vector<float>(24))).status == Status::invalid_shape);
-    CHECK(cook(described(8, 2000, std::vector<float>(16000))).status == Status::invalid_shape);
-    CHECK(cook(described(8, 8, std::vector<float>(63))).status == Status::invalid_shape);
+    CHECK(cook(relief_of(3, 8, std::vector<float>(24))).status == Status::invalid_shape);
+    CHECK(cook(relief_of(8, 2000, std::vector<float>(16000))).status == Status::invalid_shape);
+    CHECK(cook(relief_of(8, 8, std::vector<float>(63))).status == Status::invalid_shape);
     std::vector<float> heights(64, 0.5F);
     heights[9] = 1.5F;
-    CHECK(cook(described(8, 8, heights)).sentence ==
+    CHECK(cook(relief_of(8, 8, heights)).sentence ==
           "A height of a relief is outside 0 to 1; give heights from 0 to 1.");
     heights[9] = std::numeric_limits<float>::quiet_NaN();
-    CHECK(cook(described(8, 8, heights)).status == Status::not_finite);
+    CHECK(cook(relief_of(8, 8, heights)).status == Status::not_finite);
 }
