@@ -69,16 +69,15 @@ struct PartForce {
 
 struct ProxySettings {
     // Stiffness between device and proxy: N/m, N m/rad, N m/rad of grasp angle; each above 0.
-    DofGains stiffness {
-        1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0,
-            0.4 friend bool operator==(const ProxySettings &, const ProxySettings &) = default;
-    };
+    DofGains stiffness{1000.0, 1000.0, 1000.0, 2.0, 2.0, 2.0, 0.4};
     // Damping divided by stiffness (unit: s): of each contact, along its normal and its surface, of
     // the jaws' stop and of joints. The default is 2 N s/m at 1000 N/m.
     double damping_s = 0.002;
     // Distance within which surfaces are searched; it is enlarged while scene parts move. The proxy
     // follows a hand at 2 m/s: three searches in a cycle of 1 ms let it move by 2.25 mm.
     double margin_m = 0.001;
+
+    friend bool operator==(const ProxySettings &, const ProxySettings &) = default;
 };
 
 class ToolProxy {
